@@ -1,0 +1,56 @@
+"""One error tree. Every error says what, where, which value, which bound and how to mend it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Issue:
+    """One thing wrong with an input.
+
+    `where` is a dotted path into the input (`stations.0.actuator.alpha`, indices from 0; empty for the whole),
+    `value` what was given, `problem` the bound or rule it breaks, `fix` how to mend it.
+    """
+
+    where: str
+    problem: str
+    value: Any = None
+    fix: str | None = None
+
+    def __str__(self) -> str:
+        given = "" if self.value is None else f" = {_short(self.value)}"
+        fix = f" ({self.fix})" if self.fix else ""
+        return f"{self.where}{given}: {self.problem}{fix}" if self.where else f"{self.problem}{fix}"
+
+    def as_dict(self) -> dict[str, Any]:
+        return {**asdict(self), "value": None if self.value is None else _short(self.value)}
+
+
+class RthsError(Exception):
+    """An input or state the engine can't work with; `issues` lists everything found, not only the first."""
+
+    def __init__(self, issues: Issue | str | Iterable[Issue]):
+        if isinstance(issues, str):
+            issues = Issue("", issues)
+        self.issues: tuple[Issue, ...] = (issues,) if isinstance(issues, Issue) else tuple(issues)
+        super().__init__("\n".join(str(issue) for issue in self.issues))
+
+
+class PlanError(RthsError):
+    """A test plan that can't be run as written."""
+
+
+class MotionError(RthsError):
+    """A ground-motion record that can't be read, found or used."""
+
+
+class RecordingError(RthsError):
+    """A recording that is missing, damaged or of another form than expected."""
+
+
+def _short(value: Any, limit: int = 80) -> str:
+    text = value if isinstance(value, str) else repr(value)
+    return text if len(text) <= limit else text[: limit - 1] + "…"

@@ -1,0 +1,121 @@
+"""What every part of a plan is: a frozen value in SI whose fields declare label, unit and bounds once for all uses.
+
+Validation, the JSON schema, the web form's labels and the report read the same declaration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from rths_engine import units
+from rths_engine.errors import Issue, PlanError, RthsError
+
+Vector = NDArray[np.float64]
+T = TypeVar("T", bound=BaseModel)
+
+
+def quantity(label: str, unit: str = "1", shown: str | None = None, *, default: Any = ..., help: str = "", **bounds: Any) -> Any:
+    """Declare a field holding SI `unit`, shown to people in `shown`; `bounds` are pydantic's gt, ge, lt, le."""
+    shown = shown or unit
+    extra = {"unit": unit, "shown": shown, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
+    return Field(default, title=label, description=help or None, json_schema_extra=extra, **bounds)
+
+
+class Value(BaseModel):
+    """A frozen, fully checked value. Numbers are SI; text such as `"36007 kN/m"` is read with its unit."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, validate_default=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_units(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        read = dict(data)
+        for name, field in cls.model_fields.items():
+            extra = field.json_schema_extra
+            if name in read and isinstance(extra, dict) and "unit" in extra:
+                read[name] = _in_si(read[name], str(extra["unit"]))
+        return read
+
+
+class Part(Value):
+    """A part with a compiled step. `kind` is its name in plans, `title` its name for people.
+
+    `build(dt)` gives the parameter and the initial state vector that the compiled `step` works on.
+    """
+
+    title: ClassVar[str]
+
+    def build(self, dt: float) -> tuple[Vector, Vector]:
+        raise NotImplementedError
+
+
+def validated(model: type[T], data: Any) -> T:
+    """`data` as a `model`. Raises PlanError listing every issue with its path, value and bound."""
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        raise PlanError(_issue(detail, data) for detail in error.errors(include_url=False)) from None
+
+
+def _in_si(value: Any, unit: str) -> Any:
+    if isinstance(value, str):
+        try:
+            return units.parse(value, unit)
+        except RthsError as error:
+            raise ValueError(error.issues[0].problem) from None
+    if isinstance(value, list | tuple):
+        return [_in_si(item, unit) for item in value]
+    return value
+
+
+def _issue(detail: Any, data: Any) -> Issue:
+    where = ".".join(str(step) for step in _path(detail["loc"], data))
+    problem = str(detail["msg"]).removeprefix("Value error, ")
+    given = detail["input"]
+    value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
+    return Issue(where, _plain(detail, problem), value)
+
+
+def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
+    """The path into `data`: pydantic's location without the tags it adds for the chosen kind."""
+    path: list[int | str] = []
+    for position, step in enumerate(loc):
+        inside = (isinstance(data, Mapping) and step in data) or (
+            isinstance(data, list | tuple) and isinstance(step, int) and step < len(data)
+        )
+        if inside:
+            data = data[step]
+        elif isinstance(data, Mapping) and step == data.get("kind") and position < len(loc) - 1:
+            continue
+        elif position < len(loc) - 1 and not isinstance(data, Mapping | list | tuple):
+            continue
+        path.append(step)
+    return path
+
+
+_PLAIN = {
+    "greater_than": "needs a value > {gt}",
+    "greater_than_equal": "needs a value >= {ge}",
+    "less_than": "needs a value < {lt}",
+    "less_than_equal": "needs a value <= {le}",
+    "finite_number": "needs a finite number, not NaN or infinity",
+    "missing": "is required",
+    "extra_forbidden": "is not a field of this part",
+    "float_type": "needs a number",
+    "float_parsing": "needs a number",
+    "int_type": "needs a whole number",
+    "int_parsing": "needs a whole number",
+    "int_from_float": "needs a whole number",
+}
+
+
+def _plain(detail: Any, problem: str) -> str:
+    template = _PLAIN.get(detail["type"])
+    return template.format(**detail.get("ctx", {})) if template else problem[:1].lower() + problem[1:]
