@@ -1,0 +1,10 @@
+"""Integrators: parts that turn M, C, K into the matrix W with beta a = W (F - C v - r)."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from rths_engine.integrators.cr import CrIntegrator
+
+KINDS = (CrIntegrator,)
+Integrator = Annotated[CrIntegrator, Field()]
