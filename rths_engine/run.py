@@ -1,0 +1,164 @@
+"""A run: the only owner of changing state. `advance` yields chunks for live view, cancel and pace; `simulate` runs to the end."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rths_engine import actuators, compensators, loop, motion, specimens
+from rths_engine.channels import Channel, channels
+from rths_engine.errors import Issue, PlanError
+from rths_engine.ground_motions import Motion, MotionLibrary
+from rths_engine.loop import MEMORY
+from rths_engine.plan import Plan
+from rths_engine.result import Result
+from rths_engine.safety import LIMITS, Trip
+
+Array = NDArray[np.float64]
+LARGEST_RECORDING = 2_000_000_000  # bytes
+
+
+class Run:
+    """One execution of a plan. `signals[:done]` holds what was recorded, columns as in `channels`, SI.
+
+    Raises PlanError or MotionError when the plan can't be run; nothing has happened then.
+    """
+
+    def __init__(self, plan: Plan, motions: MotionLibrary):
+        self.plan = plan
+        self.motion: Motion = motion.scaled(plan.motion, motions, float(plan.structure.periods()[0]))
+        self.dt = plan.substep
+        self.trip: Trip | None = None
+        self.done = 0
+        self._step = 0
+        n, dt = plan.integrator.substeps, plan.integrator.dt
+        self._steps = _steps(plan.duration or self.motion.duration, dt)
+        self.total = self._steps * n
+        mass, damping, stiffness, w = plan.matrices()
+        dof, stations = len(mass), len(plan.stations)
+        self.channels: tuple[Channel, ...] = channels(plan)
+        if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
+            problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
+            raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
+        self.signals: Array = np.zeros((self.total, len(self.channels)))
+        self.history: Array = np.zeros((self._steps + 1, 2, dof))
+        self._ag = _sampled(self.motion, dt, self._steps + 1)
+        self._matrices = np.stack([damping, stiffness, w])
+        self._influence = mass @ np.ones(dof)
+        self._drifts = plan.drifts()
+        self._dampers = np.array([float(station.dampers) for station in plan.stations])
+        self._limits = np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS))
+        self._codes, self._parameters, self._states = _built(plan)
+        self._memory = np.zeros((stations, MEMORY))
+        self._noise = _noise(plan, self.total)
+        self._x, self._v = np.zeros(dof), np.zeros(dof)
+
+    @property
+    def finished(self) -> bool:
+        return self.trip is not None or self.done >= self.total
+
+    def advance(self, steps: int) -> slice:
+        """Run up to `steps` integration steps; returns the new rows of `signals`. A trip ends the run in its substep."""
+        before = self.done
+        if self.finished:
+            return slice(before, before)
+        last = min(self._step + steps, self._steps)
+        found = np.zeros(4)
+        status, self.done = loop.advance(
+            self._step, last, self.plan.integrator.substeps, self.plan.integrator.dt, self.dt, self._matrices, self._influence, self._ag,
+            self._drifts, self._dampers, self._codes, self._parameters, self._states, self._memory, self._limits, self._noise,
+            self._x, self._v, self.history, self.signals, found,
+        )  # fmt: skip
+        self._step = last
+        if status:
+            self.trip = self._tripped(int(status) - 1, found)
+        return slice(before, self.done)
+
+    def result(self, status: str, elapsed_s: float) -> Result:
+        """What was recorded so far, with its measures. `status` is completed, tripped or cancelled."""
+        steps = self.done // self.plan.integrator.substeps
+        return Result(
+            plan=self.plan,
+            motion=self.motion,
+            status=status,
+            trip=self.trip,
+            elapsed_s=elapsed_s,
+            dt=self.dt,
+            channels=self.channels,
+            signals=self.signals[: self.done],
+            history=self.history[: steps + 1],
+        )
+
+    def _tripped(self, limit: int, found: Array) -> Trip:
+        station, substep = int(found[0]), int(found[3])
+        kind = list(LIMITS)[limit]
+        name = self.plan.stations[station].name
+        return Trip(station + 1, name, kind, float(found[1]), float(found[2]), LIMITS[kind][1], substep * self.dt, substep)
+
+
+def simulate(plan: Plan, motions: MotionLibrary | None = None) -> Result:
+    """Run a plan to its end as fast as the machine can."""
+    run = Run(plan, motions or MotionLibrary(None))
+    start = time.perf_counter()
+    run.advance(run.total)
+    return run.result("tripped" if run.trip else "completed", time.perf_counter() - start)
+
+
+@dataclass(frozen=True, slots=True)
+class _Slot:
+    kinds: Sequence[Any]
+    field: str
+
+
+_SLOTS = (_Slot(compensators.KINDS, "compensator"), _Slot(actuators.KINDS, "actuator"), _Slot(specimens.KINDS, "specimen"))
+
+
+def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
+    """Codes (stations, 3), parameters and states (3, stations, widest) of the stations' parts."""
+    stations = len(plan.stations)
+    codes = np.zeros((stations, len(_SLOTS)), dtype=np.int64)
+    built: list[list[tuple[Array, Array]]] = [[] for _ in _SLOTS]
+    for slot, kinds in enumerate(_SLOTS):
+        for j, station in enumerate(plan.stations):
+            part = getattr(station, kinds.field)
+            codes[j, slot] = kinds.kinds.index(type(part))
+            built[slot].append(part.build(plan.substep))
+    return codes, _padded(built, 0), _padded(built, 1)
+
+
+def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:
+    vectors = [[pair[which] for pair in slot] for slot in built]
+    widest = max((len(vector) for slot in vectors for vector in slot), default=1)
+    table = np.zeros((len(vectors), len(vectors[0]), widest))
+    for slot, row in enumerate(vectors):
+        for j, vector in enumerate(row):
+            table[slot, j, : len(vector)] = vector
+    return table
+
+
+def _noise(plan: Plan, total: int) -> Array:
+    """Sensor noise (substeps, stations, 2): displacement (m) and force (N), by the plan's seed."""
+    scale = np.array([(station.noise.displacement, station.noise.force) for station in plan.stations]).reshape(-1, 2)
+    if not scale.any():
+        return np.zeros((total, len(scale), 2))
+    return np.random.Generator(np.random.PCG64(plan.seed)).standard_normal((total, len(scale), 2)) * scale
+
+
+def _limits(station: Any) -> tuple[float, ...]:
+    return tuple(getattr(station.limits, name) for name in LIMITS)
+
+
+def _steps(duration: float, dt: float) -> int:
+    return max(1, math.ceil(duration / dt - 1e-9))
+
+
+def _sampled(record: Motion, dt: float, count: int) -> Array:
+    """Ground acceleration (m/s^2) at the integration steps: linear between samples, zero after the record's end."""
+    times = np.arange(count) * dt
+    return np.interp(times, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
