@@ -27,10 +27,11 @@ LARGEST_RECORDING = 2_000_000_000  # bytes
 class Run:
     """One execution of a plan. `signals[:done]` holds what was recorded, columns as in `channels`, SI.
 
+    Starts from rest, or from `initial` displacements (m) and velocities (m/s) of the degrees of freedom.
     Raises PlanError or MotionError when the plan can't be run; nothing has happened then.
     """
 
-    def __init__(self, plan: Plan, motions: MotionLibrary):
+    def __init__(self, plan: Plan, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None):
         self.plan = plan
         self.motion: Motion = motion.scaled(plan.motion, motions, float(plan.structure.periods()[0]))
         self.dt = plan.substep
@@ -57,7 +58,9 @@ class Run:
         self._codes, self._parameters, self._states = _built(plan)
         self._memory = np.zeros((stations, MEMORY))
         self._noise = _noise(plan, self.total)
-        self._x, self._v = np.zeros(dof), np.zeros(dof)
+        x, v = initial or (np.zeros(dof), np.zeros(dof))
+        self._x, self._v = np.array(x, dtype=float), np.array(v, dtype=float)
+        self.history[0] = self._x, self._v
 
     @property
     def finished(self) -> bool:

@@ -18,7 +18,8 @@ class CrIntegrator(Value):
 
     Since M a = F - C v - r, beta a = W (F - C v - r) with W = 4 inv(4 M + 2 dt C + dt^2 K): M is never inverted, so that
     massless degrees of freedom are allowed. Explicit, and unconditionally stable for linear elastic systems; K and C here hold
-    the stations' equivalent stiffness and damping. Second order. Fails first when the tangent stiffness exceeds K.
+    the stations' equivalent stiffness and damping. Second order in x; v[i] is the backward difference (x[i] - x[i-1])/dt, half a
+    step behind. Fails first when the tangent stiffness exceeds K.
     Source: Chen and Ricles (2008), J. Eng. Mech. 134; equation numbers from Chen and Ricles (2012), EESD 41, 549-569.
     """
 

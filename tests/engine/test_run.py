@@ -1,0 +1,191 @@
+"""The whole coupled run: against an independent solver, energy, trips, reproducibility."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from rths_engine import metrics
+from rths_engine.plan import Plan
+from rths_engine.run import Run, simulate
+from tests.engine.plans import LIBRARY, NO_LIMITS, building, completed, make, shaking
+
+TAU, STIFFNESS, DAMPING, DAMPERS = 0.01, 2.0e6, 4.0e4, 2
+STRUCTURE = building([2.0e5, 2.0e5], [3.0e7, 2.0e7], 0.02)
+DURATION = 3.0
+
+
+def ground(time: np.ndarray | float) -> Any:
+    return 1.5 * np.sin(2 * np.pi * 1.1 * time) * np.sin(np.pi * time / DURATION) ** 2
+
+
+def station(storey: int, **more: Any) -> dict[str, Any]:
+    specimen = {"kind": "linear", "stiffness": STIFFNESS, "damping": DAMPING}
+    return {"name": f"S{storey}", "storey": storey, "dampers": DAMPERS, "specimen": specimen, "limits": NO_LIMITS, **more}
+
+
+def delayed_plan(dt: float) -> Plan:
+    alpha = 1 + TAU / (dt / 2)
+    parts = {"actuator": {"kind": "first_order_delay", "alpha": alpha}, "compensator": {"kind": "none"}}
+    time = np.arange(int(DURATION / 0.001) + 2) * 0.001
+    stations = [station(1, **parts), station(2, **parts)]
+    return make(STRUCTURE, shaking(ground(time), 0.001), dt, substeps=2, stations=stations, duration=DURATION)
+
+
+def reference(plan: Plan, times: np.ndarray) -> np.ndarray:
+    """The continuous system: M a + C v + K x + L^T n (k y + c y') = -M ag with tau y' = L x - y."""
+    mass, damping, stiffness = plan.structure.matrices()
+    drifts = plan.drifts()
+
+    def slope(t: float, state: np.ndarray) -> np.ndarray:
+        x, v, y = state[:2], state[2:4], state[4:]
+        y_rate = (drifts @ x - y) / TAU
+        force = drifts.T @ (DAMPERS * (STIFFNESS * y + DAMPING * y_rate))
+        a = np.linalg.solve(mass, -damping @ v - stiffness @ x - force) - ground(t)
+        return np.concatenate([v, a, y_rate])
+
+    solved = solve_ivp(slope, (0, DURATION), np.zeros(6), method="DOP853", t_eval=times, rtol=1e-10, atol=1e-13, max_step=0.005)
+    return solved.y
+
+
+def coupled_error(dt: float) -> float:
+    run = completed(delayed_plan(dt))
+    times = np.minimum(np.arange(len(run.history)) * dt, DURATION)
+    exact = reference(run.plan, times)[:2].T
+    return float(np.max(np.abs(run.history[:, 0] - exact)) / np.max(np.abs(exact)))
+
+
+def test_the_coupled_run_converges_to_an_independent_solver() -> None:
+    errors = np.array([coupled_error(dt) for dt in (1 / 2048, 1 / 4096, 1 / 8192)])
+    assert errors[-1] < 5e-5
+    # backward difference of the actuator (5a) over the substep makes the loop first order
+    assert np.log2(errors[:-1] / errors[1:]) == pytest.approx(1.0, abs=0.2)
+
+
+def energy_residual(dt: float) -> float:
+    """Largest |input - kinetic - strain - damped - work of the dampers| over the largest input energy."""
+    run = completed(delayed_plan(dt))
+    mass, damping, stiffness = run.plan.structure.matrices()
+    x = run.history[:, 0]
+    v = np.gradient(x, dt, axis=0)  # CR's own velocity is the backward difference, half a step behind
+    ag = ground(np.minimum(np.arange(len(x)) * dt, DURATION))
+    stride = slice(1, None, 2)
+    result = run.result("completed", 0.0)
+    forces = np.stack([result.signal(f"s{j}.f_meas")[stride] for j in (1, 2)], axis=1)
+    forces = DAMPERS * np.concatenate([np.zeros((1, 2)), forces]) @ run.plan.drifts()
+
+    def work(power: np.ndarray) -> np.ndarray:
+        return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * dt)])
+
+    fed = work(-(v @ mass @ np.ones(2)) * ag)
+    kinetic = 0.5 * np.einsum("ia,ab,ib->i", v, mass, v)
+    strain = 0.5 * np.einsum("ia,ab,ib->i", x, stiffness, x)
+    damped = work(np.einsum("ia,ab,ib->i", v, damping, v))
+    absorbed = work(np.einsum("ia,ia->i", forces, v))
+    return float(np.max(np.abs(fed - kinetic - strain - damped - absorbed)) / np.max(np.abs(fed)))
+
+
+def test_the_energy_of_a_run_balances() -> None:
+    residuals = [energy_residual(dt) for dt in (1 / 256, 1 / 512, 1 / 1024)]
+    assert residuals[-1] < 2e-3
+    assert residuals[1] < 0.6 * residuals[0] and residuals[2] < 0.6 * residuals[1]  # at least first order in dt
+
+
+def mr_plan(**limits: float) -> Plan:
+    time = np.arange(601) * 0.01
+    stations = [
+        {
+            "name": f"S{storey}",
+            "storey": storey,
+            "dampers": 2,
+            "specimen": {"kind": "mr_damper"},
+            "actuator": {"kind": "first_order_delay", "alpha": 12},
+            "noise": {"displacement": 2e-5, "force": 300.0},
+            "limits": {**NO_LIMITS, **(limits if storey == 2 else {})},
+        }
+        for storey in (1, 2)
+    ]
+    structure = building([3.0e5, 3.0e5], [2.0e7, 1.5e7], 0.02)
+    return make(structure, shaking(3 * ground(time), 0.01), 10 / 1024, substeps=10, stations=stations, seed=7)
+
+
+@pytest.mark.parametrize(("limit", "unit"), [("displacement", 1.0), ("velocity", 1024.0), ("force", 1.0)])
+def test_a_trip_ends_the_run_in_the_first_substep_over_the_limit(limit: str, unit: float) -> None:
+    free = simulate(mr_plan(), LIBRARY)
+    signal = {"displacement": "s2.x_cmd", "velocity": "s2.x_cmd", "force": "s2.f_meas"}[limit]
+    values = free.signal(signal)
+    if limit == "velocity":
+        values = np.diff(values, prepend=0.0) * unit
+    bound = 0.7 * float(np.max(np.abs(values)))
+    first = int(np.argmax(np.abs(values) > bound))
+    tripped = simulate(mr_plan(**{limit: bound}), LIBRARY)
+    assert tripped.status == "tripped" and tripped.trip is not None
+    assert (tripped.trip.station, tripped.trip.limit, tripped.trip.bound) == (2, limit, bound)
+    assert tripped.trip.substep == first + 1
+    assert tripped.trip.time_s == pytest.approx((first + 1) / 1024)
+    assert tripped.trip.value == pytest.approx(values[first], rel=1e-12)
+    assert len(tripped.signals) == first
+    assert np.array_equal(tripped.signals, free.signals[:first])
+    assert "station 2 (S2)" in tripped.trip.sentence
+
+
+def test_an_unstable_loop_trips_rather_than_overflows() -> None:
+    plan = mr_plan(velocity=0.3)
+    data = plan.as_dict()
+    for one in data["stations"]:
+        one["specimen"] = {"kind": "linear", "stiffness": 5e9}
+        one["compensator"] = {"kind": "none"}
+        one["limits"] = {"displacement": 0.2, "velocity": 0.3}
+    result = simulate(Plan.read(data), LIBRARY)
+    assert result.status == "tripped"
+    assert np.isfinite(result.signals).all()
+
+
+def test_a_run_is_the_same_to_the_bit_every_time_and_in_any_chunks() -> None:
+    whole = simulate(mr_plan(), LIBRARY)
+    run = Run(mr_plan(), LIBRARY)
+    sizes = iter([1, 2, 3, 50, 7] * 1000)
+    while not run.finished:
+        run.advance(next(sizes))
+    assert np.array_equal(run.signals, whole.signals)
+    assert np.array_equal(run.history, whole.history)
+
+
+def test_the_seed_decides_the_noise() -> None:
+    other = mr_plan().model_copy(update={"seed": 8})
+    assert not np.array_equal(simulate(other, LIBRARY).signals, simulate(mr_plan(), LIBRARY).signals)
+
+
+def test_the_loop_records_the_indicator_and_energy_error_of_its_own_signals() -> None:
+    result = simulate(mr_plan(), LIBRARY)
+    x_cmd, x_meas, f_meas = (result.signal(f"s1.{key}") for key in ("x_cmd", "x_meas", "f_meas"))
+    indicator = metrics.tracking_indicator(x_cmd, x_meas)
+    energy = metrics.energy_error(x_cmd, x_meas, f_meas)
+    assert result.signal("s1.ti") == pytest.approx(indicator, rel=1e-9, abs=1e-15)  # order of summation
+    assert result.signal("s1.energy_error") == pytest.approx(energy, rel=1e-9, abs=1e-9)
+    assert result.signal("s1.error") == pytest.approx(x_cmd - x_meas)
+
+
+def test_the_command_ramps_in_equal_substeps() -> None:
+    result = simulate(mr_plan(), LIBRARY)
+    moves = np.diff(result.signal("s1.x_cmd"), prepend=0.0).reshape(-1, 10)
+    assert np.max(np.abs(moves - moves[:, :1])) < 1e-15
+
+
+def test_the_second_storey_force_acts_on_both_floors() -> None:
+    data = mr_plan().as_dict()
+    data["stations"] = data["stations"][1:]
+    data["structure"]["damping_ratio"] = 0.0
+    run = Run(Plan.read(data), LIBRARY)
+    run.advance(200)
+    force = 2 * run.result("cancelled", 0).signal("s1.f_meas")[-1]
+    assert run.plan.drifts().T @ [force] == pytest.approx([-force, force])
+
+
+def test_a_structure_alone_runs_without_stations() -> None:
+    run = completed(make(STRUCTURE, shaking(ground(np.arange(300) * 0.01), 0.01), 0.005))
+    assert [channel.key for channel in run.channels] == ["ag", "floor1.x", "floor2.x"]
+    assert np.max(np.abs(run.signals[:, 2])) > 0.01
