@@ -24,7 +24,7 @@ _STATION = (
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """One recorded column. `unit` is SI, `shown` the unit for people, SI = factor * shown; `group` is s1, s2, ..., floors or input."""
+    """One recorded column. `unit` is SI, `shown` for people, SI = factor * shown; `group`: s1, s2, ..., floors, input."""
 
     key: str
     label: str
@@ -50,5 +50,8 @@ def channels(plan: Plan) -> tuple[Channel, ...]:
     for floor in range(1, len(plan.structure.storeys) + 1):
         found.append(Channel(f"floor{floor}.x", f"Floor {floor} displacement", "m", "mm", "floors"))
     for number, station in enumerate(plan.stations, start=1):
-        found += [Channel(f"s{number}.{key}", f"{station.name}: {label}", unit, shown, f"s{number}") for key, label, unit, shown in _STATION]
+        found += [
+            Channel(f"s{number}.{key}", f"{station.name}: {label}", unit, shown, f"s{number}")
+            for key, label, unit, shown in _STATION
+        ]
     return tuple(found)

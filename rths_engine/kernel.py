@@ -38,7 +38,7 @@ def _cache_folder() -> Path:
     return Path(tempfile.gettempdir()) / f"rths-{os.getuid()}" / folder.name
 
 
-numba.config.CACHE_DIR = str(_cache_folder())
+numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
 
 _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
 
@@ -57,7 +57,7 @@ def fold(steps: Sequence[Callable[..., Any]]) -> Any:
     """One compiled `dispatch(code, *args)` that calls `steps[code](*args)`; the last step answers any higher code."""
     last = compiled(steps[-1])
 
-    def only(code, *args):  # type: ignore[no-untyped-def]
+    def only(code, *args):
         return last(*args)
 
     dispatch = compiled(only)
@@ -67,7 +67,7 @@ def fold(steps: Sequence[Callable[..., Any]]) -> Any:
 
 
 def _choice(own: int, step: Any, rest: Any) -> Any:
-    def choose(code, *args):  # type: ignore[no-untyped-def]
+    def choose(code, *args):
         if code == own:
             return step(*args)
         return rest(code, *args)

@@ -7,7 +7,7 @@ reads the specimen and the sensors, and updates the tracking indicator (9) and t
 
 from __future__ import annotations
 
-from enum import IntEnum
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,27 +19,20 @@ _actuate = fold([part.step for part in actuators.KINDS])
 _resist = fold([part.step for part in specimens.KINDS])
 
 # memory of a station between substeps
-X_CMD, X_MEAS, X_TRUE, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, MEMORY = range(10)
+X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, MEMORY = range(9)
 # columns a station records
 STATION_COLUMNS = ("x_cmd", "x_comp", "x_meas", "f_meas", "error", "ti", "d_alpha", "energy_error")
 # parts of a station
 COMPENSATOR, ACTUATOR, SPECIMEN = range(3)
 
 
-class Status(IntEnum):
-    """What a call of the loop ended with; a trip's code is TRIPPED plus the limit's position in safety.LIMITS."""
-
-    RUNNING = 0
-    TRIPPED = 1
-
-
 @compiled
-def _within(value, limit):  # type: ignore[no-untyped-def]
+def _within(value, limit):
     return abs(value) <= limit
 
 
 @compiled
-def _track(memory, x_cmd, x_meas, f_meas):  # type: ignore[no-untyped-def]
+def _track(memory, x_cmd, x_meas, f_meas):
     """Tracking indicator (9) and energy error (10) by the trapezoidal rule; remembers the measured values."""
     cmd_move = x_cmd - memory[X_CMD]
     meas_move = x_meas - memory[X_MEAS]
@@ -52,73 +45,113 @@ def _track(memory, x_cmd, x_meas, f_meas):  # type: ignore[no-untyped-def]
     memory[F_MEAS] = f_meas
 
 
+class Setup(NamedTuple):
+    """What stays the same during a run (SI). DOF = degrees of freedom, S = stations, Q = substeps of the whole run."""
+
+    n: int  # substeps of an integration step
+    dt_step: float  # integration step
+    dt: float  # substep
+    matrices: Any  # C, K, W (3, DOF, DOF)
+    influence: Any  # M @ ones (DOF)
+    ag: Any  # ground acceleration at the integration steps
+    drifts: Any  # L (S, DOF)
+    dampers: Any  # equal dampers a station stands for (S)
+    codes: Any  # part codes (S, 3)
+    parameters: Any  # (3, S, widest)
+    limits: Any  # (S, 3), in the order of safety.LIMITS
+    noise: Any  # (Q, S, 2)
+
+
+class State(NamedTuple):
+    """What changes from step to step, in place."""
+
+    x: Any  # (DOF)
+    v: Any  # (DOF)
+    parts: Any  # (3, S, widest)
+    memory: Any  # (S, MEMORY)
+
+
+class Record(NamedTuple):
+    """What a run writes: columns of signals are ag, floors, stations; trip is station from 0, value, bound, substep from 1."""
+
+    signals: Any  # (Q, channels)
+    history: Any  # (steps + 1, 2, DOF), x and v
+    trip: Any  # (4)
+
+
 @compiled
-def _substep(j, codes, parameters, states, memory, x_cmd, limits, noise, dt, row):  # type: ignore[no-untyped-def]
-    """One controller step of station j. Returns the position of the broken limit plus 1, or 0, and the value."""
+def _substep(j, setup, state, x_cmd, noise, row):
+    """One controller step of station j into its row. Returns the position of the broken limit plus 1, or 0, and the value."""
+    memory, limits, dt = state.memory[j], setup.limits[j], setup.dt
+    codes, parameters, parts = setup.codes[j], setup.parameters, state.parts
     velocity = (x_cmd - memory[X_CMD]) / dt
     if not _within(x_cmd, limits[0]):
         return 1, x_cmd
     if not _within(velocity, limits[1]):
         return 2, velocity
-    state = states[COMPENSATOR, j]
-    x_comp = _compensate(codes[j, COMPENSATOR], parameters[COMPENSATOR, j], state, x_cmd, memory[X_CMD], memory[TI], dt)
-    d_alpha = state[0]
-    x_true = _actuate(codes[j, ACTUATOR], parameters[ACTUATOR, j], states[ACTUATOR, j], x_comp, memory[F_TRUE])
-    f_true = _resist(codes[j, SPECIMEN], parameters[SPECIMEN, j], states[SPECIMEN, j], x_true, dt)
-    memory[X_TRUE] = x_true
+    own = parts[COMPENSATOR, j]
+    x_comp = _compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], own, x_cmd, memory[X_CMD], memory[TI], dt)
+    x_true = _actuate(codes[ACTUATOR], parameters[ACTUATOR, j], parts[ACTUATOR, j], x_comp, memory[F_TRUE])
+    f_true = _resist(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], x_true, dt)
     memory[F_TRUE] = f_true
     x_meas = x_true + noise[0]
     f_meas = f_true + noise[1]
     _track(memory, x_cmd, x_meas, f_meas)
     row[0], row[1], row[2], row[3] = x_cmd, x_comp, x_meas, f_meas
-    row[4], row[5], row[6], row[7] = x_cmd - x_meas, memory[TI], d_alpha, memory[ENERGY_ERROR]
+    row[4], row[5], row[6], row[7] = x_cmd - x_meas, memory[TI], own[0], memory[ENERGY_ERROR]
     if not _within(f_meas, limits[2]):
         return 3, f_meas
     return 0, 0.0
 
 
-@entry
-def advance(first, last, n, dt_step, dt, matrices, influence, ag, drifts, dampers, codes, parameters, states, memory, limits, noise, x, v, history, signals, trip):  # type: ignore[no-untyped-def]
-    """Integration steps first to last - 1. Arrays change in place. Returns the status and the substeps recorded so far.
+@compiled
+def _integrate(i, setup, state, x_next):
+    """x[i+1] into x_next and v[i+1] into state.v by equation (3), with the measured forces of step i."""
+    x, v = state.x, state.v
+    damping, stiffness, w = setup.matrices[0], setup.matrices[1], setup.matrices[2]
+    residual = np.empty(x.size)
+    for a in range(x.size):
+        total = -setup.influence[a] * setup.ag[i]
+        for b in range(x.size):
+            total -= damping[a, b] * v[b] + stiffness[a, b] * x[b]
+        for j in range(setup.dampers.size):
+            total -= setup.drifts[j, a] * setup.dampers[j] * state.memory[j, F_MEAS]
+        residual[a] = total
+    for a in range(x.size):
+        accelerated = 0.0
+        for b in range(x.size):
+            accelerated += w[a, b] * residual[b]
+        v[a] += setup.dt_step * accelerated
+        x_next[a] = x[a] + setup.dt_step * v[a]
 
-    matrices: C, K, W (3, dof, dof); influence: M @ iota (dof); drifts L (stations, dof); signals (substeps, columns) with columns
-    ag, floors, stations; history (steps + 1, 2, dof) holds x and v; trip: station (from 0), value, bound, substep (from 1).
-    """
-    damping, stiffness, w = matrices[0], matrices[1], matrices[2]
-    dof, stations, width = x.size, dampers.size, len(STATION_COLUMNS)
-    residual, x_next = np.empty(dof), np.empty(dof)
+
+@entry
+def advance(first, last, setup, state, record):
+    """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
+    x, n = state.x, setup.n
+    dof, width = x.size, len(STATION_COLUMNS)
+    x_next = np.empty(dof)
     for i in range(first, last):
-        for a in range(dof):
-            total = -influence[a] * ag[i]
-            for b in range(dof):
-                total -= damping[a, b] * v[b] + stiffness[a, b] * x[b]
-            for j in range(stations):
-                total -= drifts[j, a] * dampers[j] * memory[j, F_MEAS]
-            residual[a] = total
-        for a in range(dof):
-            accelerated = 0.0
-            for b in range(dof):
-                accelerated += w[a, b] * residual[b]
-            x_next[a] = x[a] + dt_step * v[a] + dt_step * dt_step * accelerated
-            v[a] += dt_step * accelerated
+        _integrate(i, setup, state, x_next)
         for q in range(1, n + 1):
             done = i * n + q - 1
             share = q / n
-            row = signals[done]
-            row[0] = ag[i] + share * (ag[i + 1] - ag[i])
+            row = record.signals[done]
+            row[0] = setup.ag[i] + share * (setup.ag[i + 1] - setup.ag[i])
             for a in range(dof):
                 row[1 + a] = x[a] + share * (x_next[a] - x[a])
-            for j in range(stations):
+            for j in range(setup.dampers.size):
                 x_cmd = 0.0
                 for a in range(dof):
-                    x_cmd += drifts[j, a] * row[1 + a]
-                columns = row[1 + dof + j * width : 1 + dof + (j + 1) * width]
-                broken, value = _substep(j, codes, parameters, states, memory[j], x_cmd, limits[j], noise[done, j], dt, columns)
+                    x_cmd += setup.drifts[j, a] * row[1 + a]
+                start = 1 + dof + j * width
+                broken, value = _substep(j, setup, state, x_cmd, setup.noise[done, j], row[start : start + width])
                 if broken > 0:
-                    trip[0], trip[1], trip[2], trip[3] = j, value, limits[j, broken - 1], done + 1
-                    return Status.TRIPPED + broken - 1, done
+                    record.trip[0], record.trip[1] = j, value
+                    record.trip[2], record.trip[3] = setup.limits[j, broken - 1], done + 1
+                    return broken, done
         for a in range(dof):
             x[a] = x_next[a]
-            history[i + 1, 0, a] = x[a]
-            history[i + 1, 1, a] = v[a]
+            record.history[i + 1, 0, a] = x[a]
+            record.history[i + 1, 1, a] = state.v[a]
     return 0, last * n

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from rths_engine.arrays import Array
 
 
 def maximum_tracking_error(x_cmd: Array, x_meas: Array) -> float:

@@ -42,7 +42,9 @@ class InlineMotion(Value):
 
     def unscaled(self, library: MotionLibrary) -> Motion:
         samples = np.array(self.acceleration)
-        return Motion(name="inline", title="Acceleration written in the plan", dt=self.dt, acceleration=samples, provenance="the plan")
+        return Motion(
+            name="inline", title="Acceleration written in the plan", dt=self.dt, acceleration=samples, provenance="the plan"
+        )
 
 
 class FileMotion(Value):
@@ -60,7 +62,9 @@ class FileMotion(Value):
         try:
             raw = path.read_bytes()
         except OSError as error:
-            raise MotionError(Issue("motion.path", f"can't be read: {error.strerror}", self.path, "give the path of a record file")) from None
+            raise MotionError(
+                Issue("motion.path", f"can't be read: {error.strerror}", self.path, "give the path of a record file")
+            ) from None
         return read(raw, path.name, unit=self.unit, dt=self.dt)
 
 

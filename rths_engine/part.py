@@ -8,21 +8,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from rths_engine import units
+from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError, RthsError
 
-Vector = NDArray[np.float64]
 T = TypeVar("T", bound=BaseModel)
 
 
-def quantity(label: str, unit: str = "1", shown: str | None = None, *, default: Any = ..., help: str = "", **bounds: Any) -> Any:
+def quantity(
+    label: str, unit: str = "1", shown: str | None = None, *, default: Any = ..., help: str = "", **bounds: Any
+) -> Any:
     """Declare a field holding SI `unit`, shown to people in `shown`; `bounds` are pydantic's gt, ge, lt, le."""
     shown = shown or unit
-    extra = {"unit": unit, "shown": shown, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
+    extra: dict[str, Any] = {"unit": unit, "shown": shown, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
     return Field(default, title=label, description=help or None, json_schema_extra=extra, **bounds)
 
 
@@ -52,7 +52,7 @@ class Part(Value):
 
     title: ClassVar[str]
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         raise NotImplementedError
 
 
@@ -92,9 +92,7 @@ def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
         )
         if inside:
             data = data[step]
-        elif isinstance(data, Mapping) and step == data.get("kind") and position < len(loc) - 1:
-            continue
-        elif position < len(loc) - 1 and not isinstance(data, Mapping | list | tuple):
+        elif position < len(loc) - 1 and (not isinstance(data, Mapping) or step == data.get("kind")):
             continue
         path.append(step)
     return path

@@ -9,12 +9,12 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import ConfigDict, Field
 
 from rths_engine import plan_yaml
 from rths_engine.actuators import Actuator
 from rths_engine.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.arrays import Array
 from rths_engine.compensators import Compensator
 from rths_engine.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.errors import Issue, PlanError
@@ -26,8 +26,6 @@ from rths_engine.safety import Limits
 from rths_engine.specimens import Specimen
 from rths_engine.specimens.mr_damper import MrDamper
 from rths_engine.structures import Structure
-
-Matrix = NDArray[np.float64]
 
 
 class Noise(Value):
@@ -123,12 +121,12 @@ class Plan(Value):
         """Controller step (s)."""
         return 1.0 / self.controller_rate
 
-    def drifts(self) -> Matrix:
+    def drifts(self) -> Array:
         """L (stations, DOF): row j takes displacements to the stroke of station j."""
         rows = [self.structure.drift(station.storey) for station in self.stations]
         return np.array(rows) if rows else np.zeros((0, len(self.structure.storeys)))
 
-    def matrices(self) -> tuple[Matrix, Matrix, Matrix, Matrix]:
+    def matrices(self) -> tuple[Array, Array, Array, Array]:
         """M, C, K of the analytical substructure and the integrator's W, which holds the stations' equivalents as well."""
         mass, damping, stiffness = self.structure.matrices()
         equivalent_damping, equivalent_stiffness = damping.copy(), stiffness.copy()
@@ -146,8 +144,12 @@ class Plan(Value):
         storeys = len(self.structure.storeys)
         for index, station in enumerate(self.stations):
             if station.storey > storeys:
-                yield Issue(f"stations.{index}.storey", f"the structure has {storeys} storeys", station.storey, f"give 1 to {storeys}")
+                yield Issue(
+                    f"stations.{index}.storey", f"the structure has {storeys} storeys", station.storey, f"give 1 to {storeys}"
+                )
         names = [station.name for station in self.stations]
         for index, name in enumerate(names):
             if name in names[:index]:
-                yield Issue(f"stations.{index}.name", "is another station's name already", name, "give each station its own name")
+                yield Issue(
+                    f"stations.{index}.name", "is another station's name already", name, "give each station its own name"
+                )

@@ -1,7 +1,8 @@
 """The recording: one HDF5 file a run, complete or absent.
 
-Layout: `/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, DOF) with
-x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s), `code_version`, `digest`.
+`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, DOF) with x
+and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
+`code_version`, `digest`.
 """
 
 from __future__ import annotations
@@ -16,16 +17,15 @@ from typing import Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from rths_engine import __version__
+from rths_engine.arrays import Array
 from rths_engine.channels import Channel
 from rths_engine.errors import Issue, RecordingError
 from rths_engine.plan import Plan
 from rths_engine.result import Result
 
 SCHEMA = "rths-recording/1"
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,9 @@ def load(path: Path) -> Recording:
     except FileNotFoundError:
         raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
     except (OSError, KeyError, TypeError, ValueError) as error:
-        raise RecordingError(Issue("", f"{path.name} is no complete {SCHEMA} recording: {error}", fix="run the plan again")) from None
+        raise RecordingError(
+            Issue("", f"{path.name} is no complete {SCHEMA} recording: {error}", fix="run the plan again")
+        ) from None
 
 
 def checksum(path: Path) -> str:
@@ -118,7 +120,9 @@ def _read(file: h5py.File) -> Recording:
     fields = ("key", "label", "unit", "shown", "group")
     channels = tuple(Channel(**{name: item[name] for name in fields}) for item in json.loads(attrs["channels"]))
     plan = Plan.read(json.loads(file["plan"][()]))
-    return Recording(plan, summary["status"], float(attrs["dt"]), channels, file["signals"][:], file["history"][:], summary, attrs)
+    return Recording(
+        plan, summary["status"], float(attrs["dt"]), channels, file["signals"][:], file["history"][:], summary, attrs
+    )
 
 
 def _synced(path: Path) -> Saved:

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rths_engine import metrics
+from rths_engine.arrays import Array
 from rths_engine.channels import Channel
 from rths_engine.ground_motions import Motion
 from rths_engine.plan import Plan
 from rths_engine.safety import Trip
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

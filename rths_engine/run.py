@@ -1,4 +1,4 @@
-"""A run: the only owner of changing state. `advance` yields chunks for live view, cancel and pace; `simulate` runs to the end."""
+"""A run: the only owner of changing state. `advance` yields chunks for live view, cancel and pace."""
 
 from __future__ import annotations
 
@@ -12,15 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rths_engine import actuators, compensators, loop, motion, specimens
+from rths_engine.arrays import Array
 from rths_engine.channels import Channel, channels
 from rths_engine.errors import Issue, PlanError
 from rths_engine.ground_motions import Motion, MotionLibrary
-from rths_engine.loop import MEMORY
 from rths_engine.plan import Plan
 from rths_engine.result import Result
 from rths_engine.safety import LIMITS, Trip
 
-Array = NDArray[np.float64]
 LARGEST_RECORDING = 2_000_000_000  # bytes
 
 
@@ -49,18 +48,26 @@ class Run:
             raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
         self.signals: Array = np.zeros((self.total, len(self.channels)))
         self.history: Array = np.zeros((self._steps + 1, 2, dof))
-        self._ag = _sampled(self.motion, dt, self._steps + 1)
-        self._matrices = np.stack([damping, stiffness, w])
-        self._influence = mass @ np.ones(dof)
-        self._drifts = plan.drifts()
-        self._dampers = np.array([float(station.dampers) for station in plan.stations])
-        self._limits = np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS))
-        self._codes, self._parameters, self._states = _built(plan)
-        self._memory = np.zeros((stations, MEMORY))
-        self._noise = _noise(plan, self.total)
+        codes, parameters, parts = _built(plan)
+        self._setup = loop.Setup(
+            n=n,
+            dt_step=dt,
+            dt=self.dt,
+            matrices=np.stack([damping, stiffness, w]),
+            influence=mass @ np.ones(dof),
+            ag=_sampled(self.motion, dt, self._steps + 1),
+            drifts=plan.drifts(),
+            dampers=np.array([float(station.dampers) for station in plan.stations]),
+            codes=codes,
+            parameters=parameters,
+            limits=np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS)),
+            noise=_noise(plan, self.total),
+        )
         x, v = initial or (np.zeros(dof), np.zeros(dof))
-        self._x, self._v = np.array(x, dtype=float), np.array(v, dtype=float)
-        self.history[0] = self._x, self._v
+        memory = np.zeros((stations, loop.MEMORY))
+        self._state = loop.State(np.array(x, dtype=float), np.array(v, dtype=float), parts, memory)
+        self._record = loop.Record(self.signals, self.history, np.zeros(4))
+        self.history[0] = self._state.x, self._state.v
 
     @property
     def finished(self) -> bool:
@@ -72,15 +79,10 @@ class Run:
         if self.finished:
             return slice(before, before)
         last = min(self._step + steps, self._steps)
-        found = np.zeros(4)
-        status, self.done = loop.advance(
-            self._step, last, self.plan.integrator.substeps, self.plan.integrator.dt, self.dt, self._matrices, self._influence, self._ag,
-            self._drifts, self._dampers, self._codes, self._parameters, self._states, self._memory, self._limits, self._noise,
-            self._x, self._v, self.history, self.signals, found,
-        )  # fmt: skip
+        broken, self.done = loop.advance(self._step, last, self._setup, self._state, self._record)
         self._step = last
-        if status:
-            self.trip = self._tripped(int(status) - 1, found)
+        if broken:
+            self.trip = self._tripped(broken - 1)
         return slice(before, self.done)
 
     def result(self, status: str, elapsed_s: float) -> Result:
@@ -98,7 +100,8 @@ class Run:
             history=self.history[: steps + 1],
         )
 
-    def _tripped(self, limit: int, found: Array) -> Trip:
+    def _tripped(self, limit: int) -> Trip:
+        found = self._record.trip
         station, substep = int(found[0]), int(found[3])
         kind = list(LIMITS)[limit]
         name = self.plan.stations[station].name
@@ -148,9 +151,10 @@ def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:
 def _noise(plan: Plan, total: int) -> Array:
     """Sensor noise (substeps, stations, 2): displacement (m) and force (N), by the plan's seed."""
     scale = np.array([(station.noise.displacement, station.noise.force) for station in plan.stations]).reshape(-1, 2)
-    if not scale.any():
-        return np.zeros((total, len(scale), 2))
-    return np.random.Generator(np.random.PCG64(plan.seed)).standard_normal((total, len(scale), 2)) * scale
+    noise: Array = np.zeros((total, len(scale), 2))
+    if scale.any():
+        noise = np.random.Generator(np.random.PCG64(plan.seed)).standard_normal(noise.shape) * scale
+    return noise
 
 
 def _limits(station: Any) -> tuple[float, ...]:
@@ -164,4 +168,5 @@ def _steps(duration: float, dt: float) -> int:
 def _sampled(record: Motion, dt: float, count: int) -> Array:
     """Ground acceleration (m/s^2) at the integration steps: linear between samples, zero after the record's end."""
     times = np.arange(count) * dt
-    return np.interp(times, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
+    samples: Array = np.interp(times, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
+    return samples

@@ -42,7 +42,7 @@ class Trip:
 
     @property
     def sentence(self) -> str:
-        words, unit, shown = LIMITS[self.limit]
+        words, _, shown = LIMITS[self.limit]
         value, bound = units.from_si(self.value, shown), units.from_si(self.bound, shown)
         return (
             f"Tripped at {self.time_s:.3f} s: {words} of station {self.station} ({self.name}) was {value:.1f} {shown}, "

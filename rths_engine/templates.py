@@ -1,7 +1,7 @@
 """Plans to start from: the twelve simulations of Table III of Chen and Ricles (2012), EESD 41, 549-569, and small examples.
 
-The paper's frame is stood in for by a shear building with its storey stiffnesses, its first period and 2 % damping; its actuators
-by first-order delays of about 30 and 45 controller steps; its ground motion by a bundled record of the same earthquake.
+A shear building with its storey stiffnesses, first period and 2 % damping stands for the paper's frame, first-order delays of 30
+and 45 controller steps for its actuators, and a bundled record of the same earthquake for its ground motion.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class PaperRow:
     mte_mm: tuple[float, float] | None
     rms_percent: tuple[float, float] | None
     mti_mm2: tuple[float, float] | None
-    mee_kNm: tuple[float, float] | None  # noqa: N815
+    mee_kNm: tuple[float, float] | None
 
 
 _ROWS = (
@@ -113,7 +113,7 @@ def _station(j: int, compensator: Compensator) -> Station:
 
 
 def _building() -> ShearBuilding:
-    """Equal floor masses such that the first period is the paper's: m = lambda (T1 / 2 pi)^2, lambda the lower root for m = 1."""
+    """Equal floor masses such that T1 is the paper's: m = lambda (T1 / 2 pi)^2, with lambda the lower root for m = 1."""
     k1, k2 = STOREY_STIFFNESS
     root = ((k1 + 2 * k2) - math.sqrt((k1 + 2 * k2) ** 2 - 4 * k1 * k2)) / 2
     mass = root * (FIRST_PERIOD / (2 * math.pi)) ** 2

@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rths_engine.part import Part, Vector, quantity
+from rths_engine.arrays import Array
+from rths_engine.part import Part, quantity
 
 
 class FirstOrderDelay(Part):
@@ -25,11 +26,11 @@ class FirstOrderDelay(Part):
     force_limit: float = quantity("Force capacity", "N", "kN", gt=0, le=1e8, default=2.3e6)
     title: ClassVar[str] = "First-order delay"
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.alpha, self.velocity_limit * dt, self.force_limit]), np.zeros(1)
 
     @staticmethod
-    def step(p, s, x_comp, force):  # type: ignore[no-untyped-def]
+    def step(p, s, x_comp, force):
         move = (x_comp - s[0]) / p[0]
         if move > p[1]:
             move = p[1]

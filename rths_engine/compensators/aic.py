@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rths_engine.part import Part, Vector, quantity
+from rths_engine.arrays import Array
+from rths_engine.part import Part, quantity
 
 
 class AdaptiveInverseCompensation(Part):
@@ -26,11 +27,11 @@ class AdaptiveInverseCompensation(Part):
     ki: float = quantity("Integral gain ki", "1/(m^2*s)", "1/(mm^2*s)", ge=0, le=1e8, default=0.04e6, help="published as kp/10")
     title: ClassVar[str] = "Adaptive inverse (AIC)"
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.alpha_es, self.kp, self.ki]), np.zeros(3)
 
     @staticmethod
-    def step(p, s, x_cmd, x_cmd_last, ti, dt):  # type: ignore[no-untyped-def]
+    def step(p, s, x_cmd, x_cmd_last, ti, dt):
         s[1] += 0.5 * (ti + s[2]) * dt
         s[2] = ti
         s[0] = p[1] * ti + p[2] * s[1]

@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rths_engine.part import Part, Vector, quantity
+from rths_engine.arrays import Array
+from rths_engine.part import Part, quantity
 
 
 class InverseCompensation(Part):
@@ -18,12 +19,14 @@ class InverseCompensation(Part):
     """
 
     kind: Literal["inverse"] = "inverse"
-    alpha_es: float = quantity("Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="(α_es − 1) controller steps of delay")
+    alpha_es: float = quantity(
+        "Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="(α_es − 1) controller steps of delay"
+    )
     title: ClassVar[str] = "Inverse"
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.alpha_es]), np.zeros(1)
 
     @staticmethod
-    def step(p, s, x_cmd, x_cmd_last, ti, dt):  # type: ignore[no-untyped-def]
+    def step(p, s, x_cmd, x_cmd_last, ti, dt):
         return p[0] * x_cmd - (p[0] - 1.0) * x_cmd_last

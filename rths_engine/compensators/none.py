@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rths_engine.part import Part, Vector
+from rths_engine.arrays import Array
+from rths_engine.part import Part
 
 
 class NoCompensation(Part):
@@ -15,9 +16,9 @@ class NoCompensation(Part):
     kind: Literal["none"] = "none"
     title: ClassVar[str] = "None"
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
 
     @staticmethod
-    def step(p, s, x_cmd, x_cmd_last, ti, dt):  # type: ignore[no-untyped-def]
+    def step(p, s, x_cmd, x_cmd_last, ti, dt):
         return x_cmd

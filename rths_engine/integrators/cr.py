@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError
 from rths_engine.part import Value, quantity
-
-Matrix = NDArray[np.float64]
 
 
 class CrIntegrator(Value):
@@ -18,20 +16,28 @@ class CrIntegrator(Value):
 
     Since M a = F - C v - r, beta a = W (F - C v - r) with W = 4 inv(4 M + 2 dt C + dt^2 K): M is never inverted, so that
     massless degrees of freedom are allowed. Explicit, and unconditionally stable for linear elastic systems; K and C here hold
-    the stations' equivalent stiffness and damping. Second order in x; v[i] is the backward difference (x[i] - x[i-1])/dt, half a
-    step behind. Fails first when the tangent stiffness exceeds K.
+    the stations' equivalents. Second order in x; v[i] is the backward difference (x[i] - x[i-1])/dt, half a step behind.
+    Fails first when the tangent stiffness exceeds K.
     Source: Chen and Ricles (2008), J. Eng. Mech. 134; equation numbers from Chen and Ricles (2012), EESD 41, 549-569.
     """
 
     kind: Literal["cr"] = "cr"
     dt: float = quantity("Integration step Δt", "s", "ms", gt=0, le=0.1, default=10 / 1024)
-    substeps: int = quantity("Substeps per step n", ge=1, le=1000, default=10, help="ramp from command to command in n controller steps")
+    substeps: int = quantity(
+        "Substeps per step n", ge=1, le=1000, default=10, help="ramp from command to command in n controller steps"
+    )
     title: ClassVar[str] = "CR (Chen and Ricles)"
 
-    def build(self, mass: Matrix, damping: Matrix, stiffness: Matrix) -> Matrix:
-        """W (1/kg), n x n, from M, C, K with the stations' equivalents. Raises PlanError when 4M + 2 dt C + dt^2 K is singular."""
+    def build(self, mass: Array, damping: Array, stiffness: Array) -> Array:
+        """W (1/kg), n x n, from M, C, K with the stations' equivalents. Raises PlanError when the sum is singular."""
         effective = 4 * mass + 2 * self.dt * damping + self.dt**2 * stiffness
         if not np.isfinite(effective).all() or np.linalg.cond(effective) > 1e14:
-            raise PlanError(Issue("structure", "4M + 2 dt C + dt^2 K is singular", fix="give every degree of freedom mass, damping or stiffness"))
-        inverse: Matrix = 4 * np.linalg.inv(effective)
+            raise PlanError(
+                Issue(
+                    "structure",
+                    "4M + 2 dt C + dt^2 K is singular",
+                    fix="give every degree of freedom mass, damping or stiffness",
+                )
+            )
+        inverse: Array = 4 * np.linalg.inv(effective)
         return inverse

@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rths_engine.part import Part, Vector, quantity
+from rths_engine.arrays import Array
+from rths_engine.part import Part, quantity
 
 
 class LinearSpecimen(Part):
@@ -20,11 +21,11 @@ class LinearSpecimen(Part):
     damping: float = quantity("Damping coefficient", "N*s/m", "kN*s/m", ge=0, le=1e12, default=5.0e5)
     title: ClassVar[str] = "Linear spring and dashpot"
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.stiffness, self.damping]), np.zeros(1)
 
     @staticmethod
-    def step(p, s, x, dt):  # type: ignore[no-untyped-def]
+    def step(p, s, x, dt):
         v = (x - s[0]) / dt
         s[0] = x
         return p[0] * x + p[1] * v

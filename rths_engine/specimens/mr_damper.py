@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rths_engine.part import Part, Vector, quantity
+from rths_engine.arrays import Array
+from rths_engine.part import Part, quantity
 
 
 class MrDamper(Part):
@@ -29,12 +30,12 @@ class MrDamper(Part):
     damping: float = quantity("Maxwell dashpot coefficient", "N*s/m", "kN*s/m", gt=0, le=1e12, default=1.0e7)
     title: ClassVar[str] = "MR damper (passive-on)"
 
-    def build(self, dt: float) -> tuple[Vector, Vector]:
+    def build(self, dt: float) -> tuple[Array, Array]:
         values = [self.yield_force, self.rate_coefficient, self.rate_exponent, self.stiffness, self.damping]
         return np.array(values), np.zeros(2)
 
     @staticmethod
-    def step(p, s, x, dt):  # type: ignore[no-untyped-def]
+    def step(p, s, x, dt):
         a, b, n, k, c = p[0], p[1], p[2], p[3], p[4]
         relax = 1.0 / (1.0 + k * dt / c)
         trial = (s[1] + k * (x - s[0])) * relax

@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from scipy.linalg import eigh
 
+from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError
 from rths_engine.part import Value, quantity
-
-Matrix = NDArray[np.float64]
 
 
 class Storey(Value):
@@ -26,8 +24,8 @@ class Storey(Value):
 class ShearBuilding(Value):
     """M a + C v + K x = F:  M = diag(m_j);  K tridiagonal, k_j between floors j-1 and j;  C = a0 M + a1 K (Rayleigh).
 
-    a0 and a1 give `damping_ratio` in the first two modes (in the only mode for one storey). x: floors relative to the ground (m),
-    n = number of storeys. Fails first when beams are flexible, members yield or P-delta matters.
+    a0 and a1 give `damping_ratio` in the first two modes (in the only mode for one storey). x: floors relative to
+    the ground (m), n = number of storeys. Fails first when beams are flexible, members yield or P-delta matters.
     Source: Chopra, Dynamics of Structures, chapters 9 and 11.
     """
 
@@ -36,7 +34,7 @@ class ShearBuilding(Value):
     damping_ratio: float = quantity("Damping ratio of modes 1 and 2", shown="%", ge=0, lt=1, default=0.02)
     title: ClassVar[str] = "Shear building"
 
-    def matrices(self) -> tuple[Matrix, Matrix, Matrix]:
+    def matrices(self) -> tuple[Array, Array, Array]:
         """M (kg), C (N s/m), K (N/m), each n x n. Raises PlanError when the modes can't be found."""
         mass = np.diag([storey.mass for storey in self.storeys])
         stiffness = np.zeros_like(mass)
@@ -45,7 +43,7 @@ class ShearBuilding(Value):
             stiffness += storey.stiffness * np.outer(drift, drift)
         return mass, self._rayleigh(mass, stiffness), stiffness
 
-    def drift(self, storey: int) -> NDArray[np.float64]:
+    def drift(self, storey: int) -> Array:
         """Row L with L @ x = drift of `storey` (from 1)."""
         row = np.zeros(len(self.storeys))
         row[storey - 1] = 1.0
@@ -53,28 +51,36 @@ class ShearBuilding(Value):
             row[storey - 2] = -1.0
         return row
 
-    def frequencies(self) -> NDArray[np.float64]:
+    def frequencies(self) -> Array:
         """Undamped circular frequencies (rad/s), rising."""
         mass, _, stiffness = self.matrices()
         return _frequencies(mass, stiffness)
 
-    def periods(self) -> NDArray[np.float64]:
+    def periods(self) -> Array:
         """Natural periods (s), the first mode's first."""
-        return 2 * np.pi / self.frequencies()
+        periods: Array = 2 * np.pi / self.frequencies()
+        return periods
 
-    def _rayleigh(self, mass: Matrix, stiffness: Matrix) -> Matrix:
+    def _rayleigh(self, mass: Array, stiffness: Array) -> Array:
         omega = _frequencies(mass, stiffness)
         if len(omega) == 1:
-            return 2 * self.damping_ratio * omega[0] * mass
+            return np.asarray(2 * self.damping_ratio * omega[0] * mass)
         first, second = omega[:2]
         a0 = 2 * self.damping_ratio * first * second / (first + second)
         a1 = 2 * self.damping_ratio / (first + second)
-        return a0 * mass + a1 * stiffness
+        rayleigh: Array = a0 * mass + a1 * stiffness
+        return rayleigh
 
 
-def _frequencies(mass: Matrix, stiffness: Matrix) -> NDArray[np.float64]:
+def _frequencies(mass: Array, stiffness: Array) -> Array:
     squares = eigh(stiffness, mass, eigvals_only=True)
     if squares[0] <= 1e-12 * squares[-1]:
-        raise PlanError(Issue("structure", "the stiffness matrix is singular: the structure is a mechanism", fix="raise the softest storey's stiffness"))
-    omega: NDArray[np.float64] = np.sqrt(squares)
+        raise PlanError(
+            Issue(
+                "structure",
+                "the stiffness matrix is singular: the structure is a mechanism",
+                fix="raise the softest storey's stiffness",
+            )
+        )
+    omega: Array = np.sqrt(squares)
     return omega

@@ -30,7 +30,9 @@ def building(masses: list[float], stiffnesses: list[float], ratio: float = 0.0) 
 
 def make(structure: dict[str, Any], motion: dict[str, Any], dt: float, substeps: int = 1, **more: Any) -> Plan:
     integrator = {"kind": "cr", "dt": dt, "substeps": substeps}
-    return Plan.read({"structure": structure, "motion": motion, "integrator": integrator, "controller_rate": substeps / dt, **more})
+    return Plan.read(
+        {"structure": structure, "motion": motion, "integrator": integrator, "controller_rate": substeps / dt, **more}
+    )
 
 
 def completed(plan: Plan, **more: Any) -> Run:

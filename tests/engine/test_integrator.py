@@ -39,11 +39,13 @@ def test_cr_is_second_order_accurate() -> None:
     assert orders == pytest.approx(2.0, abs=0.1)
 
 
-def test_a_mode_far_above_the_step_rate_stays_bounded() -> None:
+def test_a_mode_far_above_the_step_rate_overshoots_but_does_not_grow() -> None:
     dt = 0.01
     stiff = 1.0e5 * (100 / dt) ** 2  # omega dt = 100 and more, far beyond any conditionally stable scheme's limit of 2
     run = completed(make(building([1.0e5, 1.0e5], [stiff, stiff]), quiet(20.0), dt), initial=([1e-3, -1e-3], [0.0, 0.0]))
-    assert np.max(np.abs(run.history[:, 0])) <= 2e-3
+    peaks = np.max(np.abs(run.history[1:, 0]).reshape(4, -1), axis=1)
+    assert peaks == pytest.approx(peaks[0], rel=1e-3)  # a beat of two modes need not peak in every quarter
+    assert peaks[0] < 1e-3 * 200  # CR's overshoot is about omega dt
 
 
 def test_modes_of_a_two_storey_building_vibrate_apart() -> None:
