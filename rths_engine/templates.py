@@ -1,7 +1,7 @@
 """Plans to start from: the twelve simulations of Table III of Chen and Ricles (2012), EESD 41, 549-569, and small examples.
 
-A shear building with its storey stiffnesses, first period and 2 % damping stands for the paper's frame, first-order delays of 30
-and 45 controller steps for its actuators, and a bundled record of the same earthquake for its ground motion.
+A shear building with its storey stiffnesses, first period and 2 % damping stands for the paper's frame, first-order delays of
+30 and 45 controller steps for its actuators, and a bundled record of the same earthquake for its ground motion.
 """
 
 from __future__ import annotations

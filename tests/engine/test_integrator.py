@@ -44,7 +44,7 @@ def test_a_mode_far_above_the_step_rate_overshoots_but_does_not_grow() -> None:
     stiff = 1.0e5 * (100 / dt) ** 2  # omega dt = 100 and more, far beyond any conditionally stable scheme's limit of 2
     run = completed(make(building([1.0e5, 1.0e5], [stiff, stiff]), quiet(20.0), dt), initial=([1e-3, -1e-3], [0.0, 0.0]))
     peaks = np.max(np.abs(run.history[1:, 0]).reshape(4, -1), axis=1)
-    assert peaks == pytest.approx(peaks[0], rel=1e-3)  # a beat of two modes need not peak in every quarter
+    assert peaks[1:] == pytest.approx(peaks[0], rel=0.02)  # two modes beat: a quarter need not hold the highest peak
     assert peaks[0] < 1e-3 * 200  # CR's overshoot is about omega dt
 
 
