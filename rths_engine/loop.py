@@ -1,6 +1,6 @@
 """The one compiled loop: integrate, ramp, compensate, actuate, measure, check, record.
 
-Order within integration step i: external force F at step i, W (F - C v - r) gives x[i+1] and v[i+1] (CR, equation 3); the
+Order within integration step i: external and measured forces at step i, W (F - C v - r) gives x[i+1] and v[i+1] (3); the
 command ramps from L x[i] to L x[i+1] over n substeps (8); every substep checks the limits, compensates (7), actuates (5),
 reads the specimen and the sensors, and updates the tracking indicator (9) and the energy error (10).
 """
@@ -13,6 +13,7 @@ import numpy as np
 
 from rths_engine import actuators, compensators, specimens
 from rths_engine.kernel import compiled, entry, fold
+from rths_engine.restoring import subtract_forces, subtract_product
 
 _compensate = fold([part.step for part in compensators.KINDS])
 _actuate = fold([part.step for part in actuators.KINDS])
@@ -46,13 +47,17 @@ def _track(memory, x_cmd, x_meas, f_meas):
 
 
 class Setup(NamedTuple):
-    """What stays the same during a run (SI). DOF = degrees of freedom, S = stations, Q = substeps of the whole run."""
+    """What stays the same during a run (SI). S stations, Q substeps of the whole run."""
 
     n: int  # substeps of an integration step
     dt_step: float  # integration step
     dt: float  # substep
-    matrices: Any  # C, K, W (3, DOF, DOF)
-    influence: Any  # M @ ones (DOF)
+    w: Any  # W of the integrator (DOF, DOF), symmetric
+    damping: Any  # C, compressed rows
+    elastic: Any  # stiffness beside the members, compressed rows
+    members: Any  # structures.assembled.Members
+    influence: Any  # M @ iota (DOF)
+    floors: Any  # DOF of the floors
     ag: Any  # ground acceleration at the integration steps
     drifts: Any  # L (S, DOF)
     dampers: Any  # equal dampers a station stands for (S)
@@ -67,6 +72,7 @@ class State(NamedTuple):
 
     x: Any  # (DOF)
     v: Any  # (DOF)
+    plastic: Any  # plastic curvature (members, 3)
     parts: Any  # (3, S, widest)
     memory: Any  # (S, MEMORY)
 
@@ -75,7 +81,7 @@ class Record(NamedTuple):
     """What a run writes: columns of signals are ag, floors, stations; trip is station from 0, value, bound, substep from 1."""
 
     signals: Any  # (Q, channels)
-    history: Any  # (steps + 1, 2, DOF), x and v
+    history: Any  # (steps + 1, 2, floors), x and v
     trip: Any  # (4)
 
 
@@ -105,53 +111,59 @@ def _substep(j, setup, state, x_cmd, noise, row):
 
 
 @compiled
-def _integrate(i, setup, state, x_next):
+def _integrate(i, setup, state, residual, x_next):
     """x[i+1] into x_next and v[i+1] into state.v by equation (3), with the measured forces of step i."""
     x, v = state.x, state.v
-    damping, stiffness, w = setup.matrices[0], setup.matrices[1], setup.matrices[2]
-    residual = np.empty(x.size)
     for a in range(x.size):
-        total = -setup.influence[a] * setup.ag[i]
-        for b in range(x.size):
-            total -= damping[a, b] * v[b] + stiffness[a, b] * x[b]
-        for j in range(setup.dampers.size):
-            total -= setup.drifts[j, a] * setup.dampers[j] * state.memory[j, F_MEAS]
-        residual[a] = total
+        residual[a] = -setup.influence[a] * setup.ag[i]
+    for j in range(setup.dampers.size):
+        force = setup.dampers[j] * state.memory[j, F_MEAS]
+        for a in range(x.size):
+            residual[a] -= setup.drifts[j, a] * force
+    subtract_product(setup.damping, v, residual)
+    subtract_product(setup.elastic, x, residual)
+    subtract_forces(setup.members, x, state.plastic, residual)
+    x_next[:] = 0.0
+    for b in range(x.size):
+        row, force = setup.w[b], residual[b]
+        for a in range(x.size):
+            x_next[a] += row[a] * force
     for a in range(x.size):
-        accelerated = 0.0
-        for b in range(x.size):
-            accelerated += w[a, b] * residual[b]
-        v[a] += setup.dt_step * accelerated
+        v[a] += setup.dt_step * x_next[a]
         x_next[a] = x[a] + setup.dt_step * v[a]
 
 
 @entry
 def advance(first, last, setup, state, record):
     """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
-    x, n = state.x, setup.n
-    dof, width = x.size, len(STATION_COLUMNS)
-    x_next = np.empty(dof)
+    x, n, floors = state.x, setup.n, setup.floors
+    stations, width = setup.dampers.size, len(STATION_COLUMNS)
+    residual, x_next, command = np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
-        _integrate(i, setup, state, x_next)
+        _integrate(i, setup, state, residual, x_next)
+        for j in range(stations):
+            command[j, 0], command[j, 1] = 0.0, 0.0
+            for a in range(x.size):
+                command[j, 0] += setup.drifts[j, a] * x[a]
+                command[j, 1] += setup.drifts[j, a] * x_next[a]
         for q in range(1, n + 1):
             done = i * n + q - 1
             share = q / n
             row = record.signals[done]
             row[0] = setup.ag[i] + share * (setup.ag[i + 1] - setup.ag[i])
-            for a in range(dof):
-                row[1 + a] = x[a] + share * (x_next[a] - x[a])
-            for j in range(setup.dampers.size):
-                x_cmd = 0.0
-                for a in range(dof):
-                    x_cmd += setup.drifts[j, a] * row[1 + a]
-                start = 1 + dof + j * width
+            for f in range(floors.size):
+                a = floors[f]
+                row[1 + f] = x[a] + share * (x_next[a] - x[a])
+            for j in range(stations):
+                x_cmd = command[j, 0] + share * (command[j, 1] - command[j, 0])
+                start = 1 + floors.size + j * width
                 broken, value = _substep(j, setup, state, x_cmd, setup.noise[done, j], row[start : start + width])
                 if broken > 0:
                     record.trip[0], record.trip[1] = j, value
                     record.trip[2], record.trip[3] = setup.limits[j, broken - 1], done + 1
                     return broken, done
-        for a in range(dof):
-            x[a] = x_next[a]
-            record.history[i + 1, 0, a] = x[a]
-            record.history[i + 1, 1, a] = state.v[a]
+        x[:] = x_next
+        for f in range(floors.size):
+            record.history[i + 1, 0, f] = x[floors[f]]
+            record.history[i + 1, 1, f] = state.v[floors[f]]
     return 0, last * n

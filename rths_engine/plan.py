@@ -26,6 +26,7 @@ from rths_engine.safety import Limits
 from rths_engine.specimens import Specimen
 from rths_engine.specimens.mr_damper import MrDamper
 from rths_engine.structures import Structure
+from rths_engine.structures.modes import circular_frequencies
 
 
 class Noise(Value):
@@ -95,7 +96,7 @@ class Plan(Value):
         issues = tuple(plan._issues())
         if issues:
             raise PlanError(issues)
-        plan.matrices()
+        plan.integration()
         return plan
 
     @classmethod
@@ -123,18 +124,24 @@ class Plan(Value):
 
     def drifts(self) -> Array:
         """L (stations, DOF): row j takes displacements to the stroke of station j."""
-        rows = [self.structure.drift(station.storey) for station in self.stations]
-        return np.array(rows) if rows else np.zeros((0, len(self.structure.storeys)))
+        rows = self.structure.assemble().drifts
+        return rows[[station.storey - 1 for station in self.stations]]
 
-    def matrices(self) -> tuple[Array, Array, Array, Array]:
-        """M, C, K of the analytical substructure and the integrator's W, which holds the stations' equivalents as well."""
-        mass, damping, stiffness = self.structure.matrices()
-        equivalent_damping, equivalent_stiffness = damping.copy(), stiffness.copy()
+    def integration(self) -> Array:
+        """W (n, n) of the integrator, from M, C and the initial K with the stations' equivalents. Raises PlanError."""
+        built = self.structure.assemble()
+        damping, stiffness = built.damping.copy(), built.stiffness.copy()
         for station, drift in zip(self.stations, self.drifts(), strict=True):
             outer = station.dampers * np.outer(drift, drift)
-            equivalent_damping += station.equivalent_damping * outer
-            equivalent_stiffness += station.equivalent_stiffness * outer
-        return mass, damping, stiffness, self.integrator.build(mass, equivalent_damping, equivalent_stiffness)
+            damping += station.equivalent_damping * outer
+            stiffness += station.equivalent_stiffness * outer
+        return self.integrator.build(built.mass, damping, stiffness)
+
+    def periods(self) -> Array:
+        """Natural periods (s) of the analytical substructure, the first mode's first."""
+        built = self.structure.assemble()
+        periods: Array = 2 * np.pi / circular_frequencies(built.mass, built.stiffness)
+        return periods
 
     def _issues(self) -> Iterator[Issue]:
         dt, n, rate = self.integrator.dt, self.integrator.substeps, self.controller_rate

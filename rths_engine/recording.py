@@ -1,7 +1,7 @@
 """The recording: one HDF5 file a run, complete or absent.
 
-`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, DOF) with x
-and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
+`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, floors) with
+x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
 `code_version`, `digest`.
 """
 

@@ -18,7 +18,7 @@ from rths_engine.safety import Trip
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """Signals (substeps, channels) every `dt` (s) and history (steps + 1, 2, DOF) of x and v at integration steps; SI."""
+    """Signals (substeps, channels) every `dt` (s) and history (steps + 1, 2, floors) of x and v at integration steps; SI."""
 
     plan: Plan
     motion: Motion

@@ -17,6 +17,7 @@ from rths_engine.channels import Channel, channels
 from rths_engine.errors import Issue, PlanError
 from rths_engine.ground_motions import Motion, MotionLibrary
 from rths_engine.plan import Plan
+from rths_engine.restoring import rows
 from rths_engine.result import Result
 from rths_engine.safety import LIMITS, Trip
 
@@ -32,7 +33,7 @@ class Run:
 
     def __init__(self, plan: Plan, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None):
         self.plan = plan
-        self.motion: Motion = motion.scaled(plan.motion, motions, float(plan.structure.periods()[0]))
+        self.motion: Motion = motion.scaled(plan.motion, motions, float(plan.periods()[0]))
         self.dt = plan.substep
         self.trip: Trip | None = None
         self.done = 0
@@ -40,21 +41,25 @@ class Run:
         n, dt = plan.integrator.substeps, plan.integrator.dt
         self._steps = _steps(plan.duration or self.motion.duration, dt)
         self.total = self._steps * n
-        mass, damping, stiffness, w = plan.matrices()
-        dof, stations = len(mass), len(plan.stations)
+        built, w = plan.structure.assemble(), plan.integration()
+        dof, stations = len(w), len(plan.stations)
         self.channels: tuple[Channel, ...] = channels(plan)
         if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
             problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
             raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
         self.signals: Array = np.zeros((self.total, len(self.channels)))
-        self.history: Array = np.zeros((self._steps + 1, 2, dof))
+        self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
         codes, parameters, parts = _built(plan)
         self._setup = loop.Setup(
             n=n,
             dt_step=dt,
             dt=self.dt,
-            matrices=np.stack([damping, stiffness, w]),
-            influence=mass @ np.ones(dof),
+            w=np.ascontiguousarray(w),
+            damping=rows(built.damping),
+            elastic=rows(built.elastic),
+            members=built.members,
+            influence=built.mass @ built.influence,
+            floors=np.array(built.floors, dtype=np.int64),
             ag=_sampled(self.motion, dt, self._steps + 1),
             drifts=plan.drifts(),
             dampers=np.array([float(station.dampers) for station in plan.stations]),
@@ -65,9 +70,10 @@ class Run:
         )
         x, v = initial or (np.zeros(dof), np.zeros(dof))
         memory = np.zeros((stations, loop.MEMORY))
-        self._state = loop.State(np.array(x, dtype=float), np.array(v, dtype=float), parts, memory)
+        plastic = np.zeros((len(built.members.dofs), 3))
+        self._state = loop.State(np.array(x, dtype=float), np.array(v, dtype=float), plastic, parts, memory)
         self._record = loop.Record(self.signals, self.history, np.zeros(4))
-        self.history[0] = self._state.x, self._state.v
+        self.history[0] = self._state.x[self._setup.floors], self._state.v[self._setup.floors]
 
     @property
     def finished(self) -> bool:

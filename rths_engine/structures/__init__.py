@@ -1,12 +1,11 @@
-"""Structures: parts that give M, C, K, the drift row of each storey and the floors' degrees of freedom."""
+"""Structures: parts whose `assemble()` gives matrices, floors, storey drifts and inelastic members."""
 
 from typing import Annotated
 
 from pydantic import Field
 
-from rths_engine.structures.shear_building import ShearBuilding, Storey
+from rths_engine.structures.moment_frame import MomentFrame
+from rths_engine.structures.shear_building import ShearBuilding
 
-KINDS = (ShearBuilding,)
-Structure = Annotated[ShearBuilding, Field()]
-
-__all__ = ["KINDS", "ShearBuilding", "Storey", "Structure"]
+KINDS = (ShearBuilding, MomentFrame)
+Structure = Annotated[ShearBuilding | MomentFrame, Field(discriminator="kind")]

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.linalg import eigh
 
-from rths_engine.arrays import Array
-from rths_engine.errors import Issue, PlanError
 from rths_engine.part import Value, quantity
+from rths_engine.structures.assembled import Assembled, no_members
+from rths_engine.structures.modes import circular_frequencies, rayleigh
 
 
 class Storey(Value):
@@ -34,53 +34,16 @@ class ShearBuilding(Value):
     damping_ratio: float = quantity("Damping ratio of modes 1 and 2", shown="%", ge=0, lt=1, default=0.02)
     title: ClassVar[str] = "Shear building"
 
-    def matrices(self) -> tuple[Array, Array, Array]:
-        """M (kg), C (N s/m), K (N/m), each n x n. Raises PlanError when the modes can't be found."""
-        mass = np.diag([storey.mass for storey in self.storeys])
-        stiffness = np.zeros_like(mass)
-        for floor, storey in enumerate(self.storeys):
-            drift = self.drift(floor + 1)
-            stiffness += storey.stiffness * np.outer(drift, drift)
-        return mass, self._rayleigh(mass, stiffness), stiffness
-
-    def drift(self, storey: int) -> Array:
-        """Row L with L @ x = drift of `storey` (from 1)."""
-        row = np.zeros(len(self.storeys))
-        row[storey - 1] = 1.0
-        if storey > 1:
-            row[storey - 2] = -1.0
-        return row
-
-    def frequencies(self) -> Array:
-        """Undamped circular frequencies (rad/s), rising."""
-        mass, _, stiffness = self.matrices()
-        return _frequencies(mass, stiffness)
-
-    def periods(self) -> Array:
-        """Natural periods (s), the first mode's first."""
-        periods: Array = 2 * np.pi / self.frequencies()
-        return periods
-
-    def _rayleigh(self, mass: Array, stiffness: Array) -> Array:
-        omega = _frequencies(mass, stiffness)
-        if len(omega) == 1:
-            return np.asarray(2 * self.damping_ratio * omega[0] * mass)
-        first, second = omega[:2]
-        a0 = 2 * self.damping_ratio * first * second / (first + second)
-        a1 = 2 * self.damping_ratio / (first + second)
-        rayleigh: Array = a0 * mass + a1 * stiffness
-        return rayleigh
+    def assemble(self) -> Assembled:
+        """The building's matrices. Raises PlanError when it is a mechanism."""
+        return _assembled(self)
 
 
-def _frequencies(mass: Array, stiffness: Array) -> Array:
-    squares = eigh(stiffness, mass, eigvals_only=True)
-    if squares[0] <= 1e-12 * squares[-1]:
-        raise PlanError(
-            Issue(
-                "structure",
-                "the stiffness matrix is singular: the structure is a mechanism",
-                fix="raise the softest storey's stiffness",
-            )
-        )
-    omega: Array = np.sqrt(squares)
-    return omega
+@lru_cache(maxsize=8)
+def _assembled(building: ShearBuilding) -> Assembled:
+    count = len(building.storeys)
+    mass = np.diag([storey.mass for storey in building.storeys])
+    drifts = np.eye(count) - np.eye(count, k=-1)
+    stiffness = drifts.T @ np.diag([storey.stiffness for storey in building.storeys]) @ drifts
+    damping = rayleigh(mass, stiffness, building.damping_ratio, circular_frequencies(mass, stiffness))
+    return Assembled(mass, damping, stiffness, stiffness, np.ones(count), tuple(range(count)), drifts, no_members())

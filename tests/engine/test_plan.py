@@ -42,7 +42,7 @@ def test_yaml_says_the_unit_of_each_number() -> None:
 
 
 def test_table_iii_stands_on_the_papers_first_period() -> None:
-    assert templates.template("table3-01").structure.periods()[0] == pytest.approx(1.48, rel=1e-9)
+    assert templates.template("table3-01").periods()[0] == pytest.approx(1.48, rel=1e-9)
 
 
 @pytest.mark.parametrize(

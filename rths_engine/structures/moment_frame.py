@@ -1,0 +1,165 @@
+"""Steel moment-resisting frame with lumped yielding, lean-on column and braces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from itertools import pairwise
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from rths_engine.arrays import Array
+from rths_engine.part import Value, quantity
+from rths_engine.structures.assembled import Assembled
+from rths_engine.structures.frame_model import FrameModel, Member
+from rths_engine.structures.modes import circular_frequencies, rayleigh
+from rths_engine.structures.sections import SECTIONS
+from rths_engine.units import STANDARD_GRAVITY
+
+LEAN_AREA = 0.5  # m^2
+LEAN_INERTIA = 1e-5  # m^4, next to none
+
+
+class FrameStorey(Value):
+    """One storey: its columns, the beams of the floor on top of it, the floor's mass and the braces to its dampers."""
+
+    height: float = quantity("Storey height", "m", gt=0, le=50)
+    mass: float = quantity("Floor mass", "kg", "t", gt=0, le=1e9, help="the frame's tributary mass, also its gravity load")
+    column: str = Field(title="Column section", min_length=1)
+    beam: str = Field(title="Beam section", min_length=1)
+    brace_stiffness: float = quantity(
+        "Lateral stiffness of the braces",
+        "N/m",
+        "kN/m",
+        ge=0,
+        le=1e13,
+        default=0.0,
+        help="in series with the dampers; 0 is rigid",
+    )
+
+
+class MomentFrame(Value):
+    """M a + C v + r(x) = F. Every member is three beam-columns in series (hinge_fraction, rest, hinge_fraction of its length).
+
+    Each beam-column: linear curvature between its ends, bilinear moment-curvature law (yield moment Z fy, second slope
+    `hardening`) at three Lobatto points, elastic axially; small displacements. Floors are rigid diaphragms. A lean-on column
+    carries all gravity loads; its P-delta effect is K_g = -P/h on the storey's drift. Braces of a storey meet in a node at its
+    top, between two elastic bars that start from the second and third column line; dampers act between node and floor.
+    Masses act on the floors' lateral displacement; rotations and vertical displacements are massless. C = a0 M + a1 K with the
+    initial K. Fails first at large rotations, local buckling and axial-flexural interaction.
+    Sources: Chen and Ricles (2012), EESD 41, section 4; Neuenhofer and Filippou (1997), J. Struct. Eng. 123, for the element.
+    """
+
+    kind: Literal["moment_frame"] = "moment_frame"
+    bays: tuple[float, ...] = quantity("Bay widths", "m", min_length=1, max_length=20)
+    storeys: tuple[FrameStorey, ...] = Field(title="Storeys", min_length=1, max_length=50)
+    damping_ratio: float = quantity("Damping ratio of modes 1 and 2", shown="%", ge=0, lt=1, default=0.02)
+    fixed_base: bool = Field(True, title="Fixed column bases")
+    inelastic: bool = Field(True, title="Members yield")
+    p_delta: bool = Field(True, title="P-delta of the gravity frames")
+    hinge_fraction: float = quantity("Length of an end segment", shown="%", gt=0, lt=0.5, default=0.05)
+    hardening: float = quantity("Strain hardening", shown="%", ge=0, lt=1, default=0.03)
+    elastic_modulus: float = quantity("Elastic modulus", "N/m^2", "GPa", gt=0, le=1e13, default=200e9)
+    yield_stress: float = quantity("Yield stress", "N/m^2", "MPa", gt=0, le=1e11, default=345e6)
+    title: ClassVar[str] = "Moment-resisting frame"
+
+    @model_validator(mode="after")
+    def _known(self) -> MomentFrame:
+        for number, storey in enumerate(self.storeys, start=1):
+            for name in (storey.column, storey.beam):
+                if name not in SECTIONS:
+                    raise ValueError(f"unknown section '{name}' in storey {number}; known are {', '.join(SECTIONS)}")
+            if storey.brace_stiffness and len(self.bays) < 2:
+                raise ValueError(f"storey {number} has braces, which need at least two bays")
+        return self
+
+    def assemble(self) -> Assembled:
+        """The frame's matrices and members. Raises PlanError when it is a mechanism."""
+        return _assembled(self)
+
+    def model(self) -> FrameModel:
+        model = FrameModel()
+        x = np.concatenate([[0.0], np.cumsum(self.bays)])
+        y = np.concatenate([[0.0], np.cumsum([storey.height for storey in self.storeys])])
+        floors = [model.coordinate() for _ in self.storeys]
+        joints = [[model.node(xc, 0.0, fixed=(True, True, self.fixed_base)) for xc in x]]
+        joints += [[model.node(xc, y[level], lateral=floors[level - 1]) for xc in x] for level in range(1, len(y))]
+        for level, storey in enumerate(self.storeys):
+            for line in range(len(x)):
+                self._member(model, joints[level][line], joints[level + 1][line], storey.column)
+            for line in range(len(self.bays)):
+                self._member(model, joints[level + 1][line], joints[level + 1][line + 1], storey.beam, floors[level])
+            model.floors.append(floors[level])
+            self._brace(model, level, joints[level], float(x[1] + x[2]) / 2 if len(x) > 2 else 0.0, y[level + 1])
+        if self.p_delta:
+            self._lean_on(model, x[-1] + self.bays[-1], y)
+        return model
+
+    def _lean_on(self, model: FrameModel, x: float, y: Array) -> None:
+        """An axially stiff, flexurally negligible column that carries the gravity load of all floors."""
+        nodes = [model.node(x, y[0], fixed=(True, True, True))]
+        nodes += [model.node(x, y[level + 1], lateral=floor) for level, floor in enumerate(model.floors)]
+        axial, bending = self.elastic_modulus * LEAN_AREA, self.elastic_modulus * LEAN_INERTIA
+        for level, drift in enumerate(self._floor_drifts(model)):
+            model.members.append(Member(nodes[level], nodes[level + 1], axial, bending, np.inf, 0.0))
+            weight = STANDARD_GRAVITY * sum(storey.mass for storey in self.storeys[level:])
+            model.springs.append((drift, -weight / self.storeys[level].height))
+
+    def _member(self, model: FrameModel, start: int, end: int, name: str, lateral: int | None = None) -> None:
+        first, last = np.array(model.points[start]), np.array(model.points[end])
+        shares = (self.hinge_fraction, 1 - self.hinge_fraction)
+        inner = [model.node(*(first + share * (last - first)), lateral=lateral) for share in shares]
+        nodes = [start, *inner, end]
+        section = SECTIONS[name]
+        for one, two in pairwise(nodes):
+            model.members.append(
+                Member(
+                    one,
+                    two,
+                    axial=self.elastic_modulus * section.area,
+                    bending=self.elastic_modulus * section.inertia,
+                    yield_moment=self.yield_stress * section.plastic_modulus,
+                    plastic=self.hardening / (1 - self.hardening) * self.elastic_modulus * section.inertia,
+                )
+            )
+
+    def _brace(self, model: FrameModel, level: int, below: list[int], x: float, y: float) -> None:
+        stiffness = self.storeys[level].brace_stiffness
+        drift = dict(self._floor_drifts(model)[level])
+        if stiffness:
+            top = model.node(x, y, fixed=(False, False, True))
+            for start in below[1:3]:
+                length_x = x - model.points[start][0]
+                length = float(np.hypot(length_x, y - model.points[start][1]))
+                model.bars.append((start, top, stiffness / 2 * (length / length_x) ** 2))
+            drift = {model.floors[level]: 1.0, model.dofs[top][0]: -1.0}
+        model.drifts.append(drift)
+
+    def _floor_drifts(self, model: FrameModel) -> list[dict[int, float]]:
+        found = []
+        for level, floor in enumerate(model.floors):
+            found.append({floor: 1.0, **({model.floors[level - 1]: -1.0} if level else {})})
+        return found
+
+    def summary(self) -> Iterator[str]:
+        """What the model consists of, in words."""
+        model = self.model()
+        yield f"{model.size} degrees of freedom"
+        yield f"{len(model.members)} beam-columns, {len(model.bars)} brace bars"
+
+
+@lru_cache(maxsize=8)
+def _assembled(frame: MomentFrame) -> Assembled:
+    model = frame.model()
+    stiffness = model.stiffness()
+    mass: Array = np.zeros_like(stiffness)
+    for floor, storey in zip(model.floors, frame.storeys, strict=True):
+        mass[floor, floor] = storey.mass
+    omega = circular_frequencies(mass, stiffness)
+    damping = rayleigh(mass, stiffness, frame.damping_ratio, omega)
+    members, elastic = (model.tables(), model.rest()) if frame.inelastic else (FrameModel().tables(), stiffness)
+    influence: Array = np.zeros(model.size)
+    influence[model.floors] = 1.0
+    return Assembled(mass, damping, stiffness, elastic, influence, tuple(model.floors), model.drift_rows(), members)

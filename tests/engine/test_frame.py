@@ -1,0 +1,125 @@
+"""The moment-resisting frame of the paper, and what a frame must do by hand calculation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rths_engine.errors import PlanError
+from rths_engine.part import validated
+from rths_engine.restoring import rows, subtract_forces, subtract_product
+from rths_engine.structures.moment_frame import MomentFrame
+from rths_engine.structures.sections import SECTIONS
+from tests.engine.plans import completed, make, quiet, shaking
+
+
+def paper_frame(**more: Any) -> dict[str, Any]:
+    storeys = [
+        {"height": 4.57, "mass": 662.9e3, "column": "W14x120", "beam": "W24x55", "brace_stiffness": 4e8},
+        {"height": 3.96, "mass": 662.9e3, "column": "W14x120", "beam": "W18x40", "brace_stiffness": 4e8},
+    ]
+    return {"kind": "moment_frame", "bays": [9.15] * 4, "storeys": storeys, **more}
+
+
+def restoring(frame: MomentFrame, path: np.ndarray) -> np.ndarray:
+    """r(x) along a path of displacements (steps, DOF), from the compiled members and springs."""
+    built = frame.assemble()
+    plastic = np.zeros((len(built.members.dofs), 3))
+    forces = np.zeros_like(path)
+    for x, force in zip(path, forces, strict=True):
+        subtract_product(rows(built.elastic), x, force)
+        subtract_forces(built.members, x, plastic, force)
+    return -forces
+
+
+def test_the_papers_frame_has_its_equations_period_and_storey_stiffness() -> None:
+    frame = validated(MomentFrame, paper_frame())
+    model, built = frame.model(), frame.assemble()
+    assert (model.size, len(model.members), len(model.bars)) == (122, 56, 4)
+    plan = make(paper_frame(), quiet(1.0), 10 / 1024)
+    assert plan.periods()[:2] == pytest.approx([1.48, 0.421], rel=0.005)  # the paper's T1; T2 as OpenSees finds it
+    assert len(plan.periods()) == 2  # massless degrees of freedom have no period
+    # storey stiffness = storey shear over drift under loads in the first mode's pattern
+    flexibility = np.linalg.inv(built.stiffness)[np.ix_(built.floors, built.floors)]
+    values, shapes = np.linalg.eig(flexibility)
+    shape = np.abs(shapes[:, np.argmax(values)])
+    floors = flexibility @ shape
+    stiffness = [shape.sum() / floors[0], shape[1] / (floors[1] - floors[0])]
+    assert stiffness == pytest.approx([36_007e3, 23_894e3], rel=0.015)
+
+
+def test_small_displacements_give_the_initial_stiffness() -> None:
+    frame = validated(MomentFrame, paper_frame())
+    x = 1e-6 * np.random.default_rng(2).normal(size=frame.model().size)
+    force = restoring(frame, x[None])[0]
+    assert force == pytest.approx(frame.assemble().stiffness @ x, rel=1e-9, abs=1e-6 * np.abs(force).max())
+
+
+def portal(**more: Any) -> MomentFrame:
+    """One bay with a beam so much stiffer than its columns that these bend with fixed ends: k = 2 * 12 EI / h^3."""
+    storey = {"height": 8.0, "mass": 1e5, "column": "W18x40", "beam": "W36x135"}
+    return validated(MomentFrame, {"bays": [0.5], "storeys": [storey], "p_delta": False, **more})
+
+
+def test_a_portal_has_the_sway_stiffness_of_two_fixed_columns() -> None:
+    frame = portal()
+    built = frame.assemble()
+    sway = 1 / np.linalg.inv(built.stiffness)[built.floors[0], built.floors[0]]
+    # the beam's own flexibility and the columns' elongation take under 2 %
+    assert sway == pytest.approx(2 * 12 * 200e9 * SECTIONS["W18x40"].inertia / 8.0**3, rel=0.02)
+
+
+def test_p_delta_softens_a_storey_by_its_weight_over_its_height() -> None:
+    floor = portal().assemble().floors[0]
+    soft, stiff = (portal(p_delta=on).assemble().stiffness[floor, floor] for on in (True, False))
+    lean_on = 12 * 200e9 * 1e-5 / 8.0**3
+    assert stiff + lean_on - soft == pytest.approx(1e5 * 9.80665 / 8.0, rel=1e-6)
+
+
+def test_a_section_yields_at_z_fy_and_unloads_elastically() -> None:
+    frame = portal(hardening=0.0)
+    model, section = frame.model(), SECTIONS["W18x40"]
+    # rotate the foot segment's upper node alone: all its curvature is in the two segments that meet there
+    dof, steps = model.dofs[4][2], np.concatenate([np.linspace(0, 0.2, 200), np.linspace(0.2, 0.19, 20)])
+    path = np.zeros((len(steps), model.size))
+    path[:, dof] = steps
+    moments = restoring(frame, path)[:, dof]
+    assert np.max(np.abs(moments)) <= 2 * section.plastic_modulus * 345e6 * (1 + 1e-12)  # two segments resist
+    initial, unloading = np.diff(moments)[0] / np.diff(steps)[0], np.diff(moments)[-1] / np.diff(steps)[-1]
+    assert unloading == pytest.approx(initial, rel=1e-9)
+
+
+def test_a_yielding_frame_dissipates_and_drifts_less_than_its_stiffness_says() -> None:
+    time = np.arange(800) * 0.01
+    motion = shaking(5.0 * np.sin(2 * np.pi * time / 1.48) * np.minimum(time / 2, 1), 0.01)
+    peaks = {}
+    for inelastic in (False, True):
+        run = completed(make(paper_frame(inelastic=inelastic), motion, 10 / 1024))
+        peaks[inelastic] = np.max(np.abs(run.history[:, 0]), axis=0)
+    assert (peaks[True] < 0.8 * peaks[False]).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"bays": []}, "at least 1 item"),
+        ({"hinge_fraction": 0.5}, "needs a value < 0.5"),
+        (
+            {"storeys": [{"height": 4, "mass": -1, "column": "W14x120", "beam": "W24x55"}]},
+            "storeys.0.mass = -1: needs a value > 0",
+        ),
+        ({"storeys": [{"height": 4, "mass": 1e5, "column": "W99x1", "beam": "W24x55"}]}, "unknown section 'W99x1' in storey 1"),
+        ({"storeys": [{"height": 4, "column": "W14x120", "beam": "W24x55"}]}, "storeys.0.mass: is required"),
+    ],
+)
+def test_a_frame_that_cannot_stand_is_named(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(PlanError, match=message):
+        validated(MomentFrame, {**paper_frame(), **change})
+
+
+def test_a_frame_that_p_delta_overturns_is_a_mechanism() -> None:
+    storey = {"height": 4.0, "mass": 1e9, "column": "W18x40", "beam": "W18x40"}
+    with pytest.raises(PlanError, match="mechanism"):
+        validated(MomentFrame, {"bays": [9.0], "storeys": [storey]}).assemble()
