@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rths_engine.arrays import Array
 from rths_engine.structures.assembled import Members
@@ -107,6 +108,6 @@ class FrameModel:
         return length, np.array([elongation, np.eye(6)[2] - chord, np.eye(6)[5] - chord])
 
 
-def _add(total: Array, dofs: Array, block: Array) -> None:
+def _add(total: Array, dofs: NDArray[np.int64], block: Array) -> None:
     free = np.flatnonzero(dofs >= 0)
     np.add.at(total, np.ix_(dofs[free], dofs[free]), block[np.ix_(free, free)])  # both ends of a beam share a lateral DOF

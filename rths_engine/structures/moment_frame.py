@@ -110,7 +110,8 @@ class MomentFrame(Value):
     def _member(self, model: FrameModel, start: int, end: int, name: str, lateral: int | None = None) -> None:
         first, last = np.array(model.points[start]), np.array(model.points[end])
         shares = (self.hinge_fraction, 1 - self.hinge_fraction)
-        inner = [model.node(*(first + share * (last - first)), lateral=lateral) for share in shares]
+        places = [first + share * (last - first) for share in shares]
+        inner = [model.node(float(x), float(y), lateral=lateral) for x, y in places]
         nodes = [start, *inner, end]
         section = SECTIONS[name]
         for one, two in pairwise(nodes):
