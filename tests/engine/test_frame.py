@@ -69,7 +69,7 @@ def test_a_portal_has_the_sway_stiffness_of_the_closed_form() -> None:
     column, beam = SECTIONS["W18x40"].inertia, SECTIONS["W36x135"].inertia
     ratio = beam / column  # of I / length, the lengths being equal
     exact = 24 * 200e9 * column / 8.0**3 * (1 + 6 * ratio) / (4 + 6 * ratio)
-    assert sway == pytest.approx(exact, rel=2e-3)  # the columns' elongation, which the closed form leaves out
+    assert sway == pytest.approx(exact, rel=0.01)  # less the columns' elongation, which the closed form leaves out
 
 
 def test_p_delta_softens_a_storey_by_its_weight_over_its_height() -> None:
