@@ -1,0 +1,63 @@
+"""Pages from templates: filters with units for people, and the headers that keep a page to this service's own parts."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from fastapi import Request
+from fastapi.responses import HTMLResponse
+from fastapi.templating import Jinja2Templates
+
+FRONTEND = Path(__file__).parents[2] / "frontend"
+HEADERS = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; font-src 'self'; connect-src 'self'; "
+        "base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+    ),
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "same-origin",
+    "Cache-Control": "no-cache",
+}
+
+
+def fixed(value: float | None, decimals: int = 1) -> str:
+    """A number with fixed decimals; a dash where there is none."""
+    return "–" if value is None else f"{value:.{decimals}f}"
+
+
+def ago(moment: datetime | None) -> str:
+    """How long ago, in the two largest units: `3 min 20 s`."""
+    if moment is None:
+        return "–"
+    seconds = max(0, int((datetime.now(UTC) - moment).total_seconds()))
+    days, rest = divmod(seconds, 86_400)
+    hours, rest = divmod(rest, 3600)
+    minutes, seconds = divmod(rest, 60)
+    if days:
+        return f"{days} d {hours} h"
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
+
+
+def clock(moment: datetime | None) -> str:
+    """Date and time in UTC."""
+    return "–" if moment is None else moment.astimezone(UTC).strftime("%Y-%m-%d %H:%M")
+
+
+def pace(plan: dict[str, Any]) -> str:
+    """The planned pace in words."""
+    planned = plan.get("pace", {})
+    if planned.get("kind") != "real_time":
+        return "as fast as possible"
+    return "real time" if planned["factor"] == 1 else f"{planned['factor']:g} × real time"
+
+
+templates = Jinja2Templates(directory=FRONTEND / "templates")
+templates.env.filters |= {"fixed": fixed, "ago": ago, "clock": clock, "pace": pace}
+
+
+def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:
+    return templates.TemplateResponse(request, template, context, status_code=status, headers=HEADERS)

@@ -1,0 +1,70 @@
+// @ts-check
+// The bar on every page while a test runs. Abort asks for a second press, then stops all tests and holds the queue.
+import { api, explain } from "./api.js";
+import { byId, el } from "./dom.js";
+
+const PERIOD_MS = 1500;
+const CONFIRM_MS = 5000;
+const bar = byId("abort");
+
+const names = el("span", { class: "running" });
+const note = el("span", { class: "note", role: "status" });
+const button = el("button", { type: "button", class: "danger", "aria-describedby": "abort-words" }, "Abort");
+const words = el(
+  "span",
+  { id: "abort-words", class: "words" },
+  "Stops the tests of this program and holds the queue. It is NOT the laboratory's emergency stop.",
+);
+bar.append(names, words, note, button);
+
+let armed = 0;
+
+function disarm() {
+  clearTimeout(armed);
+  armed = 0;
+  button.textContent = "Abort";
+  button.classList.remove("armed");
+}
+
+button.addEventListener("click", async () => {
+  if (!armed) {
+    button.textContent = "Press again to abort";
+    button.classList.add("armed");
+    armed = setTimeout(disarm, CONFIRM_MS);
+    return;
+  }
+  disarm();
+  note.textContent = "Stopping …";
+  try {
+    await api.post("/abort");
+    note.textContent = "Stopped; the queue is held. Release it on the Lab page.";
+    document.dispatchEvent(new Event("aborted"));
+  } catch (error) {
+    note.textContent = `Not stopped: ${explain(error)}`;
+  }
+});
+button.addEventListener("blur", disarm);
+button.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => event.key === "Escape" && disarm());
+
+async function refresh() {
+  try {
+    const { runs, total } = await api.get("/runs?state=running&limit=5");
+    if (total) {
+      if (bar.hidden) note.textContent = "";
+      names.replaceChildren(`Running: `, ...runs.map(link).flatMap((/** @type {Node} */ a, /** @type {number} */ i) => (i ? [", ", a] : [a])));
+      bar.hidden = false;
+    } else {
+      bar.hidden = !note.textContent.startsWith("Stopped") || bar.hidden;
+      if (!bar.hidden) names.textContent = "No test runs. ";
+    }
+    button.disabled = !total;
+  } catch (error) {
+    note.textContent = bar.hidden ? "" : explain(error);
+  }
+  setTimeout(refresh, PERIOD_MS);
+}
+
+/** @param {{id: string, name: string}} run */
+const link = (run) => el("a", { href: `/runs/${run.id}`, title: run.name }, run.name);
+
+refresh();

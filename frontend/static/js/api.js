@@ -1,0 +1,61 @@
+// @ts-check
+
+/** @typedef {{where: string, problem: string, value?: any, fix?: string | null}} Problem */
+
+/** A refusal of the service, or no answer at all (status 0). */
+export class ApiError extends Error {
+  /** @param {number} status @param {string} message @param {Problem[]} errors */
+  constructor(status, message, errors = []) {
+    super(message);
+    this.status = status;
+    this.errors = errors;
+  }
+}
+
+/** @param {Problem} problem */
+export function sentence({ where, problem, fix }) {
+  return [where && `${where}: `, problem, fix && ` (${fix})`].filter(Boolean).join("");
+}
+
+/** @param {string} path @param {RequestInit} [init] @returns {Promise<Response>} */
+async function request(path, init) {
+  let response;
+  try {
+    response = await fetch(`/api/v1${path}`, init);
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") throw error;
+    throw new ApiError(0, "The service does not answer. Check that it runs and that you are connected.");
+  }
+  if (response.ok) return response;
+  const body = await response.json().catch(() => ({}));
+  const errors = Array.isArray(body.errors) ? body.errors : [];
+  throw new ApiError(response.status, body.detail || body.title || `The service answered ${response.status}.`, errors);
+}
+
+/** @param {any} data @param {AbortSignal} [signal] @returns {RequestInit} */
+const json = (data, signal) => ({
+  method: "POST",
+  body: JSON.stringify(data),
+  headers: { "Content-Type": "application/json" },
+  signal,
+});
+
+export const api = {
+  /** @param {string} path @param {AbortSignal} [signal] @returns {Promise<any>} */
+  get: async (path, signal) => (await request(path, { signal })).json(),
+  /** @param {string} path @param {any} data @param {AbortSignal} [signal] @returns {Promise<any>} */
+  post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
+  /** @param {string} path @param {any} data @returns {Promise<string>} */
+  postForText: async (path, data) => (await request(path, json(data))).text(),
+  /** @param {string} path @param {string} text @param {string} type @returns {Promise<any>} */
+  postText: async (path, text, type) =>
+    (await request(path, { method: "POST", body: text, headers: { "Content-Type": type } })).json(),
+  /** @param {string} path @param {FormData} form @returns {Promise<any>} */
+  postForm: async (path, form) => (await request(path, { method: "POST", body: form })).json(),
+};
+
+/** @param {unknown} error @returns {string} */
+export function explain(error) {
+  if (!(error instanceof ApiError)) return error instanceof Error ? error.message : String(error);
+  return error.errors.length ? error.errors.map(sentence).join("; ") : error.message;
+}

@@ -1,0 +1,20 @@
+// @ts-check
+import { api } from "../api.js";
+import { el } from "../dom.js";
+
+/** Hand the plan to the browser as a YAML file. @param {any} plan */
+export async function exportYaml(plan) {
+  const text = await api.postForText("/plans/write", plan);
+  const url = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+  const name = plan.name.replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-|-$/g, "").toLowerCase() || "plan";
+  el("a", { href: url, download: `${name}.yaml` }).click();
+  URL.revokeObjectURL(url);
+}
+
+/** The plan in the YAML file chosen. @param {HTMLInputElement} input */
+export async function importYaml(input) {
+  const text = await /** @type {FileList} */ (input.files)[0].text();
+  input.value = "";
+  const read = await api.postText("/plans/read", text, "application/yaml");
+  return read.plan ?? read;
+}

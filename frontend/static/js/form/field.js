@@ -1,0 +1,57 @@
+// @ts-check
+import { el } from "../dom.js";
+import { outOfBounds, shown, toSi } from "./bounds.js";
+import { hintOf } from "./schema.js";
+
+/**
+ * Part of the form: `read` gives its value in SI, `problems` what it finds wrong by itself.
+ * @typedef {{element: HTMLElement, read: () => any, problems: () => {where: string, problem: string}[]}} Part
+ * @typedef {Record<string, any>} Node
+ */
+
+/** A labelled control with its hint and the place of its error. @param {string} path @param {string} label @param {any} control @param {string} hint */
+export function labelled(path, label, control, hint = "", unit = "") {
+  control.id = `f-${path}`;
+  control.dataset.path = path;
+  control.setAttribute("aria-describedby", hint ? `h-${path} e-${path}` : `e-${path}`);
+  return el(
+    "div",
+    { class: "field" },
+    el("label", { for: control.id }, label, unit && el("span", { class: "unit" }, `, ${unit}`)),
+    control,
+    hint && el("small", { id: `h-${path}`, class: "hint" }, hint),
+    el("small", { id: `e-${path}`, class: "error" }),
+  );
+}
+
+/** A number or a text. @param {Node} node @param {string} path @param {any} value @returns {Part} */
+export function scalarField(node, path, value) {
+  const numeric = node.type === "number" || node.type === "integer";
+  const text = numeric ? shown(value, node) : (value ?? "");
+  const control = node.maxLength > 1000 ? el("textarea", { rows: 2 }) : el("input", { type: "text", autocomplete: "off" });
+  if (numeric) control.inputMode = "decimal";
+  control.value = text;
+  const read = () => {
+    if (control.value === text) return value;
+    if (numeric) return toSi(control.value, node);
+    return control.value === "" && node.nullable ? null : control.value;
+  };
+  const problems = () => {
+    const problem = numeric ? outOfBounds(read(), node) : null;
+    return problem ? [{ where: path, problem }] : [];
+  };
+  return { element: labelled(path, node.title, control, hintOf(node), node.shown_label), read, problems };
+}
+
+/** One of some choices. @param {string} path @param {string} label @param {Map<string, string>} choices @param {string} value */
+export function choiceField(path, label, choices, value, hint = "") {
+  const options = [...choices].map(([key, text]) => el("option", { value: key, selected: key === value }, text));
+  const control = el("select", {}, ...options);
+  return { element: labelled(path, label, control, hint), control, read: () => control.value, problems: () => [] };
+}
+
+/** A value that the form keeps as it is. @param {Node} node @param {any} value @returns {Part} */
+export function keptField(node, value) {
+  const what = Array.isArray(value) ? `${value.length} values` : String(value);
+  return { element: el("p", { class: "muted" }, `${node.title}: ${what}, kept as they are`), read: () => value, problems: () => [] };
+}

@@ -1,0 +1,65 @@
+// @ts-check
+import { el } from "../dom.js";
+
+/** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
+
+/**
+ * A list whose items can be added, duplicated and removed (stations, storeys).
+ * @param {Schema} schema @param {Node} node @param {string} path @param {any[]} values
+ * @param {(schema: Schema, node: Node, path: string, value: any) => Part} part
+ * @returns {Part}
+ */
+export function listPart(schema, node, path, values, part) {
+  const item = schema.resolve(node.items);
+  const singular = item.title.toLowerCase();
+  /** @type {Part[]} */
+  let parts = [];
+  const items = el("div", { class: "items" });
+  const add = el("button", { type: "button", class: "quiet", on: { click: () => insert(parts.length, schema.initial(node.items)) } }, `Add a ${singular}`);
+
+  const build = (/** @type {any[]} */ read) => {
+    parts = read.map((value, i) => part(schema, { ...item, title: `${item.title} ${i + 1}` }, `${path}.${i}`, value));
+    items.replaceChildren(...parts.map((one, i) => withButtons(one.element, i)));
+    add.disabled = parts.length >= (node.maxItems ?? Infinity);
+  };
+  const changed = () => items.dispatchEvent(new Event("input", { bubbles: true }));
+  const insert = (/** @type {number} */ at, /** @type {any} */ value) => {
+    const read = parts.map((one) => one.read());
+    build([...read.slice(0, at), named(value, read), ...read.slice(at)]);
+    items.children[at].querySelector("input, select")?.focus();
+    changed();
+  };
+  const remove = (/** @type {number} */ at) => {
+    build(parts.map((one) => one.read()).filter((_, i) => i !== at));
+    (items.children[Math.min(at, parts.length - 1)]?.querySelector("input, select") ?? add).focus();
+    changed();
+  };
+  const withButtons = (/** @type {HTMLElement} */ element, /** @type {number} */ i) => {
+    const button = (/** @type {string} */ verb, /** @type {() => void} */ click) =>
+      el("button", { type: "button", class: "quiet small", "aria-label": `${verb} ${singular} ${i + 1}`, on: { click } }, verb);
+    const removable = parts.length > (node.minItems ?? 0);
+    element.append(
+      el(
+        "div",
+        { class: "actions" },
+        button("Duplicate", () => insert(i + 1, structuredClone(parts[i].read()))),
+        removable && button("Remove", () => remove(i)),
+      ),
+    );
+    return element;
+  };
+
+  build(values ?? []);
+  const element = el("div", { class: "list", "data-path": path, tabindex: "-1" }, items, add, el("small", { id: `e-${path}`, class: "error" }));
+  return { element, read: () => parts.map((one) => one.read()), problems: () => parts.flatMap((one) => one.problems()) };
+}
+
+/** A new item whose name no other bears. @param {any} value @param {any[]} others */
+function named(value, others) {
+  if (!value || typeof value.name !== "string") return value;
+  const taken = new Set(others.map((other) => other.name));
+  const base = value.name.replace(/ \d+$/, "");
+  let name = value.name;
+  for (let n = 2; taken.has(name); n++) name = `${base} ${n}`;
+  return { ...value, name };
+}

@@ -1,0 +1,128 @@
+// @ts-check
+import { ApiError, api, explain } from "../api.js";
+import { byId, el } from "../dom.js";
+import { planProblems } from "./bounds.js";
+import { liveCheck } from "./checker.js";
+import { exportYaml, importYaml } from "./exchange.js";
+import { PlanForm } from "./plan_form.js";
+import { Schema } from "./schema.js";
+import { problemList, summaryOf } from "./summary.js";
+
+const WHO = "rths.name";
+const DEFAULT_TEMPLATE = "table3-04";
+
+const verdict = byId("verdict");
+const who = byId("who");
+const templates = byId("template");
+/** @type {PlanForm} */
+let form;
+/** @type {{template: string | null, digest: string | null}} the template the form was filled from, and its digest */
+let origin = { template: null, digest: null };
+
+const check = liveCheck(() => form.read(), told, (error) => (verdict.textContent = explain(error)));
+
+/** @param {any | null} checked @param {any[]} refused */
+function told(checked, refused) {
+  const own = form.problems();
+  const paths = new Set(own.map((problem) => problem.where));
+  const problems = [...own, ...refused.filter((problem) => !paths.has(problem.where))];
+  form.mark(problems);
+  if (problems.length) {
+    const count = problems.length === 1 ? "One thing needs attention" : `${problems.length} things need attention`;
+    verdict.replaceChildren(el("p", { class: "error" }, count), problemList(problems, (where) => form.control(where)));
+    return problems;
+  }
+  if (checked) {
+    origin.digest ??= checked.digest;
+    const changed = origin.template && origin.digest !== checked.digest;
+    form.kept.template = changed ? null : origin.template;
+    const note = changed && el("p", { class: "muted" }, `Changed from ${origin.template}: its result is not the paper's row.`);
+    verdict.replaceChildren(el("p", { class: "good" }, "Ready to queue"), ...summaryOf(checked), note || "");
+  }
+  return problems;
+}
+
+/** Fill the form. @param {any} plan */
+function fill(plan) {
+  origin = { template: plan.template ?? null, digest: null };
+  form.write(plan);
+  check.now();
+}
+
+/** @param {string} name */
+async function fillFromTemplate(name) {
+  const found = await api.get(`/templates/${encodeURIComponent(name)}`);
+  fill(found.plan ?? found);
+}
+
+/** @param {Event} event */
+async function submit(event) {
+  event.preventDefault();
+  if (!who.value.trim()) return refuseWho();
+  localStorage.setItem(WHO, who.value.trim());
+  const button = byId("submit");
+  button.disabled = true;
+  try {
+    const own = form.problems();
+    if (own.length) return focusFirst(told(null, own));
+    const checked = await api.post("/plans/check", form.read());
+    told(checked, []);
+    const { runs } = await api.post("/runs", { plan: form.read(), submitted_by: who.value.trim() });
+    location.assign(`/runs/${runs[0].id}`);
+  } catch (error) {
+    if (error instanceof ApiError && error.status < 500 && error.status > 0) focusFirst(told(null, planProblems(error)));
+    else verdict.replaceChildren(el("p", { class: "error" }, explain(error)));
+  } finally {
+    button.disabled = false;
+  }
+}
+
+function refuseWho() {
+  byId("e-who").textContent = "is required: it is kept with the run (it is remembered here)";
+  who.setAttribute("aria-invalid", "true");
+  who.focus();
+}
+
+/** @param {any[]} problems */
+function focusFirst(problems) {
+  const controls = problems.map(({ where }) => form.control(where)).filter((control) => control !== null);
+  controls.sort((a, b) => (a.compareDocumentPosition(b) & Node.DOCUMENT_POSITION_FOLLOWING ? -1 : 1));
+  (controls[0] ?? verdict).focus();
+}
+
+async function start() {
+  const [schema, motions, offered] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates")]);
+  form = new PlanForm(byId("plan"), new Schema(schema), motions.motions ?? motions);
+  const list = offered.templates ?? offered;
+  templates.append(...list.map((/** @type {any} */ one) => el("option", { value: one.name ?? one }, one.title ?? one.name ?? one)));
+  const asked = new URLSearchParams(location.search);
+  if (asked.get("from")) {
+    const { plan } = await api.get(`/runs/${encodeURIComponent(asked.get("from") ?? "")}`);
+    return fill(plan);
+  }
+  templates.value = asked.get("template") ?? DEFAULT_TEMPLATE;
+  await fillFromTemplate(templates.value);
+}
+
+/** @param {unknown} error */
+const complain = (error) => verdict.replaceChildren(el("p", { class: "error" }, explain(error)));
+
+who.value = localStorage.getItem(WHO) ?? "";
+who.addEventListener("input", () => {
+  who.removeAttribute("aria-invalid");
+  byId("e-who").textContent = "";
+});
+byId("plan").addEventListener("input", () => check.soon());
+byId("plan").addEventListener("change", () => check.soon());
+byId("new-test").addEventListener("submit", submit);
+templates.addEventListener("change", () => templates.value && fillFromTemplate(templates.value).catch(complain));
+byId("export").addEventListener("click", () => exportYaml(form.read()).catch(complain));
+byId("import").addEventListener("change", (/** @type {any} */ event) =>
+  importYaml(event.target)
+    .then((plan) => {
+      templates.value = "";
+      fill(plan);
+    })
+    .catch(complain),
+);
+start().catch(complain);

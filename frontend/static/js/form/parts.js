@@ -1,0 +1,66 @@
+// @ts-check
+import { el } from "../dom.js";
+import { choiceField, keptField, scalarField } from "./field.js";
+import { listPart } from "./list.js";
+import { hintOf, kindLabel } from "./schema.js";
+
+/** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
+
+/** The part of the form for one node of the schema. @param {Schema} schema @param {Node} unresolved @param {string} path @param {any} value @returns {Part} */
+export function part(schema, unresolved, path, value) {
+  const node = schema.resolve(unresolved);
+  if (node.oneOf) return unionPart(schema, node, path, value);
+  if (node.type === "object") return groupPart(schema, node, path, value, node.title);
+  if (node.type === "array") {
+    return node.items.$ref ? listPart(schema, node, path, value, part) : keptField(node, value);
+  }
+  return scalarField(node, path, value);
+}
+
+/** The fields of an object, without `kind`, which is read back as it stands. @param {Schema} schema @param {Node} node @param {string} path @param {any} value */
+export function fieldsOf(schema, node, path, value) {
+  const names = Object.keys(node.properties).filter((name) => name !== "kind");
+  const parts = names.map((name) => part(schema, node.properties[name], path ? `${path}.${name}` : name, value?.[name]));
+  const kind = node.properties.kind ? { kind: node.properties.kind.const } : {};
+  return {
+    elements: parts.map((one) => one.element),
+    read: () => ({ ...kind, ...Object.fromEntries(names.map((name, i) => [name, parts[i].read()])) }),
+    problems: () => parts.flatMap((one) => one.problems()),
+  };
+}
+
+/** Fields of an object under a heading. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @param {string} title @returns {Part} */
+function groupPart(schema, node, path, value, title) {
+  const fields = fieldsOf(schema, node, path, value);
+  const heading = node.properties.kind && title !== kindLabel(node) ? `${title}: ${kindLabel(node).toLowerCase()}` : title;
+  const element = el("fieldset", { class: "group", "data-path": path }, el("legend", {}, heading), el("div", { class: "fields" }, ...fields.elements));
+  return { element, read: fields.read, problems: fields.problems };
+}
+
+/** A choice of kinds whose fields follow the choice; what was typed for a kind is kept while others are tried. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */
+function unionPart(schema, node, path, value) {
+  const kinds = schema.kinds(node);
+  const first = value?.kind ?? [...kinds.keys()][0];
+  const labels = new Map([...kinds].map(([kind, option]) => [kind, kindLabel(option)]));
+  const choice = choiceField(`${path}.kind`, node.title, labels, first);
+  const body = el("div", { class: "fields" });
+  /** @type {Map<string, ReturnType<typeof fieldsOf>>} */
+  const made = new Map();
+  const current = () => /** @type {ReturnType<typeof fieldsOf>} */ (made.get(choice.read()));
+  const hint = el("small", { class: "hint" });
+  const select = () => {
+    const kind = choice.read();
+    const option = /** @type {Node} */ (kinds.get(kind));
+    if (!made.has(kind)) made.set(kind, fieldsOf(schema, option, path, kind === value?.kind ? value : schema.initial(option)));
+    body.replaceChildren(choice.element, ...current().elements);
+    hint.textContent = hintOf(option);
+  };
+  choice.control.addEventListener("change", () => {
+    select();
+    choice.control.focus();
+  });
+  select();
+  choice.element.append(hint);
+  const element = el("fieldset", { class: "group", "data-path": path }, el("legend", {}, node.title), body);
+  return { element, read: () => current().read(), problems: () => current().problems() };
+}

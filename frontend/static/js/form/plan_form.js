@@ -1,0 +1,89 @@
+// @ts-check
+import { el } from "../dom.js";
+import { motionPart } from "./motion.js";
+import { part } from "./parts.js";
+
+/** @typedef {import("./field.js").Part} Part @typedef {import("./schema.js").Schema} Schema @typedef {{where: string, problem: string, fix?: string | null}} Problem */
+
+const SECTIONS = [
+  { title: "Test", names: ["name", "notes"] },
+  { title: "Motion", names: ["motion"] },
+  { title: "Structure", names: ["structure"] },
+  { title: "Integration", names: ["integrator", "controller_rate"] },
+  { title: "Stations: actuator, specimen, compensator, limits", names: ["stations"] },
+  { title: "Duration, pace and seed", names: ["duration", "pace", "seed"] },
+];
+const KEPT = ["schema", "template"];
+
+/** The whole plan as a form made from its schema. */
+export class PlanForm {
+  /** @param {HTMLElement} host @param {Schema} schema @param {any[]} records */
+  constructor(host, schema, records) {
+    this.host = host;
+    this.schema = schema;
+    this.records = records;
+    /** @type {Map<string, Part>} */
+    this.parts = new Map();
+    /** @type {any} */
+    this.kept = {};
+  }
+
+  /** Show a plan. @param {any} plan */
+  write(plan) {
+    const properties = this.schema.root.properties;
+    this.kept = Object.fromEntries(KEPT.map((name) => [name, plan[name] ?? null]));
+    this.parts.clear();
+    const sections = SECTIONS.map(({ title, names }) => {
+      for (const name of names) this.parts.set(name, this.#part(properties[name], name, plan[name]));
+      const id = `section-${names[0]}`;
+      const elements = names.map((name) => /** @type {Part} */ (this.parts.get(name)).element);
+      return el("section", { "aria-labelledby": id }, el("h2", { id }, title), el("div", { class: "fields" }, ...elements));
+    });
+    this.host.replaceChildren(...sections);
+  }
+
+  /** @param {any} node @param {string} name @param {any} value */
+  #part(node, name, value) {
+    if (name === "motion") return motionPart(this.schema, node, value, this.records);
+    return part(this.schema, node, name, value ?? this.schema.initial(node));
+  }
+
+  /** The plan as it stands, in SI. @returns {any} */
+  read() {
+    return { ...this.kept, ...Object.fromEntries([...this.parts].map(([name, one]) => [name, one.read()])) };
+  }
+
+  /** What the form finds wrong by itself, with bounds in the units shown. @returns {Problem[]} */
+  problems() {
+    return [...this.parts.values()].flatMap((one) => one.problems());
+  }
+
+  /** Show each problem beside its field, the first told of a field; those without a field are returned. @param {Problem[]} problems */
+  mark(problems) {
+    for (const control of this.host.querySelectorAll("[aria-invalid]")) control.removeAttribute("aria-invalid");
+    for (const place of this.host.querySelectorAll("small.error")) place.textContent = "";
+    return problems.filter(({ where, problem, fix }) => {
+      const control = this.control(where);
+      const place = control && document.getElementById(`e-${control.dataset.path}`);
+      if (!control || !place) return true;
+      if (control.hasAttribute("aria-invalid")) return false;
+      control.setAttribute("aria-invalid", "true");
+      place.textContent = fix ? `${problem} (${fix})` : problem;
+      return false;
+    });
+  }
+
+  /** The control of a path, or the nearest above it that can show an error. @param {string} where @returns {HTMLElement | null} */
+  control(where) {
+    for (let path = where; path; path = path.slice(0, Math.max(0, path.lastIndexOf(".")))) {
+      const found = document.getElementById(`f-${path}`) ?? document.getElementById(`f-${path}.kind`) ?? this.#list(path);
+      if (found) return found;
+    }
+    return null;
+  }
+
+  /** @param {string} path @returns {HTMLElement | null} */
+  #list(path) {
+    return document.getElementById(`e-${path}`) && this.host.querySelector(`.list[data-path="${CSS.escape(path)}"]`);
+  }
+}

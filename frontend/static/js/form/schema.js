@@ -1,0 +1,67 @@
+// @ts-check
+/**
+ * One node of the plan's JSON schema, references resolved.
+ * @typedef {Record<string, any>} Node
+ */
+
+/** Reads the plan's JSON schema: the one source of labels, units, bounds and defaults of the form. */
+export class Schema {
+  /** @param {Node} root */
+  constructor(root) {
+    this.root = root;
+  }
+
+  /** The node itself with what its reference and its nullable form hold; `nullable` tells whether null is allowed. @param {Node} node @returns {Node} */
+  resolve(node) {
+    if (node.$ref) {
+      const { $ref, ...own } = node;
+      return { ...this.resolve(this.root.$defs[$ref.split("/").pop()]), ...own };
+    }
+    const rest = node.anyOf?.filter((/** @type {Node} */ option) => option.type !== "null");
+    if (rest?.length === 1) {
+      const { anyOf, ...own } = node;
+      return { ...this.resolve(rest[0]), ...own, nullable: rest.length < anyOf.length };
+    }
+    return node;
+  }
+
+  /** The kinds a union offers, by name. @param {Node} node @returns {Map<string, Node>} */
+  kinds(node) {
+    const mapping = Object.entries(node.discriminator?.mapping ?? {});
+    return new Map(mapping.map(([kind, $ref]) => [kind, this.resolve({ $ref })]).sort(byOrderIn(node)));
+  }
+
+  /** A value to start from: the default, or the defaults of all fields. @param {Node} node @returns {any} */
+  initial(node) {
+    const found = this.resolve(node);
+    if ("default" in found) return structuredClone(found.default);
+    if ("const" in found) return found.const;
+    if (found.oneOf) return this.initial(found.oneOf[0]);
+    if (found.type === "object") {
+      return Object.fromEntries(Object.entries(found.properties).map(([name, property]) => [name, this.initial(property)]));
+    }
+    if (found.type === "array") return found.minItems && found.items.$ref ? [this.initial(found.items)] : [];
+    return found.type === "string" ? "" : null;
+  }
+}
+
+/** Order the kinds as the union lists them. @param {Node} node */
+function byOrderIn(node) {
+  const order = node.oneOf.map((/** @type {Node} */ option) => option.$ref?.split("/").pop());
+  return (/** @type {[string, Node]} */ [a], /** @type {[string, Node]} */ [b]) =>
+    order.indexOf(name(node, a)) - order.indexOf(name(node, b));
+}
+
+/** @param {Node} node @param {string} kind */
+const name = (node, kind) => node.discriminator.mapping[kind].split("/").pop();
+
+/** The label of a kind: its title in words, `FirstOrderDelay` as `First order delay`. @param {Node} node */
+export function kindLabel(node) {
+  const words = node.title.replace(/([a-z])([A-Z])/g, "$1 $2");
+  return words[0] + words.slice(1).replace(/\b[A-Z](?=[a-z])/g, (/** @type {string} */ letter) => letter.toLowerCase());
+}
+
+/** The first line of a description that is prose, which helps in a form; formulas stay in the documentation. @param {Node} node */
+export function hintOf(node) {
+  return node.description && !node.description.includes("\n") ? node.description : "";
+}

@@ -1,0 +1,43 @@
+// @ts-check
+import { el } from "../dom.js";
+import { number } from "../format.js";
+
+/** The facts of a checked plan. @param {any} checked @returns {HTMLElement[]} */
+export function summaryOf({ digest, summary, warnings }) {
+  const periods = (summary.periods_s ?? []).slice(0, 2).map((/** @type {number} */ period, /** @type {number} */ i) => [`T${i + 1}`, `${number(period)} s`]);
+  const rows = [
+    ...periods,
+    ["Steps", summary.steps],
+    ["Duration", `${number(summary.duration_s)} s`],
+    ["Scale factor", summary.scale_factor === undefined ? null : number(summary.scale_factor)],
+    ["PGA as scaled", summary.pga === undefined ? null : `${number(summary.pga / 9.80665, 3)} g`],
+    ["Digest", digest],
+  ];
+  const facts = rows
+    .filter(([, value]) => value != null)
+    .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
+  const told = (warnings ?? []).map((/** @type {any} */ warning) => el("li", {}, warning.problem ? `${warning.where}: ${warning.problem}` : String(warning)));
+  return [el("dl", { class: "facts" }, ...facts), ...(told.length ? [el("ul", { class: "warnings" }, ...told)] : [])];
+}
+
+/** Problems as links to their fields. @param {any[]} problems @param {(where: string) => HTMLElement | null} control */
+export function problemList(problems, control) {
+  const items = problems.map(({ where, problem, fix }) => {
+    const text = [problem, fix && `(${fix})`].filter(Boolean).join(" ");
+    const target = control(where);
+    if (!target) return el("li", {}, [where, text].filter(Boolean).join(": "));
+    const go = (/** @type {Event} */ event) => {
+      event.preventDefault();
+      target.focus();
+    };
+    return el("li", {}, el("a", { href: `#${target.id}`, on: { click: go } }, labelOf(target, where)), `: ${text}`);
+  });
+  return el("ul", { class: "problems" }, ...items);
+}
+
+/** @param {HTMLElement} control @param {string} where */
+function labelOf(control, where) {
+  const station = /^stations\.(\d+)\./.exec(where);
+  const label = document.querySelector(`label[for="${CSS.escape(control.id)}"]`)?.textContent ?? where;
+  return station ? `Station ${Number(station[1]) + 1}, ${label}` : label;
+}

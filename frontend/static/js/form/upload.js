@@ -1,0 +1,75 @@
+// @ts-check
+import { ApiError, api, sentence } from "../api.js";
+import { el } from "../dom.js";
+import { labelled } from "./field.js";
+import { previewOf } from "./preview.js";
+
+const UNITS = ["g", "m/s^2", "cm/s^2", "mm/s^2", "in/s^2"];
+
+/** A file's way into the library: preview first, then add. @param {(motion: any) => void} added @returns {HTMLElement} */
+export function uploadBox(added) {
+  const file = el("input", { type: "file", accept: ".at2,.AT2,.v2,.V2,.txt,.csv,.dat,.tsv,.acc,text/*" });
+  const unit = el("select", {}, el("option", { value: "" }, "as the file says"), ...UNITS.map((name) => el("option", { value: name }, name)));
+  const dt = el("input", { type: "text", inputmode: "decimal", placeholder: "as the file says", autocomplete: "off" });
+  const name = el("input", { type: "text", placeholder: "from the file's name", autocomplete: "off" });
+  const told = el("p", { class: "error", role: "alert" });
+  const shown = el("div");
+  const add = el("button", { type: "button", on: { click: () => keep() } }, "Add to the library");
+  add.disabled = true;
+
+  const form = () => {
+    const data = new FormData();
+    data.set("file", file.files[0]);
+    for (const [key, control] of Object.entries({ unit, dt, name })) if (control.value.trim()) data.set(key, control.value.trim());
+    return data;
+  };
+  const refused = (/** @type {unknown} */ error) => {
+    if (!(error instanceof ApiError)) throw error;
+    told.textContent = error.errors.map(sentence).join("; ") || error.message;
+    const asked = error.errors.map((problem) => problem.where).find((where) => /(unit|dt)$/.test(where ?? ""));
+    if (asked) (asked.endsWith("dt") ? dt : unit).focus();
+  };
+  const look = async () => {
+    add.disabled = true;
+    told.textContent = "";
+    shown.replaceChildren();
+    if (!file.files.length) return;
+    try {
+      shown.replaceChildren(previewOf(await api.postForm("/motions/preview", form())));
+      add.disabled = false;
+    } catch (error) {
+      refused(error);
+    }
+  };
+  const keep = async () => {
+    add.disabled = true;
+    try {
+      const motion = await api.postForm("/motions", form());
+      shown.replaceChildren(el("p", { role: "status" }, `${motion.name} is in the library and chosen.`));
+      file.value = "";
+      added(motion);
+    } catch (error) {
+      refused(error);
+    }
+  };
+  for (const control of [file, unit, dt]) control.addEventListener("change", look);
+
+  const box = el(
+    "details",
+    { class: "upload" },
+    el("summary", {}, "Bring in a record: PEER AT2, COSMOS V2 or columns of numbers"),
+    el(
+      "div",
+      { class: "fields" },
+      labelled("upload.file", "File", file),
+      labelled("upload.unit", "Unit of the acceleration", unit),
+      labelled("upload.dt", "Step", dt, "", "s"),
+      labelled("upload.name", "Name in the library", name),
+    ),
+    told,
+    shown,
+    add,
+  );
+  for (const event of ["input", "change"]) box.addEventListener(event, (/** @type {Event} */ e) => e.stopPropagation());
+  return box;
+}

@@ -1,0 +1,57 @@
+// @ts-check
+/** @typedef {import("./store.js").Store} Store */
+
+/** The part of a run that fits a chart's pixels: two points a column, in the order in which the signal passed them. */
+export class Envelope {
+  /** @param {number} series */
+  constructor(series) {
+    this.points = 0;
+    this.time = new Float64Array(0);
+    this.values = Array.from({ length: series }, () => new Float32Array(0));
+    /** @type {(Float64Array | Float32Array)[]} */
+    this.views = [];
+  }
+
+  /**
+   * Fill with the buckets between two times, in at most `columns` columns; the points' number is kept in `points`.
+   * @param {Store} store @param {number[]} channels @param {number} from @param {number} to @param {number} columns
+   */
+  fill(store, channels, from, to, columns) {
+    this.#reserve(2 * columns);
+    const first = Math.max(0, Math.floor(from / store.step) - 1);
+    const end = Math.min(store.count, Math.ceil(to / store.step) + 1);
+    const width = Math.max(1, Math.ceil((end - first) / columns));
+    const used = Math.max(0, Math.ceil((end - first) / width));
+    for (let column = 0; column < used; column++) {
+      const upper = Math.min(first + (column + 1) * width, end);
+      this.time[2 * column] = (upper - width / 2) * store.step;
+      this.time[2 * column + 1] = upper * store.step;
+    }
+    channels.forEach((channel, series) => this.#column(store, channel, this.values[series], first, end, width));
+    this.points = 2 * used;
+    this.views = [this.time.subarray(0, this.points), ...this.values.map((values) => values.subarray(0, this.points))];
+  }
+
+  /** @param {Store} store @param {number} channel @param {Float32Array} out @param {number} first @param {number} end @param {number} width */
+  #column(store, channel, out, first, end, width) {
+    const [min, max, last] = [store.min[channel], store.max[channel], store.last[channel]];
+    for (let start = first, i = 0; start < end; start += width, i += 2) {
+      const upper = Math.min(start + width, end);
+      let [low, high] = [min[start], max[start]];
+      for (let k = start + 1; k < upper; k++) {
+        if (min[k] < low) low = min[k];
+        if (max[k] > high) high = max[k];
+      }
+      const rising = last[upper - 1] - low > high - last[upper - 1];
+      out[i] = rising ? low : high;
+      out[i + 1] = rising ? high : low;
+    }
+  }
+
+  /** @param {number} size */
+  #reserve(size) {
+    if (this.time.length >= size) return;
+    this.time = new Float64Array(size);
+    this.values = this.values.map(() => new Float32Array(size));
+  }
+}

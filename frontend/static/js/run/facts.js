@@ -1,0 +1,50 @@
+// @ts-check
+import { el } from "../dom.js";
+import { fixed, size, when } from "../format.js";
+
+const ENDED = ["completed", "tripped", "cancelled", "failed"];
+
+/** @param {string} state */
+export const ended = (state) => ENDED.includes(state);
+
+/** What is known of a run besides its measures, as terms and their values. @param {any} run @returns {HTMLElement[]} */
+export function facts(run) {
+  const rows = [
+    ["Submitted", `${when(run.submitted_at)} by ${run.submitted_by || "unknown"}`],
+    ["Started", when(run.started_at)],
+    ["Ended", when(run.finished_at)],
+    ["Record", motion(run.plan?.motion)],
+    ["Template", run.template],
+    ["Seed", run.seed],
+    ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker of the one before died)` : null],
+    ["Digest of the plan", run.digest],
+    ["Code version", run.code_version],
+    ["Floor peaks", run.floors_peak_mm?.length ? `${run.floors_peak_mm.map((/** @type {number} */ x) => fixed(x)).join(", ")} mm` : null],
+    ["Recording", run.recording && `${size(run.recording.size)}, SHA-256 ${run.recording.sha256}`],
+  ];
+  return rows
+    .filter(([, value]) => value != null && value !== "" && value !== "–")
+    .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
+}
+
+/** @param {any} planned */
+function motion(planned) {
+  if (!planned) return null;
+  const { scale } = planned;
+  const how = { factor: `× ${scale?.factor}`, pga: `scaled to PGA ${fixed(scale?.pga / 9.80665, 3)} g`, sa_t1: `scaled to Sa(T1) ${fixed(scale?.sa / 9.80665, 3)} g` };
+  return `${planned.record ?? "written in the plan"} ${how[/** @type {keyof typeof how} */ (scale?.kind)] ?? ""}`;
+}
+
+/** Why a run ended, for people, or null where it simply completed or has not ended. @param {any} run */
+export function reason(run) {
+  if (run.trip?.sentence) return `Tripped: ${run.trip.sentence}`;
+  if (run.state === "completed" || !ended(run.state)) return null;
+  return run.reason || run.state;
+}
+
+/** Simulated and elapsed time against the clock. @param {any} at @returns {string} */
+export function clock({ simulated_s, duration_s, elapsed_s }) {
+  const parts = [`${fixed(simulated_s, 2)} of ${fixed(duration_s, 2)} s simulated`];
+  if (elapsed_s > 0) parts.push(`${fixed(elapsed_s, 1)} s elapsed`, `${fixed(simulated_s / elapsed_s, 2)} × real time`);
+  return parts.join(" · ");
+}

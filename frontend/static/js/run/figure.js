@@ -1,0 +1,39 @@
+// @ts-check
+import { el } from "../dom.js";
+import { number } from "../format.js";
+
+/** @typedef {{index: number, label: string, unit: string, colour: string}} Series */
+
+const KEYS = "Arrow keys move the cursor, plus and minus zoom, Escape shows the whole test.";
+
+/** A figure with its heading, the series' values beside their names, and the box for the plot, which the keyboard can reach. */
+export class Figure {
+  /** @param {string} title @param {string} unit @param {Series[]} series @param {boolean} keys whether the plot takes keys */
+  constructor(title, unit, series, keys) {
+    this.title = title;
+    this.unit = unit;
+    this.series = series;
+    this.keys = keys;
+    this.values = series.map(() => el("output", { class: "value", "aria-live": "off" }, "–"));
+    const entries = series.map((one, i) =>
+      el("span", { class: "entry" }, el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i]),
+    );
+    this.at = el("span", { class: "at muted" });
+    this.plot = el("div", { class: "plot", role: "img", tabindex: "0" });
+    this.element = el(
+      "figure",
+      { class: "chart" },
+      el("figcaption", {}, el("strong", {}, unit ? `${title}, ${unit}` : title), ...entries, this.at),
+      this.plot,
+    );
+  }
+
+  /** Show values and say them in the plot's description. @param {number | null} time @param {number[]} values @param {boolean} atCursor */
+  show(time, values, atCursor) {
+    values.forEach((value, i) => (this.values[i].textContent = number(value)));
+    this.at.textContent = atCursor && time !== null ? `at ${time.toFixed(3)} s` : "";
+    const said = this.series.map((one, i) => `${one.label} ${number(values[i])} ${one.unit}`.trim()).join(", ");
+    const when = time === null ? "no data yet" : `at ${time.toFixed(2)} s: ${said}`;
+    this.plot.setAttribute("aria-label", `${this.title}, ${when}. ${this.keys ? KEYS : ""}`);
+  }
+}

@@ -1,0 +1,92 @@
+// @ts-check
+import uPlot from "/static/vendor/uplot/uPlot.esm.js";
+import { Figure } from "./figure.js";
+import { axis, fit, padded, themed } from "./plot_style.js";
+
+/** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
+
+/** Force against displacement, from the last sample of each bucket in the range of time shown. */
+export class LoopChart {
+  visible = false;
+
+  /** @param {View} view @param {string} title @param {Series} x @param {Series} y */
+  constructor(view, title, x, y) {
+    this.view = view;
+    this.x = x;
+    this.y = y;
+    this.figure = new Figure(title, "", [x, y], false);
+    this.box = this.figure.plot;
+    this.plot = null;
+    view.add(this.figure.element, this);
+  }
+
+  draw() {
+    this.plot ??= this.#create();
+    this.plot.setData(this.#points());
+  }
+
+  readout() {
+    const { store } = this.view;
+    const k = store.count - 1;
+    const values = [this.x, this.y].map((one) => (k < 0 ? NaN : store.last[one.index][k]));
+    this.figure.show(k < 0 ? null : store.time(k), values, false);
+  }
+
+  #points() {
+    const { store } = this.view;
+    const [from, to] = this.view.range();
+    const first = Math.max(0, Math.floor(from / store.step));
+    const end = Math.max(first, Math.min(store.count, Math.ceil(to / store.step)));
+    return [null, [store.last[this.x.index].subarray(first, end), store.last[this.y.index].subarray(first, end)]];
+  }
+
+  #create() {
+    const { store } = this.view;
+    const around = (/** @type {number} */ channel) => () => padded(store.lowest[channel], store.highest[channel]);
+    const named = (/** @type {Series} */ one) => (one.unit ? `${one.label}, ${one.unit}` : one.label);
+    const plot = new uPlot(
+      {
+        mode: 2,
+        width: this.box.clientWidth,
+        height: this.box.clientHeight,
+        legend: { show: false },
+        cursor: { show: false },
+        scales: { x: { time: false, range: around(this.x.index) }, y: { range: around(this.y.index) } },
+        axes: [axis(named(this.x), 34), axis(undefined, 52)],
+        series: [null, { label: this.y.label, stroke: () => themed(this.y.colour), width: 1, facets: facets(), paths: loop }],
+      },
+      this.#points(),
+      this.box,
+    );
+    fit(this.box, (width, height) => {
+      plot.setSize({ width, height });
+      this.view.redraw();
+    });
+    return plot;
+  }
+}
+
+const facets = () => [
+  { scale: "x", auto: true },
+  { scale: "y", auto: true },
+];
+
+/** A path through all points in their order, leaving out those that fall on the pixel before. @param {any} u @param {number} series */
+function loop(u, series) {
+  const [xs, ys] = u.data[series];
+  const { left, top, width, height } = u.bbox;
+  const [x, y] = [u.scales.x, u.scales.y];
+  const [px, py] = [width / (x.max - x.min), height / (y.max - y.min)];
+  const stroke = new Path2D();
+  let [lastX, lastY] = [NaN, NaN];
+  for (let i = 0; i < xs.length; i++) {
+    const atX = Math.round(left + (xs[i] - x.min) * px);
+    const atY = Math.round(top + height - (ys[i] - y.min) * py);
+    if (atX === lastX && atY === lastY) continue;
+    if (i) stroke.lineTo(atX, atY);
+    else stroke.moveTo(atX, atY);
+    lastX = atX;
+    lastY = atY;
+  }
+  return { stroke, fill: null, clip: null, band: null, gaps: null, flags: 1 };
+}

@@ -1,0 +1,144 @@
+// @ts-check
+import { api, explain } from "../api.js";
+import { byId, el } from "../dom.js";
+import { buildCharts } from "./charts.js";
+import { clock, ended, facts, reason } from "./facts.js";
+import { follow } from "./live.js";
+import { metricsTable } from "./metrics.js";
+import { Store } from "./store.js";
+
+const POLL_MS = 2000;
+const id = byId("run").dataset.id;
+
+/** @type {any} */
+let run = null;
+/** @type {any} */
+let paper = null;
+/** @type {Store | null} */
+let store = null;
+/** @type {import("./view.js").View | null} */
+let view = null;
+let attempt = 0;
+
+async function load() {
+  run = await api.get(`/runs/${id}`);
+  if (run.template?.startsWith("table3-")) paper ??= (await api.get(`/templates/${run.template}`)).paper ?? null;
+  show();
+}
+
+function show() {
+  const state = byId("state");
+  state.textContent = run.state;
+  state.className = `badge ${run.state}`;
+  document.title = `${run.state === "running" ? "▶ " : ""}${run.name} · RTHS control room`;
+  const why = reason(run);
+  const banner = byId("reason");
+  banner.hidden = !why;
+  banner.textContent = why ?? "";
+  banner.classList.toggle("bad", run.state !== "cancelled");
+  byId("facts").replaceChildren(...facts(run));
+  showProgress(run);
+  showActions();
+  const measured = ended(run.state) && run.stations?.length > 0 && run.recording;
+  byId("metrics").hidden = !measured;
+  if (measured) byId("metrics").replaceChildren(metricsTable(run.stations, paper));
+}
+
+/** @param {any} at */
+function showProgress(at) {
+  const { simulated_s = 0, duration_s = 0 } = at;
+  byId("progress").value = duration_s ? simulated_s / duration_s : 0;
+  byId("clock").textContent = at.state === "queued" ? "Waiting in the queue" : clock({ ...at, simulated_s, duration_s });
+}
+
+function showActions() {
+  const download = (/** @type {string} */ file, /** @type {string} */ label) =>
+    el("a", { href: `/api/v1/runs/${id}/${file}`, role: "button", class: "quiet", ...(file === "report.html" ? {} : { download: true }) }, label);
+  const cancel = el("button", { type: "button", class: "danger", on: { click: () => stop(cancel) } }, "Cancel this test");
+  byId("actions").replaceChildren(
+    ...(ended(run.state) ? [] : [cancel]),
+    ...(run.recording
+      ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("report.html", "Report")]
+      : []),
+    download("plan.yaml", "Plan, YAML"),
+    el("a", { href: `/new?from=${id}`, role: "button", class: "quiet" }, "Run again or edit as a new test"),
+  );
+}
+
+/** @param {HTMLButtonElement} button */
+async function stop(button) {
+  button.disabled = true;
+  button.textContent = "Stopping …";
+  try {
+    await api.post(`/runs/${id}/cancel`);
+    byId("refusal").textContent = "";
+    await load();
+  } catch (error) {
+    byId("refusal").textContent = `Not cancelled: ${explain(error)}`;
+    showActions();
+  }
+}
+
+/** @type {import("./live.js").Viewer} */
+const viewer = {
+  received: () => store?.count ?? 0,
+  schema(schema) {
+    const states = run.state;
+    run = { ...run, ...schema.run };
+    if (!store || attempt !== schema.attempt || store.buckets !== schema.buckets) {
+      attempt = schema.attempt;
+      store = new Store(schema);
+      view?.close();
+      view = buildCharts(byId("charts"), store, run.plan.stations.map((/** @type {any} */ station) => station.name));
+      byId("chart-controls").hidden = false;
+    }
+    if (run.state !== states) show();
+  },
+  frame(frame) {
+    if (!store?.take(frame)) return false;
+    view?.redraw();
+    return true;
+  },
+  progress(progress) {
+    if (progress.state !== run.state) {
+      run.state = progress.state;
+      show();
+    }
+    Object.assign(run, progress);
+    showProgress(progress);
+  },
+  end(last) {
+    run = { ...run, ...last };
+    load().catch(complain);
+  },
+  link(state, why) {
+    const told = { open: "", reconnecting: "Connection lost, reconnecting …", refused: why && `No live data: ${why}` };
+    byId("link").textContent = told[state];
+  },
+};
+
+/** @param {unknown} error */
+const complain = (error) => (byId("refusal").textContent = explain(error));
+
+/** Until the live feed tells the state, ask for it. */
+async function poll() {
+  if (run.state === "queued") await load().catch(complain);
+  if (run.state === "queued") setTimeout(poll, POLL_MS);
+}
+
+byId("window").addEventListener("change", (/** @type {any} */ event) => {
+  if (!view) return;
+  view.window = event.target.value ? Number(event.target.value) : null;
+  view.zoomTo(null);
+});
+byId("reset").addEventListener("click", () => view?.zoomTo(null));
+document.addEventListener("themechange", () => view?.redraw());
+document.addEventListener("aborted", () => load().catch(complain));
+
+try {
+  await load();
+  if (!ended(run.state) || run.recording) follow(id, viewer);
+  poll();
+} catch (error) {
+  complain(error);
+}
