@@ -1,0 +1,99 @@
+"""Tables of the service. Times are UTC; numbers carry their unit in the name."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+
+import sqlalchemy as sa
+from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column, relationship
+
+from app.states import State
+
+
+class UtcDateTime(sa.TypeDecorator[datetime]):
+    """A time zone aware UTC time in every database."""
+
+    impl = sa.DateTime(timezone=True)
+    cache_ok = True
+
+    def process_bind_param(self, value: datetime | None, dialect: sa.Dialect) -> datetime | None:
+        return value.astimezone(UTC) if value else None
+
+    def process_result_value(self, value: datetime | None, dialect: sa.Dialect) -> datetime | None:
+        return value.replace(tzinfo=UTC) if value and value.tzinfo is None else value
+
+
+class Base(DeclarativeBase):
+    type_annotation_map = {datetime: UtcDateTime, dict[str, Any]: sa.JSON, list[float]: sa.JSON}
+
+
+class Run(Base):
+    """One test: its plan, how it went and where its recording is."""
+
+    __tablename__ = "run"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    name: Mapped[str] = mapped_column(sa.String(200))
+    template: Mapped[str | None] = mapped_column(sa.String(80), index=True)
+    plan: Mapped[dict[str, Any]]
+    digest: Mapped[str] = mapped_column(sa.String(64), index=True)
+    code_version: Mapped[str] = mapped_column(sa.String(40))
+    seed: Mapped[int] = mapped_column(sa.BigInteger)
+    state: Mapped[State] = mapped_column(sa.Enum(State, native_enum=False, length=16, values_callable=State.values), index=True)
+    submitted_by: Mapped[str] = mapped_column(sa.String(80), index=True)
+    submitted_at: Mapped[datetime] = mapped_column(index=True)
+    started_at: Mapped[datetime | None]
+    finished_at: Mapped[datetime | None]
+    cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
+    attempt: Mapped[int] = mapped_column(default=0)
+    worker: Mapped[str | None] = mapped_column(sa.String(80))
+    reason: Mapped[str | None] = mapped_column(sa.Text)
+    trip: Mapped[dict[str, Any] | None]
+    duration_s: Mapped[float]
+    elapsed_s: Mapped[float | None]
+    simulated_s: Mapped[float | None]
+    floors_peak_mm: Mapped[list[float] | None]
+    recording_sha256: Mapped[str | None] = mapped_column(sa.String(64))
+    recording_size: Mapped[int | None] = mapped_column(sa.BigInteger)
+    stations: Mapped[list[RunStation]] = relationship(
+        back_populates="run", order_by="RunStation.number", cascade="all, delete-orphan", lazy="selectin"
+    )
+
+
+class RunStation(Base):
+    """Measures of one station of a run, as in the paper's Table IV."""
+
+    __tablename__ = "run_station"
+
+    run_number: Mapped[int] = mapped_column(sa.ForeignKey("run.number", ondelete="CASCADE"), primary_key=True)
+    number: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str] = mapped_column(sa.String(80))
+    mte_mm: Mapped[float]
+    rms_percent: Mapped[float]
+    mti_mm2: Mapped[float]
+    mee_kNm: Mapped[float]
+    peak_stroke_mm: Mapped[float]
+    peak_force_kN: Mapped[float]
+    run: Mapped[Run] = relationship(back_populates="stations")
+
+
+class QueueState(Base):
+    """Whether the queue is held: one row."""
+
+    __tablename__ = "queue_state"
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    held: Mapped[bool] = mapped_column(default=False)
+    held_by: Mapped[str | None] = mapped_column(sa.String(80))
+    held_at: Mapped[datetime | None]
+
+
+class WorkerHeartbeat(Base):
+    """When a worker was last alive."""
+
+    __tablename__ = "worker_heartbeat"
+
+    worker: Mapped[str] = mapped_column(sa.String(80), primary_key=True)
+    seen_at: Mapped[datetime]

@@ -1,0 +1,20 @@
+"""Alembic's environment: migrates the database whose URL the caller put in the configuration."""
+
+from __future__ import annotations
+
+from alembic import context
+
+from app.db import connect
+from app.models import Base, UtcDateTime
+
+
+def render(kind: str, item: object, _: object) -> str | bool:
+    return "sa.DateTime(timezone=True)" if isinstance(item, UtcDateTime) else False
+
+
+engine = connect(context.config.attributes["url"])
+with engine.connect() as connection:
+    context.configure(connection=connection, target_metadata=Base.metadata, render_as_batch=True, render_item=render)
+    with context.begin_transaction():
+        context.run_migrations()
+engine.dispose()
