@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import tempfile
@@ -41,7 +40,7 @@ def save(folder: Path, motion: Motion) -> None:
 def load(path: Path) -> Motion:
     """The record in `path`. Raises MotionError when the file is damaged."""
     try:
-        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as file:
+        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             about = _about(file)
             texts = {key: str(about[key]) for key in _TEXTS}
             motion = Motion(name=path.stem, dt=float(about["dt"]), acceleration=file["acceleration"], **texts)
@@ -55,7 +54,7 @@ def load(path: Path) -> Motion:
 def describe(path: Path) -> dict[str, Any]:
     """Title, origin, step, duration and so on without reading the samples. Raises MotionError when the file is damaged."""
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             return _about(file)
     except _DAMAGE as error:
         raise _damaged(path, error) from None
