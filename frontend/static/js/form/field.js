@@ -10,13 +10,13 @@ import { hintOf } from "./schema.js";
  */
 
 /** A labelled control with its hint and the place of its error. @param {string} path @param {string} label @param {any} control @param {string} hint */
-export function labelled(path, label, control, hint = "", unit = "") {
+export function labelled(path, label, control, hint = "", unit = "", wide = false) {
   control.id = `f-${path}`;
   control.dataset.path = path;
   control.setAttribute("aria-describedby", hint ? `h-${path} e-${path}` : `e-${path}`);
   return el(
     "div",
-    { class: "field" },
+    { class: wide ? "field wide" : "field" },
     el("label", { for: control.id }, label, unit && el("span", { class: "unit" }, `, ${unit}`)),
     control,
     hint && el("small", { id: `h-${path}`, class: "hint" }, hint),
@@ -40,7 +40,13 @@ export function scalarField(node, path, value) {
     const problem = numeric ? outOfBounds(read(), node) : null;
     return problem ? [{ where: path, problem }] : [];
   };
-  return { element: labelled(path, node.title, control, hintOf(node), node.shown_label), read, problems };
+  return { element: labelled(path, node.title, control, hintOf(node), node.shown_label, node.maxLength > 100), read, problems };
+}
+
+/** Yes or no. @param {Node} node @param {string} path @param {any} value @returns {Part} */
+export function switchField(node, path, value) {
+  const control = el("input", { type: "checkbox", role: "switch", checked: Boolean(value) });
+  return { element: labelled(path, node.title, control, hintOf(node)), read: () => control.checked, problems: () => [] };
 }
 
 /** One of some choices. @param {string} path @param {string} label @param {Map<string, string>} choices @param {string} value */
@@ -48,6 +54,14 @@ export function choiceField(path, label, choices, value, hint = "") {
   const options = [...choices].map(([key, text]) => el("option", { value: key, selected: key === value }, text));
   const control = el("select", {}, ...options);
   return { element: labelled(path, label, control, hint), control, read: () => control.value, problems: () => [] };
+}
+
+/** Some numbers in one field. @param {Node} node @param {string} path @param {number[] | undefined} values @returns {Part} */
+export function numbersField(node, path, values = []) {
+  const text = values.map((value) => shown(value, node)).join(", ");
+  const control = el("input", { type: "text", autocomplete: "off", value: text });
+  const read = () => (control.value === text ? values : control.value.split(/[,;\s]+/).filter(Boolean).map((one) => toSi(one, node)));
+  return { element: labelled(path, node.title, control, "values with commas between", node.shown_label), read, problems: () => [] };
 }
 
 /** A value that the form keeps as it is. @param {Node} node @param {any} value @returns {Part} */

@@ -1,5 +1,6 @@
 // @ts-check
 import { el } from "../dom.js";
+import { kindLabel } from "./schema.js";
 
 /** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
 
@@ -11,14 +12,15 @@ import { el } from "../dom.js";
  */
 export function listPart(schema, node, path, values, part) {
   const item = schema.resolve(node.items);
-  const singular = item.title.toLowerCase();
+  const name = kindLabel(item);
+  const singular = name.toLowerCase();
   /** @type {Part[]} */
   let parts = [];
   const items = el("div", { class: "items" });
   const add = el("button", { type: "button", class: "quiet", on: { click: () => insert(parts.length, schema.initial(node.items)) } }, `Add a ${singular}`);
 
   const build = (/** @type {any[]} */ read) => {
-    parts = read.map((value, i) => part(schema, { ...item, title: `${item.title} ${i + 1}` }, `${path}.${i}`, value));
+    parts = read.map((value, i) => part(schema, { ...item, title: `${name} ${i + 1}` }, `${path}.${i}`, value));
     items.replaceChildren(...parts.map((one, i) => withButtons(one.element, i)));
     add.disabled = parts.length >= (node.maxItems ?? Infinity);
   };

@@ -1,6 +1,6 @@
 // @ts-check
 import { el } from "../dom.js";
-import { choiceField, keptField, scalarField } from "./field.js";
+import { choiceField, numbersField, scalarField, switchField } from "./field.js";
 import { listPart } from "./list.js";
 import { hintOf, kindLabel } from "./schema.js";
 
@@ -12,7 +12,12 @@ export function part(schema, unresolved, path, value) {
   if (node.oneOf) return unionPart(schema, node, path, value);
   if (node.type === "object") return groupPart(schema, node, path, value, node.title);
   if (node.type === "array") {
-    return node.items.$ref ? listPart(schema, node, path, value, part) : keptField(node, value);
+    return node.items.$ref ? listPart(schema, node, path, value, part) : numbersField(node, path, value);
+  }
+  if (node.type === "boolean") return switchField(node, path, value);
+  if (node.enum) {
+    const choices = new Map(node.enum.map((/** @type {string} */ one) => [one, one]));
+    return choiceField(path, node.title, choices, value, hintOf(node));
   }
   return scalarField(node, path, value);
 }
@@ -33,7 +38,7 @@ export function fieldsOf(schema, node, path, value) {
 function groupPart(schema, node, path, value, title) {
   const fields = fieldsOf(schema, node, path, value);
   const heading = node.properties.kind && title !== kindLabel(node) ? `${title}: ${kindLabel(node).toLowerCase()}` : title;
-  const element = el("fieldset", { class: "group", "data-path": path }, el("legend", {}, heading), el("div", { class: "fields" }, ...fields.elements));
+  const element = el("fieldset", { class: "group", "data-path": path }, el("legend", { class: path.includes(".") ? "" : "unseen" }, heading), el("div", { class: "fields" }, ...fields.elements));
   return { element, read: fields.read, problems: fields.problems };
 }
 
@@ -61,6 +66,6 @@ function unionPart(schema, node, path, value) {
   });
   select();
   choice.element.append(hint);
-  const element = el("fieldset", { class: "group", "data-path": path }, el("legend", {}, node.title), body);
+  const element = el("fieldset", { class: "group union", "data-path": path }, el("legend", { class: "unseen" }, node.title), body);
   return { element, read: () => current().read(), problems: () => current().problems() };
 }

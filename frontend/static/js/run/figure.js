@@ -2,7 +2,7 @@
 import { el } from "../dom.js";
 import { number } from "../format.js";
 
-/** @typedef {{index: number, label: string, unit: string, colour: string}} Series */
+/** @typedef {{index: number, label: string, unit: string, colour: string, width?: number}} Series */
 
 const KEYS = "Arrow keys move the cursor, plus and minus zoom, Escape shows the whole test.";
 
@@ -16,14 +16,15 @@ export class Figure {
     this.keys = keys;
     this.values = series.map(() => el("output", { class: "value", "aria-live": "off" }, "–"));
     const entries = series.map((one, i) =>
-      el("span", { class: "entry" }, el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i]),
+      el("span", { class: "entry" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
     );
     this.at = el("span", { class: "at muted" });
     this.plot = el("div", { class: "plot", role: "img", tabindex: "0" });
     this.element = el(
       "figure",
       { class: "chart" },
-      el("figcaption", {}, el("strong", {}, unit ? `${title}, ${unit}` : title), ...entries, this.at),
+      el("figcaption", {}, el("strong", {}, unit ? `${title}, ${unit}` : title), this.at),
+      el("div", { class: "values" }, ...entries),
       this.plot,
     );
   }

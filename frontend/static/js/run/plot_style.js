@@ -23,6 +23,7 @@ export function axis(label, size) {
     labelFont: FONT,
     labelSize: 16,
     gap: 3,
+    space: label ? 50 : 24,
     stroke: () => themed("--pico-muted-color"),
     grid: { stroke: () => themed("--grid"), width: 1 },
     ticks: { stroke: () => themed("--grid"), width: 1, size: 4 },

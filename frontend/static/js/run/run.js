@@ -91,6 +91,7 @@ const viewer = {
       view?.close();
       view = buildCharts(byId("charts"), store, run.plan.stations.map((/** @type {any} */ station) => station.name));
       byId("chart-controls").hidden = false;
+      showWindow();
     }
     if (run.state !== states) show();
   },
@@ -126,11 +127,13 @@ async function poll() {
   if (run.state === "queued") setTimeout(poll, POLL_MS);
 }
 
-byId("window").addEventListener("change", (/** @type {any} */ event) => {
+function showWindow() {
   if (!view) return;
-  view.window = event.target.value ? Number(event.target.value) : null;
+  view.window = Number(byId("window").value) || null;
   view.zoomTo(null);
-});
+}
+
+byId("window").addEventListener("change", showWindow);
 byId("reset").addEventListener("click", () => view?.zoomTo(null));
 document.addEventListener("themechange", () => view?.redraw());
 document.addEventListener("aborted", () => load().catch(complain));

@@ -51,7 +51,7 @@ export class TimeChart {
         axes: [axis("Time, s", 34), axis(undefined, 52)],
         series: [
           {},
-          ...this.series.map((one) => ({ label: one.label, stroke: () => themed(one.colour), width: 1.25, points: { show: false } })),
+          ...this.series.map((one) => ({ stroke: () => themed(one.colour), width: one.width ?? 1.25, points: { show: false } })),
         ],
         cursor: {
           sync: { key: "time", setSeries: false },
