@@ -73,8 +73,8 @@ def _check_peak(acceleration: Array, unit: str) -> None:
 
 
 def _better_unit(pga: float, unit: str) -> str | None:
-    """The common unit in which the record would peak between 0.02 g and 3 g."""
-    for other in ("cm/s^2", "m/s^2", "g", "mm/s^2"):
+    """The commonest unit in which the record would peak between 0.02 g and 3 g."""
+    for other in ("g", "cm/s^2", "m/s^2", "mm/s^2"):
         if other != unit and 0.02 <= pga * units.factor(other) / units.factor(unit) <= 3:
             return other
     return None
