@@ -2,6 +2,7 @@
 // The bar on every page while a test runs. Abort asks for a second press, then stops all tests and holds the queue.
 import { api, explain } from "./api.js";
 import { byId, el } from "./dom.js";
+import { person } from "./person.js";
 
 const PERIOD_MS = 1500;
 const CONFIRM_MS = 5000;
@@ -36,7 +37,7 @@ button.addEventListener("click", async () => {
   disarm();
   note.textContent = "Stopping …";
   try {
-    await api.post("/abort");
+    await api.post("/abort", { by: person() });
     note.textContent = "Stopped; the queue is held. Release it on the Lab page.";
     document.dispatchEvent(new Event("aborted"));
   } catch (error) {

@@ -2,13 +2,14 @@
 // Buttons of the Lab page that ask the service for something; the page's next look shows what came of it.
 import { api, explain } from "./api.js";
 import { byId } from "./dom.js";
+import { person } from "./person.js";
 
 byId("lab").addEventListener("click", async (/** @type {any} */ event) => {
   const button = event.target.closest("button[data-post]");
   if (!button) return;
   button.disabled = true;
   try {
-    await api.post(button.dataset.post);
+    await api.post(button.dataset.post, { by: person() });
     byId("lab-refusal").textContent = "";
     document.body.dispatchEvent(new Event("changed"));
   } catch (error) {

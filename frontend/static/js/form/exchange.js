@@ -15,6 +15,5 @@ export async function exportYaml(plan) {
 export async function importYaml(input) {
   const text = await /** @type {FileList} */ (input.files)[0].text();
   input.value = "";
-  const read = await api.postText("/plans/read", text, "application/yaml");
-  return read.plan ?? read;
+  return api.postText("/plans/read", text, "application/yaml");
 }

@@ -4,11 +4,11 @@ import { byId, el } from "../dom.js";
 import { planProblems } from "./bounds.js";
 import { liveCheck } from "./checker.js";
 import { exportYaml, importYaml } from "./exchange.js";
+import { person, remember } from "../person.js";
 import { PlanForm } from "./plan_form.js";
 import { Schema } from "./schema.js";
 import { problemList, summaryOf } from "./summary.js";
 
-const WHO = "rths.name";
 const DEFAULT_TEMPLATE = "table3-04";
 
 const verdict = byId("verdict");
@@ -51,15 +51,14 @@ function fill(plan) {
 
 /** @param {string} name */
 async function fillFromTemplate(name) {
-  const found = await api.get(`/templates/${encodeURIComponent(name)}`);
-  fill(found.plan ?? found);
+  fill((await api.get(`/templates/${encodeURIComponent(name)}`)).plan);
 }
 
 /** @param {Event} event */
 async function submit(event) {
   event.preventDefault();
   if (!who.value.trim()) return refuseWho();
-  localStorage.setItem(WHO, who.value.trim());
+  remember(who.value.trim());
   const button = byId("submit");
   button.disabled = true;
   try {
@@ -92,9 +91,8 @@ function focusFirst(problems) {
 
 async function start() {
   const [schema, motions, offered] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates")]);
-  form = new PlanForm(byId("plan"), new Schema(schema), motions.motions ?? motions);
-  const list = offered.templates ?? offered;
-  templates.append(...list.map((/** @type {any} */ one) => el("option", { value: one.name ?? one }, one.title ?? one.name ?? one)));
+  form = new PlanForm(byId("plan"), new Schema(schema), motions.motions);
+  templates.append(...offered.templates.map((/** @type {any} */ one) => el("option", { value: one.name }, one.title)));
   const asked = new URLSearchParams(location.search);
   if (asked.get("from")) {
     const { plan } = await api.get(`/runs/${encodeURIComponent(asked.get("from") ?? "")}`);
@@ -107,7 +105,7 @@ async function start() {
 /** @param {unknown} error */
 const complain = (error) => verdict.replaceChildren(el("p", { class: "error" }, explain(error)));
 
-who.value = localStorage.getItem(WHO) ?? "";
+who.value = person();
 who.addEventListener("input", () => {
   who.removeAttribute("aria-invalid");
   byId("e-who").textContent = "";

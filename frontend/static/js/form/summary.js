@@ -4,19 +4,19 @@ import { number } from "../format.js";
 
 /** The facts of a checked plan. @param {any} checked @returns {HTMLElement[]} */
 export function summaryOf({ digest, summary, warnings }) {
-  const periods = (summary.periods_s ?? []).slice(0, 2).map((/** @type {number} */ period, /** @type {number} */ i) => [`T${i + 1}`, `${number(period)} s`]);
+  const periods = summary.periods_s.slice(0, 2).map((/** @type {number} */ period, /** @type {number} */ i) => [`T${i + 1}`, `${number(period)} s`]);
   const rows = [
     ...periods,
     ["Steps", summary.steps],
     ["Duration", `${number(summary.duration_s)} s`],
-    ["Scale factor", summary.scale_factor === undefined ? null : number(summary.scale_factor)],
-    ["PGA as scaled", summary.pga === undefined ? null : `${number(summary.pga / 9.80665, 3)} g`],
+    ["Scale factor", number(summary.scale_factor)],
+    ["PGA as scaled", `${number(summary.pga / 9.80665, 3)} g`],
     ["Digest", digest],
   ];
   const facts = rows
     .filter(([, value]) => value != null)
     .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
-  const told = (warnings ?? []).map((/** @type {any} */ warning) => el("li", {}, warning.problem ? `${warning.where}: ${warning.problem}` : String(warning)));
+  const told = warnings.map((/** @type {string} */ warning) => el("li", {}, warning));
   return [el("dl", { class: "facts" }, ...facts), ...(told.length ? [el("ul", { class: "warnings" }, ...told)] : [])];
 }
 

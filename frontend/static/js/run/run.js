@@ -1,6 +1,7 @@
 // @ts-check
 import { api, explain } from "../api.js";
 import { byId, el } from "../dom.js";
+import { person } from "../person.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
@@ -22,7 +23,7 @@ let attempt = 0;
 
 async function load() {
   run = await api.get(`/runs/${id}`);
-  if (run.template?.startsWith("table3-")) paper ??= (await api.get(`/templates/${run.template}`)).paper ?? null;
+  if (run.template?.startsWith("table3-")) paper ??= (await api.get(`/templates/${run.template}`)).paper;
   show();
 }
 
@@ -70,7 +71,7 @@ async function stop(button) {
   button.disabled = true;
   button.textContent = "Stopping …";
   try {
-    await api.post(`/runs/${id}/cancel`);
+    await api.post(`/runs/${id}/cancel`, { by: person() });
     byId("refusal").textContent = "";
     await load();
   } catch (error) {

@@ -1,0 +1,70 @@
+"""The web pages. Lab and Runs are rendered here; New test and Run are shells whose modules use the REST API."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request
+from fastapi.responses import HTMLResponse
+
+from app.dependencies import Plans, Runs
+from app.pages.errors import PageRoute, error_page
+from app.pages.rendering import page
+from app.pages.run_list import LIMIT, RunFilter
+from app.runs.repository import Filter, Page
+from app.states import State
+from rths_engine.errors import RthsError
+
+QUEUED_SHOWN = 20
+RECENT_SHOWN = 12
+
+router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
+
+
+@router.get("/")
+def lab(request: Request, runs: Runs) -> HTMLResponse:
+    return page(request, "lab.html", **_lab(runs))
+
+
+@router.get("/lab")
+def lab_now(request: Request, runs: Runs) -> HTMLResponse:
+    """The changing part of the Lab page."""
+    return page(request, "lab_now.html", **_lab(runs))
+
+
+@router.get("/new")
+def new(request: Request) -> HTMLResponse:
+    return page(request, "new.html")
+
+
+@router.get("/runs")
+def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilter, Query()]) -> HTMLResponse:
+    found, total, problem = [], 0, None
+    try:
+        found, total = runs.list(wanted.filter(), wanted.part())
+    except RthsError as error:
+        problem = str(error)
+    names = [template["name"] for template in plans.templates()]
+    context = {"wanted": wanted, "states": list(State), "template_names": names, "first": LIMIT * (wanted.number - 1) + 1}
+    return page(request, "runs.html", 422 if problem else 200, runs=found, total=total, problem=problem, **context)
+
+
+@router.get("/runs/{run_id}")
+def run(request: Request, run_id: str, runs: Runs) -> HTMLResponse:
+    return page(request, "run.html", run=runs.get(run_id))
+
+
+@router.get("/{path:page}")
+def missing(request: Request, path: str) -> HTMLResponse:
+    return error_page(request, 404, "Not found", f"There is no page /{path}.")
+
+
+def _lab(runs: Runs) -> dict[str, Any]:
+    oldest_first = {"sort": "number", "descending": False}
+    running, _ = runs.list(Filter(states=(State.RUNNING,)), Page(limit=QUEUED_SHOWN, **oldest_first))
+    queued, queued_total = runs.list(Filter(states=(State.QUEUED,)), Page(limit=QUEUED_SHOWN, **oldest_first))
+    ended = tuple(state for state in State if state.ended)
+    recent, _ = runs.list(Filter(states=ended), Page(sort="finished_at", limit=RECENT_SHOWN))
+    queue = runs.queue_state()
+    lists = {"running": running, "queued": queued, "queued_total": queued_total, "recent": recent}
+    return {**lists, "queue": queue, "worker_alive": queue.worker_alive}
