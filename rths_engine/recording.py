@@ -2,7 +2,7 @@
 
 `/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, floors) with
 x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
-`code_version`, `digest`.
+`total` (substeps of the whole test), `code_version`, `digest`.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ class Recording:
     plan: Plan
     status: str
     dt: float
+    total: int
     channels: tuple[Channel, ...]
     signals: Array
     history: Array
@@ -105,6 +106,7 @@ def _write(file: h5py.File, result: Result) -> None:
         code_version=__version__,
         digest=result.plan.digest,
         dt=result.dt,
+        total=result.total,
         summary=json.dumps(result.summary()),
         channels=json.dumps([channel.as_dict() for channel in result.channels]),
         motion=json.dumps(motion),
@@ -121,7 +123,15 @@ def _read(file: h5py.File) -> Recording:
     channels = tuple(Channel(**{name: item[name] for name in fields}) for item in json.loads(attrs["channels"]))
     plan = Plan.read(json.loads(file["plan"][()]))
     return Recording(
-        plan, summary["status"], float(attrs["dt"]), channels, file["signals"][:], file["history"][:], summary, attrs
+        plan,
+        summary["status"],
+        float(attrs["dt"]),
+        int(attrs["total"]),
+        channels,
+        file["signals"][:],
+        file["history"][:],
+        summary,
+        attrs,
     )
 
 

@@ -18,7 +18,10 @@ from rths_engine.safety import Trip
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """Signals (substeps, channels) every `dt` (s) and history (steps + 1, 2, floors) of x and v at integration steps; SI."""
+    """Signals (substeps, channels) every `dt` (s) and history (steps + 1, 2, floors) of x and v at integration steps; SI.
+
+    `total` is the number of substeps of the whole test, recorded or not.
+    """
 
     plan: Plan
     motion: Motion
@@ -26,6 +29,7 @@ class Result:
     trip: Trip | None
     elapsed_s: float
     dt: float
+    total: int
     channels: tuple[Channel, ...]
     signals: Array
     history: Array

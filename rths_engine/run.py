@@ -101,6 +101,7 @@ class Run:
             trip=self.trip,
             elapsed_s=elapsed_s,
             dt=self.dt,
+            total=self.total,
             channels=self.channels,
             signals=self.signals[: self.done],
             history=self.history[: steps + 1],

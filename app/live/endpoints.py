@@ -1,0 +1,135 @@
+"""Websockets: a worker's frames come in, viewers' go out."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import struct
+from typing import Any
+
+from fastapi import APIRouter, WebSocket, WebSocketDisconnect
+
+from app.db import unit_of_work
+from app.live import from_recording
+from app.live.hub import Hub, LiveRun
+from app.live.messages import progress
+from app.runs.repository import RunRepository
+from app.runs.schemas import RunOut
+
+router = APIRouter()
+FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
+SHORTEST_GAP_S = 1 / 30
+WAITING_POLL_S = 0.25
+UNKNOWN_RUN, NOT_ALLOWED = 4404, 4403
+
+
+@router.websocket("/api/v1/worker")
+async def ingest(socket: WebSocket) -> None:
+    """Frames and messages of a worker, which proves itself by the token."""
+    token = socket.headers.get("authorization", "").removeprefix("Bearer ")
+    await socket.accept()
+    if not hmac.compare_digest(token.encode(), socket.app.state.settings.worker_token.encode()):
+        await socket.close(NOT_ALLOWED, "wrong worker token")
+        return
+    hub: Hub = socket.app.state.hub
+    try:
+        while True:
+            message = await socket.receive()
+            if message["type"] == "websocket.disconnect":
+                return
+            if message.get("bytes") is not None:
+                run_id, attempt = FRAME_HEADER.unpack_from(message["bytes"])
+                hub.frame(run_id.decode(), attempt, message["bytes"][FRAME_HEADER.size :])
+            else:
+                told = json.loads(message["text"])
+                hub.take(told.pop("run_id"), told)
+    except WebSocketDisconnect:
+        return
+
+
+@router.websocket("/api/v1/runs/{run_id}/live")
+async def watch(socket: WebSocket, run_id: str) -> None:
+    """Schema, replay from bucket `from`, then live, then the end; see docs/architecture.md."""
+    await socket.accept()
+    viewer = _Viewer(socket, run_id, _bucket(socket.query_params.get("from", "0")))
+    leaving = asyncio.create_task(_left(socket))
+    telling = asyncio.create_task(viewer.tell())
+    await asyncio.wait({leaving, telling}, return_when=asyncio.FIRST_COMPLETED)
+    for task in (leaving, telling):
+        task.cancel()
+    for outcome in await asyncio.gather(leaving, telling, return_exceptions=True):
+        if isinstance(outcome, Exception) and not isinstance(outcome, WebSocketDisconnect | RuntimeError):
+            raise outcome
+
+
+class _Viewer:
+    """One browser: a cursor into the run's buffer."""
+
+    def __init__(self, socket: WebSocket, run_id: str, cursor: int):
+        self.socket, self.run_id, self.cursor = socket, run_id, cursor
+        self.hub: Hub = socket.app.state.hub
+
+    async def tell(self) -> None:
+        told: LiveRun | None = None
+        while True:
+            live = self.hub.runs.get(self.run_id)
+            if live is not None:
+                if told is not None and told is not live:
+                    self.cursor = 0
+                told = live
+                await self._follow(live)
+                continue
+            run = await asyncio.to_thread(self._run)
+            if run is None:
+                return await self.socket.close(UNKNOWN_RUN, "there is no such run")
+            if run.state.ended:
+                return await self._end(run, told)
+            await self.socket.send_json(progress(run.state, 0.0, 0.0, run.duration_s))
+            await asyncio.sleep(WAITING_POLL_S)
+
+    async def _follow(self, live: LiveRun) -> None:
+        run = await asyncio.to_thread(self._run)
+        await self.socket.send_json({**live.schema, "run": run.model_dump(mode="json") if run else None})
+        last: dict[str, Any] | None = None
+        while True:
+            changed = live.changed
+            frame = live.store.since(self.cursor)
+            if frame is not None:
+                self.cursor = live.store.count
+                await self.socket.send_bytes(frame)
+            if live.progress is not last and live.progress is not None:
+                last = live.progress
+                await self.socket.send_json(last)
+            if live.ended or self.hub.runs.get(self.run_id) is not live:
+                return
+            await asyncio.sleep(SHORTEST_GAP_S)
+            await changed.wait()
+
+    async def _end(self, run: RunOut, told: LiveRun | None) -> None:
+        """The end of the run; its history first, from the recording, for a viewer that has not seen it live."""
+        if told is None and run.recording:
+            path = self.socket.app.state.settings.recordings / f"{run.id}.h5"
+            schema, store = await asyncio.to_thread(from_recording.replay, path, run.attempt)
+            await self.socket.send_json({**schema, "run": run.model_dump(mode="json")})
+            frame = store.since(self.cursor)
+            if frame is not None:
+                await self.socket.send_bytes(frame)
+        await self.socket.send_json(progress(run.state, run.simulated_s or 0.0, run.elapsed_s or 0.0, run.duration_s))
+        await self.socket.send_json({"type": "end", "run": run.model_dump(mode="json")})
+        await self.socket.close()
+
+    def _run(self) -> RunOut | None:
+        with unit_of_work(self.socket.app.state.sessions) as session:
+            found = RunRepository(session).get(self.run_id)
+            return RunOut.of(found) if found else None
+
+
+async def _left(socket: WebSocket) -> None:
+    """Ends when the viewer leaves; what viewers send is ignored."""
+    while (await socket.receive())["type"] != "websocket.disconnect":
+        pass
+
+
+def _bucket(text: str) -> int:
+    return int(text) if text.isdecimal() and len(text) < 10 else 0

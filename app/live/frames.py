@@ -1,0 +1,79 @@
+"""Live frames: for each bucket of substeps the minimum, maximum and last sample of every channel, float32, in shown units.
+
+A frame is little endian `uint32 first_bucket, uint32 count`, then float32 `[count][channels][3]`. A `FrameStore` is the run's one
+buffer: it takes frames in any chunks, ignores what it has, and gives what a reader lacks as one frame.
+"""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+
+from rths_engine.arrays import Array
+from rths_engine.channels import Channel
+
+HEADER = struct.Struct("<II")
+MOST_BUCKETS = 16_384
+VALUES = 3  # minimum, maximum, last
+
+
+def bucket_size(total: int) -> int:
+    """Substeps in a bucket, such that a run of `total` substeps has at most MOST_BUCKETS."""
+    return max(1, -(-total // MOST_BUCKETS))
+
+
+class Decimator:
+    """Turns a run's growing signals into frames."""
+
+    def __init__(self, channels: tuple[Channel, ...], bucket: int):
+        self.bucket, self.sent = bucket, 0
+        self._factors = np.array([channel.factor for channel in channels])
+
+    def frame(self, signals: Array, done: int, ended: bool = False) -> bytes | None:
+        """The buckets that rows [:done] complete since the last call; the last, partial one as well when the run has ended."""
+        first = self.sent * self.bucket
+        whole = (done // self.bucket) * self.bucket
+        parts = [_extremes(signals[first:whole].reshape(-1, self.bucket, signals.shape[1]))] if whole > first else []
+        if ended and done > whole:
+            parts.append(_extremes(signals[None, max(whole, first) : done]))
+        if not parts:
+            return None
+        values = (np.concatenate(parts) / self._factors[:, None]).astype("<f4")
+        frame = HEADER.pack(self.sent, len(values)) + values.tobytes()
+        self.sent += len(values)
+        return frame
+
+
+class FrameStore:
+    """All buckets of one attempt of a run, in order."""
+
+    def __init__(self, channels: int):
+        self.row = channels * VALUES * 4
+        self._data = bytearray()
+
+    @property
+    def count(self) -> int:
+        return len(self._data) // self.row
+
+    def append(self, frame: bytes) -> bool:
+        """Take a frame; what is there already is ignored. False when buckets before it are missing or it is malformed."""
+        if len(frame) < HEADER.size:
+            return False
+        first, count = HEADER.unpack_from(frame)
+        if first > self.count or len(frame) != HEADER.size + count * self.row or first + count > MOST_BUCKETS:
+            return False
+        self._data += frame[HEADER.size + (self.count - first) * self.row :]
+        return True
+
+    def since(self, first: int) -> bytes | None:
+        """Everything from bucket `first` on as one frame, or None when there is nothing new."""
+        first = max(0, first)
+        if first >= self.count:
+            return None
+        return HEADER.pack(first, self.count - first) + bytes(self._data[first * self.row :])
+
+
+def _extremes(buckets: Array) -> Array:
+    """(buckets, channels, 3) from (buckets, samples, channels)."""
+    return np.stack([buckets.min(axis=1), buckets.max(axis=1), buckets[:, -1]], axis=-1)

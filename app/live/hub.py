@@ -1,0 +1,51 @@
+"""The web's live runs: what the workers sent, and who waits for more."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+from app.live.frames import FrameStore
+
+
+class LiveRun:
+    """One attempt of a run as its worker tells it. `changed` is set at the next change, and then replaced."""
+
+    def __init__(self, schema: dict[str, Any]):
+        self.schema = schema
+        self.store = FrameStore(len(schema["channels"]))
+        self.progress: dict[str, Any] | None = None
+        self.ended = False
+        self.changed = asyncio.Event()
+
+    def notify(self) -> None:
+        self.changed.set()
+        self.changed = asyncio.Event()
+
+
+class Hub:
+    """Live runs by id. Used on the event loop only."""
+
+    def __init__(self) -> None:
+        self.runs: dict[str, LiveRun] = {}
+
+    def take(self, run_id: str, message: dict[str, Any]) -> None:
+        """A JSON message of a worker: schema, progress or end."""
+        live = self.runs.get(run_id)
+        if message["type"] == "schema":
+            if live is None or live.schema["attempt"] < message["attempt"]:
+                self.runs[run_id] = LiveRun(message)
+                if live is not None:
+                    live.notify()
+        elif live is not None:
+            if message["type"] == "progress":
+                live.progress = message
+            else:
+                live.ended = True
+                del self.runs[run_id]
+            live.notify()
+
+    def frame(self, run_id: str, attempt: int, frame: bytes) -> None:
+        live = self.runs.get(run_id)
+        if live is not None and live.schema["attempt"] == attempt and live.store.append(frame):
+            live.notify()

@@ -1,0 +1,17 @@
+"""JSON messages of the live protocol."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rths_engine.channels import Channel
+
+
+def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...]) -> dict[str, Any]:
+    """What frames mean: buckets of `bucket` substeps of `dt` (s), `buckets` in the whole run, and the channels in order."""
+    shown = [{"key": c.key, "label": c.label, "unit": c.shown_label, "group": c.group} for c in channels]
+    return {"type": "schema", "attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
+
+
+def progress(state: str, simulated_s: float, elapsed_s: float, duration_s: float) -> dict[str, Any]:
+    return {"type": "progress", "state": state, "simulated_s": simulated_s, "elapsed_s": elapsed_s, "duration_s": duration_s}

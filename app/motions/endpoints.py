@@ -1,0 +1,49 @@
+"""REST of the record library."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, File, Form, UploadFile
+
+from app.dependencies import Motions
+from app.motions.service import preview
+
+router = APIRouter(prefix="/api/v1/motions", tags=["ground motions"])
+Text = Annotated[str, Form(max_length=200)]
+
+
+@router.get("")
+def listed(motions: Motions) -> dict[str, Any]:
+    return {"motions": motions.list()}
+
+
+@router.post("", status_code=201)
+def upload(
+    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", name: Text = ""
+) -> dict[str, Any]:
+    """Store a record: PEER AT2, COSMOS V2 or columns; `unit` and `dt` (s) where the file does not say."""
+    return motions.add(motions.read(file.file.read(), file.filename or "", unit, dt, name))
+
+
+@router.post("/preview")
+def look(
+    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", name: Text = ""
+) -> dict[str, Any]:
+    """Read a record and show it; nothing is stored."""
+    return preview(motions.read(file.file.read(), file.filename or "", unit, dt, name))
+
+
+@router.get("/{name}")
+def one(name: str, motions: Motions) -> dict[str, Any]:
+    return motions.summary(name)
+
+
+@router.get("/{name}/preview")
+def shown(name: str, motions: Motions) -> dict[str, Any]:
+    return motions.preview(name)
+
+
+@router.delete("/{name}", status_code=204)
+def remove(name: str, motions: Motions) -> None:
+    motions.remove(name)

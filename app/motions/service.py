@@ -1,0 +1,89 @@
+"""The record library of the laboratory."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from app.problems import NotFound
+from rths_engine.errors import Issue, MotionError
+from rths_engine.ground_motions import Motion, MotionLibrary, read, response_spectrum, slug
+
+PERIODS = np.geomspace(0.02, 6.0, 120)  # s
+DAMPING = 0.05
+PREVIEW_POINTS = 6000
+
+
+class MotionService:
+    def __init__(self, library: MotionLibrary):
+        self.library = library
+
+    def list(self) -> list[dict[str, Any]]:
+        return [summary.as_dict() for summary in self.library.summaries()]
+
+    def summary(self, name: str) -> dict[str, Any]:
+        self._known(name)
+        return self.library.summary(name).as_dict()
+
+    def preview(self, name: str) -> dict[str, Any]:
+        self._known(name)
+        return preview(self.library.get(name))
+
+    def read(self, raw: bytes, filename: str, unit: str, dt: str, name: str) -> Motion:
+        """A record from an uploaded file. Raises MotionError."""
+        motion = read(raw, filename or "record", unit=unit or None, dt=_step(dt))
+        own = slug(name or filename.rsplit(".", 1)[0])
+        return replace(motion, name=own, title=name or motion.title)
+
+    def add(self, motion: Motion) -> dict[str, Any]:
+        self.library.add(motion)
+        return self.summary(motion.name)
+
+    def remove(self, name: str) -> None:
+        self._known(name)
+        self.library.remove(name)
+
+    def _known(self, name: str) -> None:
+        if name not in self.library.names():
+            raise NotFound(f"There is no record '{name}'.")
+
+
+def preview(motion: Motion) -> dict[str, Any]:
+    """Samples and response spectrum, SI; long records keep the largest of each bucket's samples."""
+    acceleration = np.asarray(motion.acceleration)
+    time = np.arange(len(acceleration)) * motion.dt
+    kept = _peaks(acceleration)
+    sa = response_spectrum(acceleration, motion.dt, PERIODS, DAMPING)
+    return {
+        "name": motion.name,
+        "title": motion.title,
+        "dt": motion.dt,
+        "duration": motion.duration,
+        "pga": motion.pga,
+        "provenance": motion.provenance,
+        "time": time[kept].tolist(),
+        "acceleration": acceleration[kept].tolist(),
+        "spectrum": {"periods": PERIODS.tolist(), "sa": sa.tolist(), "damping": DAMPING},
+    }
+
+
+def _peaks(samples: Any) -> Any:
+    """Indices of each bucket's smallest and largest sample, in order; all of them for a short record."""
+    size = -(-len(samples) // (PREVIEW_POINTS // 2))
+    if size <= 2:
+        return np.arange(len(samples))
+    padded = np.pad(samples, (0, -len(samples) % size), mode="edge").reshape(-1, size)
+    base = np.arange(len(padded)) * size
+    chosen = np.concatenate([base + padded.argmin(axis=1), base + padded.argmax(axis=1)])
+    return np.unique(np.minimum(chosen, len(samples) - 1))
+
+
+def _step(text: str) -> float | None:
+    if not text.strip():
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        raise MotionError(Issue("dt", "needs the step in s as a number", text, "for example 0.01")) from None

@@ -1,0 +1,51 @@
+"""REST of plans and templates."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Request
+from fastapi.responses import PlainTextResponse
+
+from app.dependencies import Plans
+from rths_engine.errors import Issue, PlanError
+
+router = APIRouter(prefix="/api/v1", tags=["plans"])
+
+
+@router.get("/templates")
+def templates(plans: Plans) -> dict[str, Any]:
+    return {"templates": plans.templates()}
+
+
+@router.get("/templates/{name}")
+def template(name: str, plans: Plans) -> dict[str, Any]:
+    return plans.template(name)
+
+
+@router.get("/schema")
+def schema(plans: Plans) -> dict[str, Any]:
+    """JSON schema of a plan; each number says its unit, the unit shown to people and the factor between them."""
+    return plans.schema()
+
+
+@router.post("/plans/check")
+def check(plan: Annotated[Any, Body()], plans: Plans) -> dict[str, Any]:
+    """Check a plan without queueing it."""
+    return plans.check(plan)
+
+
+@router.post("/plans/read")
+async def read(request: Request, plans: Plans) -> dict[str, Any]:
+    """Plan YAML as JSON."""
+    try:
+        text = (await request.body()).decode()
+    except UnicodeDecodeError as error:
+        raise PlanError(Issue("", f"the text is not UTF-8: byte {error.start} is wrong", fix="save it as UTF-8")) from None
+    return plans.read(text)
+
+
+@router.post("/plans/write")
+def write(plan: Annotated[Any, Body()], plans: Plans) -> PlainTextResponse:
+    """Plan JSON as YAML."""
+    return PlainTextResponse(plans.write(plan), media_type="application/yaml")

@@ -1,0 +1,126 @@
+"""REST of runs and the queue."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query
+from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, StreamingResponse
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.dependencies import Configured, Runs
+from app.runs.exports import csv_lines, recording_path, report
+from app.runs.repository import Filter, Page
+from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
+from app.states import State
+from rths_engine import plan_yaml
+from rths_engine.errors import Issue, PlanError
+
+router = APIRouter(prefix="/api/v1", tags=["runs"])
+NOBODY = Person()
+
+
+class Wanted(BaseModel):
+    """Filter, order and page of a list of runs."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    state: list[State] = []
+    q: str = Field("", max_length=200)
+    submitted_by: str = Field("", max_length=80)
+    template: str = Field("", max_length=80)
+    since: datetime | None = None
+    until: datetime | None = None
+    sort: str = Field("number", max_length=40)
+    order: str = Field("desc", pattern="^(asc|desc)$")
+    limit: int = Field(50, ge=1, le=500)
+    offset: int = Field(0, ge=0, le=10**9)
+
+    def filter(self) -> Filter:
+        return Filter(tuple(self.state), self.q, self.submitted_by, self.template, self.since, self.until)
+
+    def page(self) -> Page:
+        return Page(self.sort, self.order == "desc", self.limit, self.offset)
+
+
+@router.post("/runs", status_code=201)
+def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
+    """Queue one plan (`plan`) or several (`plans`), all or none."""
+    if (body.plan is None) == (body.plans is None):
+        raise PlanError(Issue("plan", "give either one plan as 'plan' or a list as 'plans'"))
+    if body.plans is None:
+        stored = runs.submit([body.plan], body.submitted_by, prefix="")
+    else:
+        stored = runs.submit(body.plans, body.submitted_by)
+    return Submitted(runs=[RunOut.of(run) for run in stored])
+
+
+@router.get("/runs")
+def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
+    """Runs by filter, order and page. `sort` takes a column, or a measure of a station such as `mte_mm:1`."""
+    found, total = runs.list(wanted.filter(), wanted.page())
+    return RunList(runs=[RunOut.of(run) for run in found], total=total)
+
+
+@router.get("/runs/{run_id}")
+def one(run_id: str, runs: Runs) -> RunDetail:
+    return RunDetail.of(runs.get(run_id))
+
+
+@router.post("/runs/{run_id}/cancel")
+def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+    """End a queued test now; a running one stops within a second and keeps what was recorded."""
+    return RunOut.of(runs.cancel(run_id, person.by))
+
+
+@router.get("/runs/{run_id}/recording.h5")
+def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileResponse:
+    run = runs.get(run_id)
+    headers = {"ETag": f'"{run.recording_sha256}"'}
+    return FileResponse(
+        recording_path(run, configured), media_type="application/x-hdf5", filename=f"{run.id}.h5", headers=headers
+    )
+
+
+@router.get("/runs/{run_id}/recording.csv")
+def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingResponse:
+    run = runs.get(run_id)
+    headers = {"Content-Disposition": f'attachment; filename="{run.id}.csv"'}
+    return StreamingResponse(csv_lines(recording_path(run, configured)), media_type="text/csv", headers=headers)
+
+
+@router.get("/runs/{run_id}/report.html")
+def report_html(run_id: str, runs: Runs, configured: Configured) -> HTMLResponse:
+    return HTMLResponse(report(runs.get(run_id), configured))
+
+
+@router.get("/runs/{run_id}/plan.yaml")
+def plan_text(run_id: str, runs: Runs) -> PlainTextResponse:
+    run = runs.get(run_id)
+    headers = {"Content-Disposition": f'attachment; filename="{run.id}.yaml"'}
+    return PlainTextResponse(plan_yaml.write(runs.plan_of(run)), media_type="application/yaml", headers=headers)
+
+
+@router.post("/abort")
+def abort(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> dict[str, Any]:
+    """Hold the queue and stop every running test. This is not the laboratory's emergency stop."""
+    return {"held": True, "stopping": [run.id for run in runs.abort(person.by)]}
+
+
+@router.get("/queue")
+def queue(runs: Runs) -> QueueOut:
+    return runs.queue_state()
+
+
+@router.post("/queue/hold")
+def hold(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
+    """Start no further test until the queue is released."""
+    runs.hold(person.by)
+    return runs.queue_state()
+
+
+@router.post("/queue/release")
+def release(runs: Runs) -> QueueOut:
+    runs.release()
+    return runs.queue_state()

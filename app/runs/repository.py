@@ -1,0 +1,133 @@
+"""SQL of runs, the queue's state and heartbeats. Never commits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+import sqlalchemy as sa
+from sqlalchemy.orm import Session
+
+from app.models import QueueState, Run, RunStation, WorkerHeartbeat
+from app.states import State
+
+SORTS = {
+    "number": Run.number,
+    "name": Run.name,
+    "state": Run.state,
+    "submitted_by": Run.submitted_by,
+    "submitted_at": Run.submitted_at,
+    "finished_at": Run.finished_at,
+    "elapsed_s": Run.elapsed_s,
+    "simulated_s": Run.simulated_s,
+    "template": Run.template,
+}
+MEASURES = ("mte_mm", "rms_percent", "mti_mm2", "mee_kNm", "peak_stroke_mm", "peak_force_kN")
+
+
+@dataclass(frozen=True, slots=True)
+class Filter:
+    """What runs to list."""
+
+    states: tuple[State, ...] = ()
+    text: str = ""
+    submitted_by: str = ""
+    template: str = ""
+    since: datetime | None = None
+    until: datetime | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Order and part of a list."""
+
+    sort: str = "number"
+    descending: bool = True
+    limit: int = 50
+    offset: int = 0
+
+
+class RunRepository:
+    def __init__(self, session: Session):
+        self.session = session
+
+    def add(self, runs: list[Run]) -> None:
+        self.session.add_all(runs)
+        self.session.flush()
+
+    def get(self, run_id: str) -> Run | None:
+        return self.session.scalar(sa.select(Run).where(Run.id == run_id))
+
+    def locked(self, run_id: str) -> Run | None:
+        """The run, held against other writers until the end of the transaction (where the database can)."""
+        return self.session.scalar(sa.select(Run).where(Run.id == run_id).with_for_update())
+
+    def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
+        query = self._filtered(wanted)
+        total = self.session.scalar(sa.select(sa.func.count()).select_from(query.subquery())) or 0
+        column, key, _ = page.sort.partition(":")
+        order = SORTS[column] if not key else self._measure(column, int(key))
+        query = query.order_by(order.desc() if page.descending else order.asc(), Run.number.desc())
+        return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
+
+    def in_states(self, *states: State) -> list[Run]:
+        return list(self.session.scalars(sa.select(Run).where(Run.state.in_(states)).order_by(Run.number)))
+
+    def count(self, state: State) -> int:
+        return self.session.scalar(sa.select(sa.func.count()).where(Run.state == state)) or 0
+
+    def cancel_requested(self, run_ids: list[str]) -> dict[str, str]:
+        """Which of these runs someone asked to stop, and who."""
+        query = sa.select(Run.id, Run.cancel_requested_by).where(Run.id.in_(run_ids), Run.cancel_requested_by.is_not(None))
+        return {run_id: by or "" for run_id, by in self.session.execute(query)}
+
+    def queue_state(self) -> QueueState:
+        state = self.session.get(QueueState, 1)
+        if state is None:
+            state = QueueState(id=1, held=False)
+            self.session.add(state)
+            self.session.flush()
+        return state
+
+    def held(self) -> bool:
+        return bool(self.session.scalar(sa.select(QueueState.held).where(QueueState.id == 1)))
+
+    def beat(self, worker: str) -> None:
+        self.session.merge(WorkerHeartbeat(worker=worker, seen_at=datetime.now(UTC)))
+
+    def last_beat(self) -> datetime | None:
+        newest = sa.select(WorkerHeartbeat).order_by(WorkerHeartbeat.seen_at.desc()).limit(1)
+        found = self.session.scalar(newest)
+        return found.seen_at if found else None
+
+    def silent_workers(self, before: datetime) -> list[str]:
+        return list(self.session.scalars(sa.select(WorkerHeartbeat.worker).where(WorkerHeartbeat.seen_at < before)))
+
+    def forget_worker(self, worker: str) -> None:
+        self.session.execute(sa.delete(WorkerHeartbeat).where(WorkerHeartbeat.worker == worker))
+
+    def _filtered(self, wanted: Filter) -> sa.Select[tuple[Run]]:
+        query = sa.select(Run)
+        if wanted.states:
+            query = query.where(Run.state.in_(wanted.states))
+        if wanted.text:
+            like = f"%{_escaped(wanted.text)}%"
+            query = query.where(Run.name.ilike(like, escape="\\") | Run.id.ilike(like, escape="\\"))
+        if wanted.submitted_by:
+            query = query.where(Run.submitted_by.ilike(f"%{_escaped(wanted.submitted_by)}%", escape="\\"))
+        if wanted.template:
+            query = query.where(Run.template == wanted.template)
+        if wanted.since:
+            query = query.where(Run.submitted_at >= wanted.since)
+        if wanted.until:
+            query = query.where(Run.submitted_at < wanted.until)
+        return query
+
+    @staticmethod
+    def _measure(name: str, station: int) -> sa.ScalarSelect[float]:
+        column = getattr(RunStation, name)
+        return sa.select(column).where(RunStation.run_number == Run.number, RunStation.number == station).scalar_subquery()
+
+
+def _escaped(text: str) -> str:
+    return text.replace("\\", "\\\\").replace("%", "\\%").replace("_", "\\_")
