@@ -1,0 +1,76 @@
+"""The web service."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from fastapi import FastAPI
+from fastapi.openapi.docs import get_swagger_ui_html
+from fastapi.responses import HTMLResponse
+from fastapi.staticfiles import StaticFiles
+
+from app import db, pages, problems
+from app import queue as durable
+from app.config import Settings, from_environment
+from app.guard import Guard
+from app.health import router as health
+from app.live.endpoints import router as live
+from app.live.hub import Hub
+from app.motions.endpoints import router as motions
+from app.plans.endpoints import router as plans
+from app.runs.endpoints import router as runs
+from app.worker.embedded import EmbeddedWorker
+from rths_engine import __version__
+
+STATIC = Path(__file__).parent.parent / "frontend" / "static"
+SWAGGER = "/static/vendor/swagger-ui"
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """The application on `settings` (by default of the environment). Its lifespan migrates and starts the embedded worker."""
+    configured = (settings or from_environment()).prepared()
+    app = FastAPI(title="RTHS control room", version=__version__, docs_url=None, redoc_url=None, lifespan=_lifespan)
+    app.state.settings = configured
+    app.state.hub = Hub()
+    problems.install(app)
+    for router in (runs, motions, plans, health, live):
+        app.include_router(router)
+    app.mount("/static", StaticFiles(directory=STATIC), name="static")
+    app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
+    app.include_router(pages.router)
+    app.add_middleware(Guard, limit=configured.upload_limit)
+    return app
+
+
+@asynccontextmanager
+async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
+    settings: Settings = app.state.settings
+    await asyncio.to_thread(db.migrate, settings.url)
+    await asyncio.to_thread(durable.migrate, settings.url)
+    engine = db.connect(settings.url)
+    app.state.sessions = db.sessions(engine)
+    app.state.queue = durable.DurableQueue(engine)
+    await asyncio.to_thread(app.state.queue.purge)
+    worker = EmbeddedWorker(settings) if settings.embedded_worker else None
+    if worker:
+        worker.start()
+    try:
+        yield
+    finally:
+        if worker:
+            await asyncio.to_thread(worker.stop)
+        app.state.queue.close()
+        engine.dispose()
+
+
+def _docs() -> HTMLResponse:
+    return get_swagger_ui_html(
+        openapi_url="/openapi.json",
+        title="RTHS control room: REST",
+        swagger_js_url=f"{SWAGGER}/swagger-ui-bundle.js",
+        swagger_css_url=f"{SWAGGER}/swagger-ui.css",
+        swagger_favicon_url="/static/favicon.svg",
+    )

@@ -1,0 +1,60 @@
+"""The worker that the web process starts, restarts when it dies, and takes along when it ends."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+
+from app.config import Settings
+
+NAME = "embedded"
+BACK_OFF_S = (0.2, 10.0)
+LIVED_S = 30.0
+
+
+class EmbeddedWorker:
+    """A child process; its standard input is a pipe that closes with this process, however that ends."""
+
+    def __init__(self, settings: Settings):
+        self.settings = settings
+        self.process: subprocess.Popen[bytes] | None = None
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._keep, daemon=True, name="rths-embedded-worker")
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        self._stopping.set()
+        if self.process is not None:
+            self.process.kill()
+        self._thread.join(5)
+
+    def _keep(self) -> None:
+        delay = BACK_OFF_S[0]
+        while not self._stopping.is_set():
+            self.process = self._spawn()
+            try:
+                self.process.wait(LIVED_S)
+            except subprocess.TimeoutExpired:
+                delay = BACK_OFF_S[0]
+                self.process.wait()
+            self._stopping.wait(delay)
+            delay = min(2 * delay, BACK_OFF_S[1])
+
+    def _spawn(self) -> subprocess.Popen[bytes]:
+        settings = self.settings
+        host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
+        command = [sys.executable, "-m", "app.worker", "--with-parent", "--name", NAME, "--web", f"ws://{host}:{settings.port}"]
+        environment = {
+            **os.environ,
+            "RTHS_DATA": str(settings.data.resolve()),
+            "RTHS_DATABASE_URL": settings.database_url,
+            "RTHS_WORKERS": str(settings.worker_concurrency),
+            "RTHS_WORKER_TOKEN": settings.worker_token,
+            "OMP_NUM_THREADS": "1",
+            "OPENBLAS_NUM_THREADS": "1",
+        }
+        return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)

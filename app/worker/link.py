@@ -1,0 +1,114 @@
+"""The worker's one websocket to the web: frames and messages up. Best effort: the recording is the record."""
+
+from __future__ import annotations
+
+import json
+import logging
+import threading
+import time
+from typing import Any
+
+from websockets.exceptions import WebSocketException
+from websockets.sync.client import ClientConnection, connect
+
+from app.live.endpoints import FRAME_HEADER
+from app.live.frames import FrameStore
+
+log = logging.getLogger(__name__)
+SHORTEST_GAP_S = 0.02
+BACK_OFF_S = (0.2, 5.0)
+
+
+class Telling:
+    """What is to be told of one execution; kept whole, so that a new connection can be told all of it."""
+
+    def __init__(self, run_id: str, attempt: int):
+        self.run_id, self.attempt = run_id, attempt
+        self.schema: dict[str, Any] | None = None
+        self.progress: dict[str, Any] | None = None
+        self.store: FrameStore | None = None
+        self.ended = False
+
+    def take(self, told: Any) -> None:
+        """A message of the engine: schema, progress or a frame."""
+        if isinstance(told, bytes):
+            if self.store is not None:
+                self.store.append(told)
+        elif told["type"] == "schema":
+            self.store, self.schema = FrameStore(len(told["channels"])), told
+        else:
+            self.progress = told
+
+
+class _Cursor:
+    """How far one connection has been told of one execution."""
+
+    def __init__(self, telling: Telling):
+        self.telling = telling
+        self.schema_told, self.bucket, self.progress = False, 0, None
+
+    def tell(self, socket: ClientConnection) -> bool:
+        """Send what is new; True once the end was told."""
+        telling = self.telling
+        ended = telling.ended
+        if telling.schema is not None and telling.store is not None:
+            if not self.schema_told:
+                self._say(socket, telling.schema)
+                self.schema_told = True
+            frame = telling.store.since(self.bucket)
+            if frame is not None:
+                self.bucket += (len(frame) - 8) // telling.store.row
+                socket.send(FRAME_HEADER.pack(telling.run_id.encode(), telling.attempt) + frame)
+            if telling.progress is not None and telling.progress is not self.progress:
+                self.progress = telling.progress
+                self._say(socket, telling.progress)
+        if ended:
+            self._say(socket, {"type": "end"})
+        return ended
+
+    def _say(self, socket: ClientConnection, message: dict[str, Any]) -> None:
+        socket.send(json.dumps({**message, "run_id": self.telling.run_id}))
+
+
+class Link:
+    """Runs in a thread; reconnects with back-off and tells the new connection everything again."""
+
+    def __init__(self, url: str, token: str):
+        self.url, self.token = url, token
+        self._tellings: list[Telling] = []
+        self._lock = threading.Lock()
+        threading.Thread(target=self._keep, daemon=True, name="rths-link").start()
+
+    def open(self, run_id: str, attempt: int) -> Telling:
+        telling = Telling(run_id, attempt)
+        with self._lock:
+            self._tellings.append(telling)
+        return telling
+
+    def _keep(self) -> None:
+        delay = BACK_OFF_S[0]
+        while True:
+            try:
+                headers = {"Authorization": f"Bearer {self.token}"}
+                with connect(self.url, additional_headers=headers, compression=None, max_size=None) as socket:
+                    delay = BACK_OFF_S[0]
+                    self._tell(socket)
+            except (OSError, WebSocketException) as error:
+                log.info("no connection to the web at %s: %s", self.url, error)
+            time.sleep(delay)
+            delay = min(2 * delay, BACK_OFF_S[1])
+
+    def _tell(self, socket: ClientConnection) -> None:
+        cursors: dict[int, _Cursor] = {}
+        while True:
+            with self._lock:
+                tellings = list(self._tellings)
+            for telling in tellings:
+                if cursors.setdefault(id(telling), _Cursor(telling)).tell(socket):
+                    del cursors[id(telling)]
+                    with self._lock:
+                        self._tellings.remove(telling)
+            try:
+                socket.recv(timeout=SHORTEST_GAP_S)
+            except TimeoutError:
+                continue
