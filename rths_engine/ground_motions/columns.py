@@ -89,14 +89,12 @@ def _rows(data: list[tuple[int, str]]) -> list[Row]:
     separator, decimal_comma = _separator(data)
     rows: list[Row] = []
     for at, text in data:
-        fields = [field.strip() for field in text.split(separator)] if separator else text.split()
-        if separator and fields and not fields[-1]:
-            fields = fields[:-1]
-        if not all(fields):
-            raise MotionError(Issue(f"line {at}", "has an empty field", text, "fill it or remove the line"))
-        if decimal_comma:
-            fields = [field.replace(",", ".") for field in fields]
-        rows.append((at, [number for field in fields for number in numbers(field, f"line {at}")]))
+        if separator:
+            fields = text.removesuffix(separator).split(separator)
+            if not all(field.strip() for field in fields):
+                raise MotionError(Issue(f"line {at}", "has an empty field", text, "fill it or remove the line"))
+            text = " ".join(fields)
+        rows.append((at, numbers(text.replace(",", ".") if decimal_comma else text, f"line {at}")))
     return rows
 
 

@@ -47,6 +47,11 @@ def value(token: str) -> float | None:
 def numbers(line: str, where: str, width: int = 0) -> list[float]:
     """The numbers of a line, also where fixed columns of `width` touch. Raises MotionError naming what is no number."""
     line = line.rstrip()
+    if not width and "_" not in line:
+        try:
+            return [float(token) for token in line.split()]
+        except ValueError:
+            pass  # the slow way below reads touching numbers and D exponents, or says what is wrong
     if width:
         tokens = [field for start in range(0, len(line), width) if (field := line[start : start + width].strip())]
     else:
