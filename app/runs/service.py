@@ -88,7 +88,7 @@ class RunService:
 
     def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         column, _, station = page.sort.partition(":")
-        known = column in SORTS and not station or column in MEASURES and station.isdigit() and len(station) < 3
+        known = (column in SORTS and not station) or (column in MEASURES and station.isdigit() and len(station) < 3)
         if not known:
             names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
             near = difflib.get_close_matches(page.sort, names, 1)
