@@ -1,0 +1,80 @@
+# make run    set up, start the control room and a demonstration test, print its address
+# make test   set up, check and test everything
+# make setup  set up alone: .venv, browser parts, compiled engine
+#
+# RTHS_PORT=8001 and RTHS_DATA=FOLDER change where `make run` listens and keeps its data; PYTHON=... chooses the Python.
+
+VENV := .venv
+BIN := $(VENV)/bin
+STAMPS := $(VENV)/stamps
+VENDOR := frontend/static/vendor
+ENGINE := $(shell find rths_engine -name '*.py')
+PYTEST ?=
+
+.DEFAULT_GOAL := setup
+.DELETE_ON_ERROR:
+.PHONY: setup run test test-clone check browser lock clean
+
+setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
+
+run: setup
+	@$(BIN)/rths serve --demo
+
+test: setup browser check
+	$(BIN)/pytest -n 2 --dist loadfile $(PYTEST)
+
+test-clone: setup
+	$(BIN)/pytest -m slow tests/test_fresh_clone.py $(PYTEST)
+
+check: setup
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+clean:
+	rm -rf $(VENV) $(VENDOR) frontend/node_modules *.egg-info build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# A stamp is touched last, so a step that failed leaves none and is done again.
+
+$(STAMPS)/python:
+	@for python in $(PYTHON) python3.11 python3 python3.12 python3.13 python3.14; do \
+	    if $$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+	        echo "Making $(VENV) with $$($$python --version)"; $$python -m venv $(VENV) && mkdir -p $(STAMPS) && touch $@; exit; \
+	    fi; \
+	done; \
+	echo "No Python 3.11 or newer with its venv module was found (on Debian: apt-get install python3 python3-venv)." >&2; \
+	echo "Install one, or name it: make setup PYTHON=/path/to/python3.11" >&2; exit 1
+
+$(STAMPS)/dependencies: requirements.lock $(STAMPS)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	@touch $@
+
+$(STAMPS)/package: pyproject.toml $(STAMPS)/dependencies
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+$(VENDOR)/.installed: frontend/package.json frontend/package-lock.json frontend/.npmrc app/npm_parts.py $(STAMPS)/python
+	$(BIN)/python -m app.npm_parts
+	@touch $@
+
+$(STAMPS)/compiled: $(ENGINE) $(STAMPS)/package
+	$(BIN)/python -m rths_engine.warm
+	@touch $@
+
+# The browser of the tests is Debian's; no test tool downloads one of its own.
+browser:
+	@command -v chromium >/dev/null || { \
+	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	        apt-get update -qq && apt-get install -y -qq --no-install-recommends chromium; \
+	    else \
+	        echo "The browser tests need Chromium (on Debian: apt-get install chromium); they are left out without it." >&2; \
+	    fi; }
+
+# Renew requirements.lock: the newest releases that pyproject.toml admits.
+lock:
+	rm -rf $(VENV)/lock && $(BIN)/python -m venv $(VENV)/lock
+	$(VENV)/lock/bin/python -m pip install --quiet --disable-pip-version-check 'setuptools>=80' '.[test]'
+	{ echo "# Every installed package, pinned; made by 'make lock'."; \
+	  $(VENV)/lock/bin/python -m pip freeze --all --exclude pip --exclude rths-control-room; } > requirements.lock
+	rm -rf $(VENV)/lock build

