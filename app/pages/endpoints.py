@@ -8,6 +8,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
 from app.dependencies import Plans, Runs
+from app.live.hub import Hub
 from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
 from app.pages.run_list import LIMIT, RunFilter
@@ -23,13 +24,13 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/")
 def lab(request: Request, runs: Runs) -> HTMLResponse:
-    return page(request, "lab.html", **_lab(runs))
+    return page(request, "lab.html", **_lab(request, runs))
 
 
 @router.get("/lab")
 def lab_now(request: Request, runs: Runs) -> HTMLResponse:
     """The changing part of the Lab page."""
-    return page(request, "lab_now.html", **_lab(runs))
+    return page(request, "lab_now.html", **_lab(request, runs))
 
 
 @router.get("/new")
@@ -59,7 +60,13 @@ def missing(request: Request, path: str) -> HTMLResponse:
     return error_page(request, 404, "Not found", f"There is no page /{path}.")
 
 
-def _lab(runs: Runs) -> dict[str, Any]:
+def _progress(hub: Hub, run_id: str) -> dict[str, Any]:
+    """What the worker told last of a running test; nothing when it has not told yet."""
+    live = hub.runs.get(run_id)
+    return (live.progress if live else None) or {}
+
+
+def _lab(request: Request, runs: Runs) -> dict[str, Any]:
     oldest_first = {"sort": "number", "descending": False}
     running, _ = runs.list(Filter(states=(State.RUNNING,)), Page(limit=QUEUED_SHOWN, **oldest_first))
     queued, queued_total = runs.list(Filter(states=(State.QUEUED,)), Page(limit=QUEUED_SHOWN, **oldest_first))
@@ -67,4 +74,5 @@ def _lab(runs: Runs) -> dict[str, Any]:
     recent, _ = runs.list(Filter(states=ended), Page(sort="finished_at", limit=RECENT_SHOWN))
     queue = runs.queue_state()
     lists = {"running": running, "queued": queued, "queued_total": queued_total, "recent": recent}
-    return {**lists, "queue": queue, "worker_alive": queue.worker_alive}
+    live = {run.id: _progress(request.app.state.hub, run.id) for run in running}
+    return {**lists, "live": live, "queue": queue, "worker_alive": queue.worker_alive}

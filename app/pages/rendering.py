@@ -9,6 +9,7 @@ from typing import Any
 from fastapi import Request
 from fastapi.responses import HTMLResponse
 from fastapi.templating import Jinja2Templates
+from jinja2 import Undefined
 
 FRONTEND = Path(__file__).parents[2] / "frontend"
 HEADERS = {
@@ -22,9 +23,9 @@ HEADERS = {
 }
 
 
-def fixed(value: float | None, decimals: int = 1) -> str:
+def fixed(value: Any, decimals: int = 1) -> str:
     """A number with fixed decimals; a dash where there is none."""
-    return "–" if value is None else f"{value:.{decimals}f}"
+    return "–" if value is None or isinstance(value, Undefined) else f"{value:.{decimals}f}"
 
 
 def ago(moment: datetime | None) -> str:

@@ -1,0 +1,103 @@
+"""One service and one browser for all browser tests; every page opened is watched for errors and foreign addresses."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from tests.browser.service import Service, running
+
+ARGUMENTS = (
+    "--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+    "--disable-component-update --disable-sync"
+).split()
+WIDE = {"width": 1360, "height": 900}
+
+Opener = Callable[..., Page]
+
+expect.set_options(timeout=15_000)
+
+
+@pytest.fixture(scope="session")
+def service(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    with running(tmp_path_factory.mktemp("service")) as one:
+        one.completed()  # the engine is compiled and warm from here on
+        yield one
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    path = shutil.which("chromium")
+    if path is None:
+        reason = "no chromium on the PATH: the pages are not tested (Debian: apt-get install chromium)"
+        if os.environ.get("CI") == "true":
+            pytest.fail(reason)
+        pytest.skip(reason)
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
+        yield started
+        started.close()
+
+
+@pytest.fixture
+def idle(service: Service) -> Iterator[Service]:
+    """The service with nothing queued or running, before and after."""
+    service.idle()
+    yield service
+    service.idle()
+
+
+class Watch:
+    """What went wrong on a page: console errors, exceptions, failed requests, addresses beyond this machine."""
+
+    def __init__(self, page: Page):
+        self.faults: list[str] = []
+        self.allowed: tuple[str, ...] = ()
+        page.on("console", lambda message: message.type in {"error", "warning"} and self.faults.append(f"console: {message.text}"))
+        page.on("pageerror", lambda error: self.faults.append(f"exception: {error}"))
+        page.on("requestfailed", lambda request: self._failed(request))
+        page.on("request", lambda request: self._asked(request.url))
+        page.on("websocket", lambda socket: self._asked(socket.url))
+
+    def _failed(self, request: Any) -> None:
+        if "ERR_ABORTED" not in (request.failure or ""):  # a page that is left gives up its requests
+            self.faults.append(f"failed: {request.url} {request.failure}")
+
+    def _asked(self, url: str) -> None:
+        parts = urlsplit(url)
+        if parts.scheme not in {"blob", "data"} and parts.hostname != "127.0.0.1":
+            self.faults.append(f"left this machine: {url}")
+
+    def check(self) -> None:
+        found = [fault for fault in self.faults if not any(text in fault for text in self.allowed)]
+        assert found == []
+
+
+@pytest.fixture
+def opened(browser: Browser, service: Service) -> Iterator[Opener]:
+    """Open a page of the service; `allow` names faults that the test provokes."""
+    contexts, watches = [], []
+
+    def open_page(path: str, allow: tuple[str, ...] = (), who: str = "Ana Ruiz", **options: Any) -> Page:
+        context = browser.new_context(base_url=service.url, **{"viewport": WIDE, "accept_downloads": True, **options})
+        context.add_init_script(f"localStorage.setItem('rths.name', {who!r})" if who else "")
+        context.set_default_timeout(15_000)
+        contexts.append(context)
+        page = context.new_page()
+        watch = Watch(page)
+        watch.allowed = allow
+        watches.append(watch)
+        page.goto(path)
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    for watch in watches:
+        watch.check()

@@ -1,0 +1,15 @@
+"""The whole service for a browser test: `python -m tests.browser.serve DATA PORT`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import uvicorn
+
+from app.config import Settings
+from app.main import create_app
+
+if __name__ == "__main__":
+    data, port = Path(sys.argv[1]), int(sys.argv[2])
+    uvicorn.run(create_app(Settings(data=data, port=port)), host="127.0.0.1", port=port, log_level="warning")

@@ -1,0 +1,91 @@
+"""A running service, seen through its REST interface, for setting up what a browser test looks at."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+STARTED_WITHIN_S = 90  # compiling the engine's loop for the first time included
+ENDED = {"completed", "tripped", "cancelled", "failed"}
+ROOT = Path(__file__).parents[2]
+
+
+class Service:
+    def __init__(self, url: str):
+        self.url = url
+        self.http = httpx.Client(base_url=url, timeout=20)
+
+    def get(self, path: str) -> Any:
+        return self.http.get(f"/api/v1{path}").raise_for_status().json()
+
+    def post(self, path: str, data: Any) -> Any:
+        return self.http.post(f"/api/v1{path}", json=data).raise_for_status().json()
+
+    def plan(self, template: str = "table3-04", **changes: Any) -> dict[str, Any]:
+        return {**self.get(f"/templates/{template}")["plan"], **changes}
+
+    def submit(self, by: str = "Ana Ruiz", **changes: Any) -> str:
+        """Queue simulation 4 of Table III with some of it changed; its id."""
+        run: str = self.post("/runs", {"plan": self.plan(**changes), "submitted_by": by})["runs"][0]["id"]
+        return run
+
+    def wait(self, run_id: str, *states: str) -> dict[str, Any]:
+        """The run once it is in one of the states (by default: once it has ended)."""
+        return until(lambda: self.get(f"/runs/{run_id}"), lambda run: run["state"] in (set(states) or ENDED))
+
+    def completed(self, **changes: Any) -> str:
+        """A short run that has ended."""
+        run = self.submit(**{"duration": 3.0, **changes})
+        self.wait(run)
+        return run
+
+    def idle(self) -> None:
+        """Cancel what is under way and release the queue, so that a test starts from nothing."""
+        for state in ("queued", "running"):
+            for run in self.get(f"/runs?state={state}&limit=500")["runs"]:
+                self.http.post(f"/api/v1/runs/{run['id']}/cancel", json={})
+        until(lambda: self.get("/queue"), lambda queue: not queue["running"] and not queue["queued"])
+        self.post("/queue/release", {})
+
+
+def until(look: Callable[[], Any], good: Callable[[Any], bool], within_s: float = 60) -> Any:
+    deadline = time.monotonic() + within_s
+    while not good(found := look()):
+        assert time.monotonic() < deadline, f"still {found} after {within_s} s"
+        time.sleep(0.1)
+    return found
+
+
+@contextmanager
+def running(data: Path) -> Iterator[Service]:
+    """The service in a process of its own on a free port, its data in the folder `data`."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    with (data / "service.log").open("wb") as log:
+        command = [sys.executable, "-m", "tests.browser.serve", str(data / "rths"), str(port)]
+        process = subprocess.Popen(command, cwd=ROOT, stdout=log, stderr=subprocess.STDOUT)
+        service = Service(f"http://127.0.0.1:{port}")
+        try:
+            until(lambda: _ready(service, process), bool, STARTED_WITHIN_S)
+            yield service
+        finally:
+            service.http.close()
+            process.terminate()
+            process.wait(20)
+
+
+def _ready(service: Service, process: subprocess.Popen[bytes]) -> bool:
+    assert process.poll() is None, "the service ended at its start; its log says why"
+    try:
+        return bool(service.get("/queue")["worker_alive"])
+    except (httpx.HTTPError, KeyError):
+        return False

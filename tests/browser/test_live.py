@@ -1,0 +1,87 @@
+"""A running test in the browser: seen live, seen again after a reload, cancelled and aborted."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import Opener
+from tests.browser.service import Service
+
+REAL_TIME = {"kind": "real_time", "factor": 1.0}
+
+
+def test_a_reload_mid_run_shows_the_whole_history(idle: Service, opened: Opener) -> None:
+    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    page = opened(f"/runs/{run}")
+    _expect_simulated(page, 3)
+    page.reload()
+    expect(page.locator(".chart canvas").first).to_be_visible()
+    error = page.get_by_role("img", name=re.compile("^Tracking error")).first
+    error.focus()
+    page.keyboard.press("Shift+ArrowLeft")
+    for _ in range(30):
+        page.keyboard.press("Shift+ArrowLeft")
+    page.keyboard.press("Shift+ArrowRight")
+    expect(error).to_have_attribute("aria-label", re.compile(r"at 0\.\d\d s: -?\d"))
+    expect(page.locator("#state")).to_have_text("running")
+
+
+def test_a_lost_connection_is_told_and_mended(idle: Service, opened: Opener) -> None:
+    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    page = opened(f"/runs/{run}", allow=("ERR_INTERNET_DISCONNECTED", "WebSocket"))
+    sockets: list[str] = []
+    page.on("websocket", lambda socket: sockets.append(socket.url))
+    _expect_simulated(page, 1)
+    page.route_web_socket("**/live*", lambda socket: socket.close())
+    page.reload()
+    expect(page.get_by_text("Connection lost, reconnecting …")).to_be_visible()
+
+
+def test_a_running_test_is_cancelled_and_keeps_what_was_recorded(idle: Service, opened: Opener) -> None:
+    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    page = opened(f"/runs/{run}")
+    _expect_simulated(page, 1)
+    page.get_by_role("button", name="Cancel this test").click()
+    expect(page.locator("#state")).to_have_text("cancelled")
+    expect(page.locator("#reason")).to_contain_text("Stopped by Ana Ruiz")
+    expect(page.get_by_role("link", name="Recording, HDF5")).to_be_visible()
+
+
+def test_abort_asks_once_more_then_stops_the_test_and_holds_the_queue(idle: Service, opened: Opener) -> None:
+    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    idle.wait(run, "running")
+    page = opened("/runs")
+    bar = page.get_by_role("region", name="Running tests")
+    expect(bar).to_contain_text("It is NOT the laboratory's emergency stop.")
+    page.get_by_role("button", name="Abort").focus()
+    page.keyboard.press("Enter")
+    assert idle.get(f"/runs/{run}")["state"] == "running"
+    expect(bar.get_by_role("button", name="Press again to abort")).to_be_focused()
+    page.keyboard.press("Enter")
+    assert idle.wait(run)["state"] == "cancelled"
+    page.goto("/")
+    expect(page.locator("#held")).to_contain_text("The queue is held by Ana Ruiz")
+    waiting = idle.submit(name="Held back", duration=1.0)
+    expect(page.locator(f"#queued-{waiting}")).to_contain_text("Held back")
+    page.get_by_role("button", name="Release the queue").click()
+    expect(page.locator(f"#recent-{waiting}")).to_contain_text("completed")
+    expect(page.locator("#held")).to_have_count(0)
+
+
+def test_the_lab_page_keeps_the_focus_while_it_refreshes(idle: Service, opened: Opener) -> None:
+    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    idle.wait(run, "running")
+    page = opened("/")
+    cancel = page.locator(f"#cancel-{run}")
+    cancel.focus()
+    for _ in range(2):
+        with page.expect_response("**/lab"):
+            pass
+    expect(cancel).to_be_focused()
+    expect(page.locator(f"#running-{run} progress")).to_have_js_property("max", 20)
+
+
+def _expect_simulated(page: Page, seconds: int) -> None:
+    expect(page.locator("#clock")).to_have_text(re.compile(rf"^({seconds}|[1-9]\d)\.\d\d of 20.00 s simulated"))

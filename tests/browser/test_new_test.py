@@ -1,0 +1,127 @@
+"""The form: from a plan to a queued test, by mouse and by keyboard, with mistakes shown where they are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import Opener
+from tests.browser.service import Service
+
+
+@pytest.fixture
+def form(idle: Service, opened: Opener) -> Page:
+    page = opened("/new", allow=("422",))
+    expect(page.locator(".good")).to_be_visible()
+    return page
+
+
+def test_a_test_is_submitted_watched_to_its_end_and_its_recording_downloaded(form: Page, tmp_path: Path) -> None:
+    form.get_by_label("Duration, s").fill("5")
+    form.get_by_role("button", name="Queue the test").click()
+    form.wait_for_url("**/runs/*")
+    expect(form.locator("#state")).to_have_text("completed")
+    expect(form.locator("#metrics tbody tr.measured")).to_have_count(2)
+    expect(form.locator("#clock")).to_contain_text("5.00 of 5.00 s simulated")
+    expect(form.locator(".chart canvas").first).to_be_visible()
+    with form.expect_download() as download:
+        form.get_by_role("link", name="Recording, HDF5").click()
+    path = tmp_path / "recording.h5"
+    download.value.save_as(path)
+    with h5py.File(path) as file:
+        assert len(file.keys()) > 0
+
+
+def test_a_mistake_is_shown_beside_its_field_in_its_unit_and_focused_on_submit(form: Page) -> None:
+    alpha = form.get_by_label("Delay constant α", exact=True).first
+    alpha.fill("0.2")
+    expect(form.locator("[id='e-stations.0.actuator.alpha']")).to_have_text("needs at least 1")
+    stroke = form.get_by_label("Command displacement limit, mm").first
+    stroke.fill("20000")
+    expect(form.locator("[id='e-stations.0.limits.displacement']")).to_have_text("needs at most 10000 mm")
+    assert "e-stations.0.limits.displacement" in (stroke.get_attribute("aria-describedby") or "")
+    form.get_by_role("button", name="Queue the test").click()
+    expect(alpha).to_be_focused()
+    expect(alpha).to_have_attribute("aria-invalid", "true")
+
+
+def test_a_mistake_only_the_service_knows_is_shown_beside_its_field(form: Page) -> None:
+    form.get_by_label("Substeps per step n").fill("7")
+    expect(form.locator("[id='e-integrator.dt']")).to_contain_text("controller steps, but a step has 7 substeps")
+
+
+def test_a_value_may_be_typed_with_its_own_unit(form: Page) -> None:
+    form.get_by_label("Velocity limit, mm/s", exact=True).first.fill("22 in/s")
+    expect(form.locator(".good")).to_be_visible()
+    plan = form.evaluate("fetch('/api/v1/schema').then(() => true)")
+    assert plan
+
+
+def test_a_form_is_submitted_with_the_keyboard_alone(form: Page) -> None:
+    form.get_by_label("Duration, s").focus()
+    form.keyboard.press("Control+A")
+    form.keyboard.type("1")
+    form.keyboard.press("Enter")
+    form.wait_for_url("**/runs/*")
+    expect(form.locator("#clock")).to_contain_text("of 1.00 s simulated")
+
+
+def test_without_a_name_the_form_asks_for_it(idle: Service, opened: Opener) -> None:
+    page = opened("/new", who="")
+    expect(page.locator(".good")).to_be_visible()
+    page.get_by_role("button", name="Queue the test").click()
+    expect(page.get_by_label("Your name")).to_be_focused()
+    expect(page.locator("#e-who")).to_contain_text("is required")
+
+
+def test_a_plan_exported_and_imported_is_the_same_plan(form: Page, tmp_path: Path) -> None:
+    form.get_by_label("Start from a template").select_option("table3-09")
+    expect(form.get_by_label("Name", exact=True).first).to_have_value("Table III, simulation 9 (α_es = 1 and 60, kp = 0.4)")
+    digest = _digest(form)
+    with form.expect_download() as download:
+        form.get_by_role("button", name="Export the plan, YAML").click()
+    path = tmp_path / "plan.yaml"
+    download.value.save_as(path)
+    form.get_by_label("Start from a template").select_option("table3-02")
+    expect(form.get_by_label("Name", exact=True).first).to_have_value("Table III, simulation 2 (α_es = 1 and 1, kp = 0.4)")
+    assert _digest(form) != digest
+    form.get_by_label("Import a plan, YAML").set_input_files(path)
+    expect(form.get_by_label("Name", exact=True).first).to_have_value("Table III, simulation 9 (α_es = 1 and 60, kp = 0.4)")
+    assert _digest(form) == digest
+
+
+def test_stations_are_duplicated_and_removed_and_their_parts_exchanged(form: Page) -> None:
+    form.get_by_role("button", name="Duplicate station 2").click()
+    third = form.locator("fieldset[data-path='stations.2']")
+    expect(third.get_by_label("Name", exact=True)).to_have_value("Storey 2 damper 2")
+    third.get_by_label("Specimen", exact=True).select_option("linear")
+    expect(third.get_by_label("Damping coefficient, kN·s/m")).to_have_value("500")
+    form.get_by_role("button", name="Remove station 1").click()
+    expect(form.locator("fieldset[data-path='stations.2']")).to_have_count(0)
+    expect(form.locator("fieldset[data-path='stations.1']").get_by_label("Specimen", exact=True)).to_have_value("linear")
+    expect(form.locator(".good")).to_be_visible()
+
+
+def test_a_record_is_previewed_and_added_to_the_library(form: Page, tmp_path: Path) -> None:
+    record = tmp_path / "Site shake.txt"
+    record.write_text("\n".join(f"{0.3 * ((-1) ** n) * n / 400:.6f}" for n in range(400)))
+    form.get_by_text("Bring in a record").click()
+    form.get_by_label("Step, s").fill("0.01")
+    form.get_by_label("Unit of the acceleration").select_option("g")
+    form.get_by_label("File").set_input_files(record)
+    expect(form.locator(".upload .preview canvas").first).to_be_visible()
+    form.get_by_role("button", name="Add to the library").click()
+    expect(form.get_by_label("Record", exact=True)).to_have_value("site-shake")
+    expect(form.locator(".good")).to_be_visible()
+
+
+def _digest(form: Page) -> str:
+    """The digest once the last change was checked."""
+    with form.expect_response("**/plans/check") as answer:
+        form.get_by_label("Notes").press("End")
+        form.get_by_label("Notes").dispatch_event("input")
+    digest: str = answer.value.json()["digest"]
+    return digest

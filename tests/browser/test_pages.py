@@ -1,0 +1,84 @@
+"""Every page, in both themes and on a phone: whole, quiet, within its width and usable with assistive technology."""
+
+from __future__ import annotations
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import Opener
+from tests.browser.service import Service
+
+LOOKS = {
+    "light": {"color_scheme": "light"},
+    "dark": {"color_scheme": "dark"},
+    "phone": {"color_scheme": "light", "viewport": {"width": 390, "height": 800}},
+}
+# what shows that a page has all its content
+CONTENT = {
+    "/": "#recent-title + div tbody tr",
+    "/new": ".good",
+    "/runs": "tbody tr",
+    "/runs/{run}": "#metrics tbody tr",
+}
+
+
+@pytest.fixture(scope="module")
+def run(service: Service) -> str:
+    return service.completed()
+
+
+@pytest.mark.parametrize("look", LOOKS)
+@pytest.mark.parametrize("path", CONTENT)
+def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, run: str, opened: Opener) -> None:
+    page = opened(path.format(run=run), **LOOKS[look])
+    expect(page.locator(CONTENT[path]).first).to_be_visible()
+    _expect_accessible(page)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
+
+
+def test_an_unknown_page_says_so_and_leads_back(opened: Opener) -> None:
+    page = opened("/nowhere", allow=("404",))
+    expect(page.get_by_role("heading", name="Not found")).to_be_visible()
+    _expect_accessible(page)
+    page.get_by_role("link", name="To the Lab").click()
+    expect(page).to_have_title("Lab · RTHS control room")
+
+
+def test_an_unknown_run_says_so(opened: Opener) -> None:
+    page = opened("/runs/not-a-run", allow=("404",))
+    expect(page.get_by_text("There is no run not-a-run.")).to_be_visible()
+
+
+def test_the_theme_chosen_is_kept(opened: Opener) -> None:
+    page = opened("/", color_scheme="light")
+    page.get_by_role("button", name="Dark theme").click()
+    page.get_by_role("link", name="Runs", exact=True).click()
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
+    expect(page.get_by_role("button", name="Light theme")).to_be_visible()
+
+
+def test_the_first_tab_stop_skips_to_the_content(opened: Opener) -> None:
+    page = opened("/runs")
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("link", name="Skip to the content")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.locator("main")).to_be_focused()
+
+
+def test_runs_are_filtered_and_sorted_by_the_address(service: Service, opened: Opener) -> None:
+    for name in ("Brace A", "Brace B"):
+        service.completed(name=name, duration=0.5)
+    page = opened("/runs")
+    page.get_by_label("Text").fill("Brace")
+    page.get_by_role("button", name="Filter").click()
+    expect(page.locator("tbody tr")).to_have_count(2)
+    page.get_by_role("link", name="Test", exact=True).click()
+    page.get_by_role("link", name="Test ▼").click()
+    expect(page.locator("tbody td.name").first).to_have_text("Brace A")
+    assert "q=Brace" in page.url and "sort=name" in page.url and "order=asc" in page.url
+
+
+def _expect_accessible(page: Page) -> None:
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
