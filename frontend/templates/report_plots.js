@@ -23,7 +23,7 @@
 
   function axis(title, theme, more) {
     return { title: { text: title, standoff: 8, font: { size: 12 } }, gridcolor: theme.grid, zerolinecolor: theme.zero, zerolinewidth: 1,
-      linecolor: theme.zero, showline: true, ticks: "outside", ticklen: 4, tickcolor: theme.zero, automargin: true, nticks: 8, ...more };
+      linecolor: theme.zero, showline: true, ticks: "outside", ticklen: 4, tickcolor: theme.zero, automargin: true, nticks: 8, exponentformat: "power", ...more };
   }
 
   function layout(spec, theme, size) {
@@ -33,7 +33,8 @@
       legend: { orientation: "h", x: 1, xanchor: "right", y: 1, yanchor: "bottom" },
       font: { family: "Inter, system-ui, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif", size: 12, color: theme.muted },
       paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", dragmode: touch.matches ? false : "zoom", hovermode: "closest",
-      xaxis: axis(spec.x, theme, spec.zero ? { rangemode: "tozero" } : {}), yaxis: axis(spec.y, theme, spec.zero ? { rangemode: "tozero" } : {}),
+      xaxis: axis(spec.x, theme, spec.from_zero.includes("x") ? { rangemode: "tozero" } : {}),
+      yaxis: axis(spec.y, theme, spec.from_zero.includes("y") ? { rangemode: "tozero" } : {}),
     };
   }
 

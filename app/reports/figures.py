@@ -1,0 +1,142 @@
+"""The report's plots as data: titles, axes with units and packed traces; the page's script draws them in its theme."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.reports.decimate import Samples, extremes, packed
+
+POINTS = 130_000  # of all traces together: 2 x 4 bytes a point in base64 make 1.4 MB
+MOST_BUCKETS = 1200
+DETAIL = 1.5  # s on each side
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """One plot. `spec` is what the script draws, `alt` what a screen reader says."""
+
+    title: str
+    alt: str
+    spec: dict[str, Any]
+    wide: bool = False
+
+
+class Figures:
+    """Makes panels of a recording's channels in shown units; `panels` share the points there are."""
+
+    def __init__(self, recording: Any):
+        self.time: Samples = recording.time
+        self.column = {channel.key: index for index, channel in enumerate(recording.channels)}
+        self.channels = recording.channels
+        self.signals: Samples = recording.signals
+        stations = {channel.group for channel in recording.channels if channel.group.startswith("s")}
+        traces = 12 * len(stations) + 8
+        self.buckets = max(60, min(MOST_BUCKETS, POINTS // (2 * traces)))
+
+    def shown(self, key: str) -> Samples:
+        """A channel in its shown unit."""
+        index = self.column[key]
+        values: Samples = self.signals[:, index] / self.channels[index].factor
+        return values
+
+    def unit(self, key: str) -> str:
+        label: str = self.channels[self.column[key]].shown_label
+        return label
+
+    def against_time(
+        self,
+        title: str,
+        quantity: str,
+        keys: Sequence[tuple[str, str]],
+        of: str = "",
+        part: slice | None = None,
+        wide: bool = False,
+    ) -> Panel:
+        """`keys`: channel and name of each trace; `part`: the rows shown, all by default."""
+        rows = part or slice(None)
+        time, unit = self.time[rows], self.unit(keys[0][0])
+        signals = np.column_stack([self.shown(key)[rows] for key, _ in keys])
+        kept = extremes(signals, self.buckets)
+        traces = [
+            {"name": name, "x": packed(time[kept]), "y": packed(signals[kept, index]), "colour": index}
+            for index, (_, name) in enumerate(keys)
+        ]
+        spec = {"traces": traces, "x": "Time, s", "y": _labelled(quantity, unit), "from_zero": "" if part else "x"}
+        return Panel(title, _sentence(title, of, time, signals, unit), spec, wide)
+
+    def against(self, title: str, x: tuple[str, str], y: tuple[str, str], of: str) -> Panel:
+        """One channel over another, each with its quantity: a hysteresis loop."""
+        pair = np.column_stack([self.shown(x[0]), self.shown(y[0])])
+        kept = extremes(pair, self.buckets)
+        trace = {"name": of, "x": packed(pair[kept, 0]), "y": packed(pair[kept, 1]), "colour": 0, "thin": True}
+        spec = {
+            "traces": [trace],
+            "x": _labelled(x[1], self.unit(x[0])),
+            "y": _labelled(y[1], self.unit(y[0])),
+            "from_zero": "",
+        }
+        alt = f"{title}, {of}: {_range(pair[:, 1], self.unit(y[0]))} over {_range(pair[:, 0], self.unit(x[0]))}."
+        return Panel(title, alt, spec)
+
+
+def station_panels(figures: Figures, group: str, name: str) -> list[Panel]:
+    """What Figures 8 and 9 of the paper show of one actuator, and a detail of its displacements."""
+    pair = [(f"{group}.x_cmd", "Command"), (f"{group}.x_meas", "Measured")]
+    at = _detail(figures, group)
+    return [
+        figures.against_time("Command and measured displacement", "Displacement", pair, name, wide=True),
+        figures.against_time("Detail around the largest command", "Displacement", pair, name, at),
+        figures.against(
+            "Damper force against displacement",
+            (f"{group}.x_meas", "Measured displacement"),
+            (f"{group}.f_meas", "Damper force"),
+            name,
+        ),
+        figures.against_time("Tracking error", "Tracking error", [(f"{group}.error", "Tracking error")], name),
+        figures.against_time("Tracking indicator", "Tracking indicator", [(f"{group}.ti", "Tracking indicator")], name),
+        figures.against_time("Energy error", "Energy error", [(f"{group}.energy_error", "Energy error")], name),
+        figures.against_time("Adaptation Δα of the compensator", "Δα", [(f"{group}.d_alpha", "Δα")], name),
+    ]
+
+
+def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, damping: float) -> Panel:
+    """Sa (g) over period (s) with T1 marked."""
+    title = f"Response spectrum, {damping * 100:g} % damping"
+    mark = {"x": t1, "y": sa_t1_g, "text": f"T₁ = {t1:.3g} s, Sa = {sa_t1_g:.3f} g"}
+    trace = {"name": "Sa", "x": packed(periods), "y": packed(sa_g), "colour": 0}
+    spec = {"traces": [trace], "x": "Period, s", "y": "Spectral acceleration Sa, g", "from_zero": "xy", "mark": mark}
+    peak = int(np.argmax(sa_g))
+    alt = f"{title}: largest {sa_g[peak]:.3g} g at {periods[peak]:.3g} s; {sa_t1_g:.3g} g at T1 = {t1:.3g} s."
+    return Panel(title, alt, spec)
+
+
+def _detail(figures: Figures, group: str) -> slice:
+    command, time = np.nan_to_num(figures.shown(f"{group}.x_cmd")), figures.time
+    if not len(time):
+        return slice(None)
+    centre = time[int(np.argmax(np.abs(command)))]
+    start = max(float(time[0]), min(centre - DETAIL, float(time[-1]) - 2 * DETAIL))
+    first, last = np.searchsorted(time, [start, start + 2 * DETAIL])
+    return slice(int(first), int(last) + 1)
+
+
+def _labelled(quantity: str, unit: str) -> str:
+    return f"{quantity}, {unit}" if unit else quantity
+
+
+def _sentence(title: str, of: str, time: Samples, signals: Samples, unit: str) -> str:
+    whose = f" of {of}" if of else ""
+    if not len(time):
+        return f"{title}{whose}: nothing recorded."
+    return f"{title}{whose} from {time[0]:.1f} to {time[-1]:.1f} s: {_range(signals, unit)}."
+
+
+def _range(values: Samples, unit: str) -> str:
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return "no finite value"
+    return f"{known.min():.3g} to {known.max():.3g} {unit}".strip()

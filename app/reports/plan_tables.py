@@ -1,0 +1,92 @@
+"""A plan as tables for people: labels, units and factors come from the fields' own declarations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+_HIDDEN = {"kind", "schema_", "name", "notes", "template"}
+_LISTED = 12  # values of a list that are written out
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    label: str
+    value: str
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Equal parts, one a row: storeys with mass, stiffness and height."""
+
+    title: str
+    columns: list[str]
+    rows: list[list[str]]
+
+
+@dataclass(slots=True)
+class Group:
+    """One part of the plan: its own fields, and the lists of parts in it."""
+
+    title: str
+    rows: list[Row] = field(default_factory=list)
+    grids: list[Grid] = field(default_factory=list)
+
+
+def groups(title: str, part: BaseModel, leave_out: Sequence[str] = ()) -> list[Group]:
+    """`part` as a group, followed by one group for each part nested in it."""
+    own = Group(title)
+    nested: list[Group] = []
+    for info, value in _fields(part, leave_out):
+        label = info.title or ""
+        if isinstance(value, BaseModel):
+            if any(True for _ in _fields(value)):
+                nested += groups(f"{label}: {_name(value)}" if _name(value) else label, value)
+            else:
+                own.rows.append(Row(label, _name(value)))
+        elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
+            own.grids.append(_grid(label, value))
+        else:
+            own.rows.append(Row(label, written(value, info), _extra(info).get("shown_label", "")))
+    return [group for group in [own, *nested] if group.rows or group.grids]
+
+
+def written(value: Any, info: FieldInfo) -> str:
+    """A field's value as people read it, in the shown unit."""
+    if value is None:
+        return info.description or "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, tuple | list):
+        return ", ".join(written(item, info) for item in value) if len(value) <= _LISTED else f"{len(value)} values"
+    if isinstance(value, float):
+        return f"{value / _extra(info).get('factor', 1.0):.6g}".replace("-", "−")
+    return str(value)
+
+
+def _grid(title: str, parts: Sequence[BaseModel]) -> Grid:
+    kept = [(name, info) for name, info in type(parts[0]).model_fields.items() if name not in _HIDDEN]
+    units = [_extra(info).get("shown_label", "") for _, info in kept]
+    columns = [f"{info.title}, {unit}" if unit else info.title or "" for (_, info), unit in zip(kept, units, strict=True)]
+    rows = [[written(getattr(part, name), info) for name, info in kept] for part in parts]
+    return Grid(title, columns, rows)
+
+
+def _fields(part: BaseModel, leave_out: Sequence[str] = ()) -> Iterator[tuple[FieldInfo, Any]]:
+    for name, info in type(part).model_fields.items():
+        if name not in _HIDDEN and name not in leave_out:
+            yield info, getattr(part, name)
+
+
+def _name(part: BaseModel) -> str:
+    title = getattr(type(part), "title", "")
+    return title if isinstance(title, str) else ""
+
+
+def _extra(info: FieldInfo) -> dict[str, Any]:
+    return info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
