@@ -1,76 +1,48 @@
-"""What is refused before any endpoint sees it: bodies too large, and changes asked for by other sites' pages."""
+"""What is refused before any endpoint sees it: changes that another site's page asks for, and bodies declared too large."""
 
 from __future__ import annotations
 
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
 
-from app.problems import problem
+from app.problems import problem, too_large
 
 SAFE = {"GET", "HEAD", "OPTIONS"}
-
-
-class BodyTooLarge(Exception):
-    """More bytes came than the limit allows."""
+NOT_ALLOWED = 4403
 
 
 class Guard:
-    """ASGI middleware. A body is refused by its declared length at once, or when the bytes counted pass the limit."""
+    """ASGI middleware. Programs send no Origin; a browser's must name the host it talks to, websockets included.
+
+    Bodies that declare no length are counted by the framework (`max_body_size`).
+    """
 
     def __init__(self, app: ASGIApp, limit: int):
         self.app, self.limit = app, limit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] not in {"http", "websocket"}:
+        if scope["type"] not in {"http", "websocket"} or scope.get("method") in SAFE:
             await self.app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        if not _same_origin(headers) and scope.get("method") not in SAFE:
-            await self._refuse_origin(scope, receive, send)
+        if _same_origin(headers):
+            if _declared(headers) > self.limit:
+                await too_large(self.limit)(scope, receive, send)
+            else:
+                await self.app(scope, receive, send)
         elif scope["type"] == "websocket":
-            await self.app(scope, receive, send)
-        else:
-            await self._limited(scope, receive, send, headers)
-
-    async def _refuse_origin(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] == "websocket":
-            await send({"type": "websocket.close", "code": 4403, "reason": "not allowed from another site"})
+            await send({"type": "websocket.close", "code": NOT_ALLOWED, "reason": "not allowed from another site"})
         else:
             await problem(403, "Changes are taken only from this service's own pages and from programs.")(scope, receive, send)
 
-    async def _limited(self, scope: Scope, receive: Receive, send: Send, headers: Headers) -> None:
-        declared = headers.get("content-length", "0")
-        if not declared.isdigit() or int(declared) > self.limit:
-            await self._too_large()(scope, receive, send)
-            return
-        seen, answered = 0, False
 
-        async def counted() -> Message:
-            nonlocal seen
-            message = await receive()
-            seen += len(message.get("body", b""))
-            if seen > self.limit:
-                raise BodyTooLarge
-            return message
-
-        async def noted(message: Message) -> None:
-            nonlocal answered
-            answered = True
-            await send(message)
-
-        try:
-            await self.app(scope, counted, noted)
-        except BodyTooLarge:
-            if not answered:
-                await self._too_large()(scope, receive, send)
-
-    def _too_large(self):  # type: ignore[no-untyped-def]
-        return problem(413, f"The request is larger than {self.limit / 1e6:g} MB, the most that is taken.")
+def _declared(headers: Headers) -> int:
+    length = headers.get("content-length", "0")
+    return int(length) if length.isdecimal() else 0
 
 
 def _same_origin(headers: Headers) -> bool:
-    """Programs send no Origin; a browser's must name the host it talks to."""
     origin = headers.get("origin")
     return origin is None or urlsplit(origin).netloc == headers.get("host")

@@ -32,7 +32,14 @@ SWAGGER = "/static/vendor/swagger-ui"
 def create_app(settings: Settings | None = None) -> FastAPI:
     """The application on `settings` (by default of the environment). Its lifespan migrates and starts the embedded worker."""
     configured = (settings or from_environment()).prepared()
-    app = FastAPI(title="RTHS control room", version=__version__, docs_url=None, redoc_url=None, lifespan=_lifespan)
+    app = FastAPI(
+        title="RTHS control room",
+        version=__version__,
+        docs_url=None,
+        redoc_url=None,
+        lifespan=_lifespan,
+        max_body_size=configured.upload_limit,
+    )
     app.state.settings = configured
     app.state.hub = Hub()
     problems.install(app)

@@ -65,8 +65,14 @@ def _request_error(_: Request, error: Exception) -> JSONResponse:
     return problem(400 if unread else 422, "; ".join(str(issue) for issue in issues), [issue.as_dict() for issue in issues])
 
 
-def _http_error(_: Request, error: Exception) -> JSONResponse:
+def too_large(limit: int) -> JSONResponse:
+    return problem(413, f"The request is larger than {limit / 1e6:g} MB, the most that is taken.")
+
+
+def _http_error(request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, HTTPException)
+    if error.status_code == 413:
+        return too_large(request.app.state.settings.upload_limit)
     response = problem(error.status_code, str(error.detail))
     response.headers.update(error.headers or {})
     return response

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -24,7 +25,10 @@ class RecordMotion(Value):
     title: ClassVar[str] = "Record of the library"
 
     def unscaled(self, library: MotionLibrary) -> Motion:
-        motion = library.get(self.record)
+        try:
+            motion = library.get(self.record)
+        except MotionError as error:
+            raise MotionError(replace(issue, where="motion.record") for issue in error.issues) from None
         if self.sha256 and motion.sha256 != self.sha256:
             problem = f"record '{self.record}' is not the one planned: its SHA-256 is {motion.sha256}"
             raise MotionError(Issue("motion.sha256", problem, self.sha256, "choose the record again"))

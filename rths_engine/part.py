@@ -116,4 +116,5 @@ _PLAIN = {
 
 def _plain(detail: Any, problem: str) -> str:
     template = _PLAIN.get(detail["type"])
-    return template.format(**detail.get("ctx", {})) if template else problem[:1].lower() + problem[1:]
+    bounds = {name: f"{bound:g}" if isinstance(bound, float) else bound for name, bound in detail.get("ctx", {}).items()}
+    return template.format(**bounds) if template else problem[:1].lower() + problem[1:]

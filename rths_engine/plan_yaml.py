@@ -11,19 +11,25 @@ from rths_engine import units
 from rths_engine.errors import Issue, PlanError
 
 LARGEST = 20_000_000  # characters
+DEEPEST = 30
 
 
 def parse(text: str) -> Any:
     """The data of a YAML (or JSON) text. Raises PlanError with the line of a mistake; aliases are refused."""
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
-    from ruamel.yaml.events import AliasEvent
+    from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent
 
     if len(text) > LARGEST:
         raise PlanError(Issue("", f"the plan has {len(text)} characters; {LARGEST} is the most"))
     try:
-        if any(isinstance(event, AliasEvent) for event in YAML(typ="safe", pure=True).parse(text)):
-            raise PlanError(Issue("", "YAML aliases (*name) are not read in plans", fix="write the value out"))
+        depth = 0
+        for event in YAML(typ="safe", pure=True).parse(text):
+            depth += isinstance(event, CollectionStartEvent) - isinstance(event, CollectionEndEvent)
+            if depth > DEEPEST:
+                raise PlanError(Issue("", f"the text is nested deeper than {DEEPEST} levels"))
+            if isinstance(event, AliasEvent):
+                raise PlanError(Issue("", "YAML aliases (*name) are not read in plans", fix="write the value out"))
         return YAML(typ="safe", pure=True).load(text)
     except MarkedYAMLError as error:
         line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""

@@ -65,8 +65,8 @@ class RunRepository:
     def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         query = self._filtered(wanted)
         total = self.session.scalar(sa.select(sa.func.count()).select_from(query.subquery())) or 0
-        column, key, _ = page.sort.partition(":")
-        order = SORTS[column] if not key else self._measure(column, int(key))
+        column, _, station = page.sort.partition(":")
+        order = self._measure(column, int(station)) if station else SORTS[column]
         query = query.order_by(order.desc() if page.descending else order.asc(), Run.number.desc())
         return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
 

@@ -1,0 +1,49 @@
+"""The service without a worker, for REST tests, and with one in its own process, for tests of the queue."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from app import db, queue
+from app.config import Settings
+from app.main import create_app
+from rths_engine import templates
+from tests.browser.service import Service, running
+
+
+@pytest.fixture(scope="session")
+def migrated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An empty database, migrated once and copied for each test."""
+    settings = Settings(data=tmp_path_factory.mktemp("migrated")).prepared()
+    db.migrate(settings.url)
+    queue.migrate(settings.url)
+    return settings.data / "rths.sqlite"
+
+
+@pytest.fixture
+def settings(tmp_path: Path, migrated: Path) -> Settings:
+    shutil.copytree(migrated.parent, tmp_path / "rths")
+    return Settings(data=tmp_path / "rths", embedded_worker=False)
+
+
+@pytest.fixture
+def client(settings: Settings) -> Iterator[TestClient]:
+    with TestClient(create_app(settings), raise_server_exceptions=False) as one:
+        yield one
+
+
+@pytest.fixture(scope="session")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    with running(tmp_path_factory.mktemp("app")) as one:
+        yield one
+
+
+def plan(**changes: Any) -> dict[str, Any]:
+    """Simulation 4 of Table III, 2 s of it, with some of it changed."""
+    return {**templates.template("table3-04").as_dict(), "duration": 2.0, **changes}

@@ -1,0 +1,99 @@
+"""The record library and plans by REST."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from fastapi.testclient import TestClient
+
+from rths_engine.plan import Plan
+from tests.app.conftest import plan
+
+MOTIONS = "/api/v1/motions"
+COLUMNS = "\n".join(f"{0.01 * i:.2f} {0.2 * np.sin(i / 9):.6f}" for i in range(400))
+
+
+def upload(client: TestClient, text: str | bytes, filename: str = "mine.txt", path: str = "", **fields: str) -> Any:
+    raw = text.encode() if isinstance(text, str) else text
+    return client.post(MOTIONS + path, files={"file": (filename, raw)}, data=fields)
+
+
+def test_the_bundled_records_are_listed_with_their_provenance(client: TestClient) -> None:
+    motions = client.get(MOTIONS).json()["motions"]
+    assert sum("northridge" in motion["name"] for motion in motions) >= 2
+    assert any("el-centro" in motion["name"] for motion in motions)
+    assert all(motion["provenance"] for motion in motions)
+
+
+def test_an_uploaded_record_is_kept_previewed_planned_and_removed(client: TestClient) -> None:
+    assert upload(client, COLUMNS, path="/preview", unit="g").json()["pga"] == pytest.approx(0.2 * 9.80665, rel=1e-3)
+    assert "mine" not in {motion["name"] for motion in client.get(MOTIONS).json()["motions"]}
+    answer = upload(client, COLUMNS, unit="g")
+    assert answer.status_code == 201, answer.text
+    name = answer.json()["name"]
+    shown = client.get(f"{MOTIONS}/{name}/preview").json()
+    assert len(shown["spectrum"]["periods"]) == len(shown["spectrum"]["sa"])
+    data = plan(motion={"kind": "record", "record": name})
+    assert client.post("/api/v1/runs", json={"plan": data}).status_code == 201
+    assert upload(client, COLUMNS, unit="g").status_code == 422  # the name is taken
+    assert client.delete(f"{MOTIONS}/{name}").status_code == 204
+    assert client.get(f"{MOTIONS}/{name}").status_code == 404
+
+
+@pytest.mark.parametrize(
+    ("text", "filename"),
+    [
+        ("a letter to a friend\n" * 20, "friend.AT2"),
+        (b"\x00\x01\x02" * 400, "noise.AT2"),
+        ("", "empty.AT2"),
+        ("0.1\nnan\n0.2\n" * 40, "gap.txt"),
+    ],
+)
+def test_what_is_no_record_is_refused_and_not_stored(client: TestClient, text: str | bytes, filename: str) -> None:
+    before = client.get(MOTIONS).json()
+    answer = upload(client, text, filename, unit="g", dt="0.01")
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["problem"]
+    assert client.get(MOTIONS).json() == before
+
+
+def test_a_bundled_record_cannot_be_removed(client: TestClient) -> None:
+    name = client.get(MOTIONS).json()["motions"][0]["name"]
+    assert client.delete(f"{MOTIONS}/{name}").status_code == 422
+    assert client.get(f"{MOTIONS}/{name}").status_code == 200
+
+
+def test_templates_hold_the_papers_row(client: TestClient) -> None:
+    names = [one["name"] for one in client.get("/api/v1/templates").json()["templates"]]
+    assert [f"table3-{n:02d}" in names for n in range(1, 13)] == [True] * 12
+    assert client.get("/api/v1/templates/table3-02").json()["paper"]["mte_mm"] == [2.0, 3.2]
+
+
+def test_the_schema_says_label_unit_and_bounds_of_every_number(client: TestClient) -> None:
+    alpha = client.get("/api/v1/schema").json()["$defs"]["FirstOrderDelay"]["properties"]["alpha"]
+    assert (alpha["minimum"], alpha["unit"]) == (1, "1")
+    limit = client.get("/api/v1/schema").json()["$defs"]["Limits"]["properties"]["displacement"]
+    assert (limit["unit"], limit["shown"], limit["factor"]) == ("m", "mm", 1e-3)
+
+
+def test_a_checked_plan_comes_back_with_digest_periods_and_warnings(client: TestClient) -> None:
+    checked = client.post("/api/v1/plans/check", json=plan()).json()
+    assert checked["summary"]["periods_s"][0] == pytest.approx(1.48)
+    assert checked["summary"]["steps"] == 205
+    assert checked["digest"] == Plan.read(plan()).digest
+    assert any("before its record" in warning for warning in checked["warnings"])
+
+
+def test_yaml_goes_out_and_comes_back(client: TestClient) -> None:
+    text = client.post("/api/v1/plans/write", json=plan()).text
+    assert "# N/m" in text
+    answer = client.post("/api/v1/plans/read", content=text.encode(), headers={"content-type": "application/yaml"})
+    assert Plan.read(answer.json()) == Plan.read(plan())
+
+
+@pytest.mark.parametrize("body", [b"a: [", b"\xff\xfe", b"a: &a 1\nb: *a", b"[" * 5000])
+def test_bad_yaml_is_refused(client: TestClient, body: bytes) -> None:
+    answer = client.post("/api/v1/plans/read", content=body)
+    assert answer.status_code == 422

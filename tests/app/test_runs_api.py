@@ -1,0 +1,264 @@
+"""Submitting, listing, cancelling and downloading by REST."""
+
+from __future__ import annotations
+
+import copy
+import json
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from hypothesis import HealthCheck, given
+from hypothesis import settings as hypothesis_settings
+from hypothesis import strategies as st
+
+from app.config import Settings
+from app.db import unit_of_work
+from app.runs.service import Outcome, RunService
+from app.states import TRANSITIONS, IllegalTransition, State, check
+from rths_engine import recording
+from rths_engine.ground_motions import MotionLibrary
+from rths_engine.plan import Plan
+from rths_engine.run import simulate
+from tests.app.conftest import plan
+
+RUNS = "/api/v1/runs"
+
+
+def submit(client: TestClient, **changes: Any) -> str:
+    answer = client.post(RUNS, json={"plan": plan(**changes), "submitted_by": "Ana"})
+    assert answer.status_code == 201, answer.text
+    run: str = answer.json()["runs"][0]["id"]
+    return run
+
+
+def execute(client: TestClient, settings: Settings, run_id: str) -> dict[str, Any]:
+    """What a worker does, in this process."""
+    motions = MotionLibrary(settings.motions)
+    with unit_of_work(client.app.state.sessions) as session:
+        run = RunService(session, motions).start(run_id, "test")
+        assert run is not None
+        result = simulate(Plan.read(run.plan), motions)
+    saved = recording.save(settings.recordings / f"{run_id}.h5", result)
+    with unit_of_work(client.app.state.sessions) as session:
+        RunService(session, motions).finish(run_id, Outcome(result.summary(), saved.sha256, saved.size))
+    return result.summary()
+
+
+def total(client: TestClient) -> int:
+    count: int = client.get(RUNS).json()["total"]
+    return count
+
+
+def test_a_plan_is_queued_with_who_when_digest_and_seed(client: TestClient) -> None:
+    run = client.get(f"{RUNS}/{submit(client)}").json()
+    assert (run["state"], run["submitted_by"], run["seed"], run["template"]) == ("queued", "Ana", 4, "table3-04")
+    assert run["digest"] == Plan.read(run["plan"]).digest
+    assert datetime.now(UTC) - datetime.fromisoformat(run["submitted_at"]) < timedelta(minutes=1)
+
+
+def test_the_record_is_pinned_by_its_checksum(client: TestClient) -> None:
+    run = client.get(f"{RUNS}/{submit(client)}").json()
+    name = run["plan"]["motion"]["record"]
+    assert run["plan"]["motion"]["sha256"] == MotionLibrary(None).get(name).sha256
+
+
+def test_a_list_is_queued_whole_or_not_at_all(client: TestClient) -> None:
+    wrong = plan()
+    wrong["structure"]["storeys"][1]["mass"] = -1
+    answer = client.post(RUNS, json={"plans": [plan(), plan(seed=1), wrong]})
+    assert answer.status_code == 422
+    assert answer.headers["content-type"] == "application/problem+json"
+    (issue,) = answer.json()["errors"]
+    assert (issue["where"], issue["problem"], issue["value"]) == ("plans.2.structure.storeys.1.mass", "needs a value > 0", "-1")
+    assert total(client) == 0
+    answer = client.post(RUNS, json={"plans": [plan(), plan(seed=1)]})
+    assert [run["number"] for run in answer.json()["runs"]] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "where", "message"),
+    [
+        ("structure.storeys.0.mass", -1.0, "structure.storeys.0.mass", "> 0"),
+        ("stations.0.actuator.alpha", 0.5, "stations.0.actuator.alpha", ">= 1"),
+        ("motion.record", "imperial-valley-1940-el-centre-ns", "motion.record", "el-centro"),
+        ("integrator.dt", 0.01, "integrator.dt", "substeps"),
+        ("structure.storeys.0.stiffness", 1e-9, "structure", "singular"),
+        ("motion", {"kind": "file", "path": "/etc/passwd"}, "motion.kind", "command line"),
+    ],
+)
+def test_a_bad_plan_is_refused_beside_its_field_and_nothing_is_stored(
+    client: TestClient, path: str, value: Any, where: str, message: str
+) -> None:
+    data = plan()
+    inner: Any = data
+    *parents, last = path.split(".")
+    for step in parents:
+        inner = inner[int(step) if step.isdigit() else step]
+    inner[last] = value
+    answer = client.post(RUNS, json={"plan": data})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["where"] == where
+    assert message in json.dumps(answer.json(), ensure_ascii=False)
+    assert total(client) == 0
+
+
+def test_a_nan_in_the_motion_is_refused(client: TestClient) -> None:
+    data = plan(motion={"kind": "inline", "dt": 0.01, "acceleration": [0.0, 1.0, 0.0]})
+    text = json.dumps({"plan": data}).replace("1.0, 0.0]", "NaN, 0.0]")
+    answer = client.post(RUNS, content=text, headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert "finite" in answer.text
+    assert total(client) == 0
+
+
+def test_the_list_filters_sorts_and_pages(client: TestClient, settings: Settings) -> None:
+    runs = [submit(client, name=name) for name in ("alpha 100%", "beta", "gamma")]
+    execute(client, settings, runs[1])
+    names = lambda **query: [run["name"] for run in client.get(RUNS, params=query).json()["runs"]]  # noqa: E731
+    assert names() == ["gamma", "beta", "alpha 100%"]
+    assert names(sort="name", order="asc", limit=2) == ["alpha 100%", "beta"]
+    assert names(sort="name", order="asc", limit=2, offset=2) == ["gamma"]
+    assert names(state="completed") == ["beta"]
+    assert names(q="%") == ["alpha 100%"]
+    assert names(submitted_by="nobody") == []
+    assert names(template="table3-04", sort="mte_mm:1")[0] == "beta" or names(sort="mte_mm:1")[-1] == "beta"
+    assert names(since=(datetime.now(UTC) + timedelta(days=1)).isoformat()) == []
+    assert client.get(RUNS, params={"sort": "nonsense"}).status_code == 422
+    assert client.get(RUNS, params={"limit": 0}).status_code == 422
+
+
+def test_a_finished_run_gives_measures_recording_csv_report_and_plan(client: TestClient, settings: Settings) -> None:
+    run_id = submit(client)
+    summary = execute(client, settings, run_id)
+    run = client.get(f"{RUNS}/{run_id}").json()
+    assert run["state"] == "completed"
+    assert run["stations"] == summary["stations"]
+    assert run["floors_peak_mm"] == summary["floors_peak_mm"]
+    hdf5 = client.get(f"{RUNS}/{run_id}/recording.h5")
+    assert len(hdf5.content) == run["recording"]["size"]
+    assert hdf5.headers["etag"] == f'"{run["recording"]["sha256"]}"'
+    lines = client.get(f"{RUNS}/{run_id}/recording.csv").text.splitlines()
+    assert lines[0].startswith("t (s),ag (g),floor1.x (mm),floor2.x (mm),s1.x_cmd (mm)")
+    assert len(lines) == 1 + 2050  # 205 integration steps cover 2 s
+    assert float(lines[1].split(",")[0]) == pytest.approx(1 / 1024)
+    assert "<html" in client.get(f"{RUNS}/{run_id}/report.html").text
+    assert Plan.from_yaml(client.get(f"{RUNS}/{run_id}/plan.yaml").text) == Plan.read(run["plan"])
+
+
+def test_a_run_without_recording_says_so(client: TestClient) -> None:
+    run_id = submit(client)
+    for name in ("recording.h5", "recording.csv", "report.html"):
+        answer = client.get(f"{RUNS}/{run_id}/{name}")
+        assert answer.status_code == 409
+        assert "queued" in answer.json()["detail"]
+
+
+def test_a_second_finish_changes_nothing(client: TestClient, settings: Settings) -> None:
+    run_id = submit(client)
+    summary = execute(client, settings, run_id)
+    with unit_of_work(client.app.state.sessions) as session:
+        service = RunService(session, MotionLibrary(None))
+        assert service.start(run_id, "other") is None
+        assert service.finish(run_id, Outcome({**summary, "status": "tripped"}, "0" * 64, 1)) is False
+    assert client.get(f"{RUNS}/{run_id}").json()["state"] == "completed"
+
+
+def test_a_run_that_kills_its_worker_is_parked_after_three_attempts(client: TestClient) -> None:
+    run_id = submit(client)
+    for attempt in (1, 2, 3):
+        with unit_of_work(client.app.state.sessions) as session:
+            run = RunService(session, MotionLibrary(None)).start(run_id, "dying")
+            assert run is not None and run.attempt == attempt
+    with unit_of_work(client.app.state.sessions) as session:
+        assert RunService(session, MotionLibrary(None)).start(run_id, "dying") is None
+    run = client.get(f"{RUNS}/{run_id}").json()
+    assert run["state"] == "failed" and "3 times" in run["reason"]
+
+
+def test_a_queued_run_is_cancelled_at_once_and_only_once(client: TestClient) -> None:
+    run_id = submit(client)
+    assert client.post(f"{RUNS}/{run_id}/cancel", json={"by": "Bo"}).json()["state"] == "cancelled"
+    answer = client.post(f"{RUNS}/{run_id}/cancel")
+    assert answer.status_code == 409
+    assert "cancelled" in answer.json()["detail"]
+
+
+def test_abort_holds_the_queue_until_it_is_released(client: TestClient) -> None:
+    client.post("/api/v1/abort", json={"by": "Bo"})
+    queue = client.get("/api/v1/queue").json()
+    assert (queue["held"], queue["held_by"]) == (True, "Bo")
+    assert client.post("/api/v1/queue/release").json()["held"] is False
+
+
+@pytest.mark.parametrize(
+    "path", [f"{RUNS}/none", f"{RUNS}/none/recording.h5", "/api/v1/templates/none", "/api/v1/motions/none"]
+)
+def test_what_does_not_exist_is_a_404_problem(client: TestClient, path: str) -> None:
+    answer = client.get(path)
+    assert answer.status_code == 404
+    assert answer.headers["content-type"] == "application/problem+json"
+
+
+@pytest.mark.parametrize("old", list(State))
+@pytest.mark.parametrize("new", list(State))
+def test_only_the_table_of_transitions_changes_a_state(old: State, new: State) -> None:
+    if new in TRANSITIONS[old]:
+        check(old, new)
+    else:
+        with pytest.raises(IllegalTransition):
+            check(old, new)
+
+
+def test_a_large_body_is_refused_by_its_declared_and_by_its_counted_length(client: TestClient) -> None:
+    answer = client.post(RUNS, content=b"x", headers={"content-length": "2000000000"})
+    assert answer.status_code == 413
+
+    def endless() -> Any:
+        for _ in range(30):
+            yield b" " * 1_000_000
+
+    answer = client.post(RUNS, content=endless(), headers={"content-type": "application/json"})
+    assert answer.status_code == 413
+    assert "20 MB" in answer.json()["detail"]
+    assert answer.headers["content-type"] == "application/problem+json"
+
+
+def test_another_sites_page_can_change_nothing(client: TestClient) -> None:
+    foreign = {"origin": "http://elsewhere.example"}
+    assert client.post("/api/v1/abort", headers=foreign).status_code == 403
+    assert client.get("/api/v1/queue", headers=foreign).json()["held"] is False
+    assert client.post("/api/v1/queue/release", headers={"origin": "http://testserver"}).status_code == 200
+
+
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=20),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=12), inner, max_size=4),
+    max_leaves=12,
+)
+PATHS = ["structure", "stations", "motion", "integrator", "duration", "pace", "seed", "controller_rate", "name", "schema"]
+
+
+@hypothesis_settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(field=st.sampled_from(PATHS), value=anything, whole=anything)
+def test_no_json_causes_a_server_error_or_a_row(client: TestClient, field: str, value: Any, whole: Any) -> None:
+    before = total(client)
+    broken = copy.deepcopy(plan())
+    broken[field] = value
+    for body in ({"plan": broken}, {"plan": whole}, whole):
+        content = json.dumps(body)
+        answer = client.post(RUNS, content=content, headers={"content-type": "application/json"})
+        assert answer.status_code in {201, 400, 422}, answer.text
+        if answer.status_code != 201:
+            assert total(client) == before
+        else:
+            before += 1
+
+
+def test_docs_need_nothing_from_elsewhere(client: TestClient, settings: Settings) -> None:
+    page = client.get("/api/docs").text
+    assert "http://" not in page and "https://" not in page
+    assert (Path(__file__).parents[2] / "frontend").exists()
+    assert "/api/v1/runs" in client.get("/openapi.json").json()["paths"]
