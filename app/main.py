@@ -38,13 +38,12 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         lifespan=_lifespan,
-        max_body_size=configured.upload_limit,
     )
     app.state.settings = configured
     app.state.hub = Hub()
     problems.install(app)
     for router in (runs, motions, plans, health, live):
-        app.include_router(router)
+        app.include_router(router, max_body_size=configured.upload_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(pages.router)

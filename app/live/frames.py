@@ -1,7 +1,7 @@
-"""Live frames: for each bucket of substeps the minimum, maximum and last sample of every channel, float32, in shown units.
+"""Live frames: minimum, maximum and last sample of every channel in each bucket of substeps, float32, in shown units.
 
-A frame is little endian `uint32 first_bucket, uint32 count`, then float32 `[count][channels][3]`. A `FrameStore` is the run's one
-buffer: it takes frames in any chunks, ignores what it has, and gives what a reader lacks as one frame.
+A frame is little endian `uint32 first_bucket, uint32 count`, then float32 `[count][channels][3]`. A `FrameStore` is the one
+buffer of a run: it takes frames in any chunks, ignores what it has, and gives what a reader lacks as one frame.
 """
 
 from __future__ import annotations

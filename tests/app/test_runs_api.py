@@ -214,7 +214,7 @@ def test_only_the_table_of_transitions_changes_a_state(old: State, new: State) -
 
 def test_a_large_body_is_refused_by_its_declared_and_by_its_counted_length(client: TestClient) -> None:
     answer = client.post(RUNS, content=b"x", headers={"content-length": "2000000000"})
-    assert answer.status_code == 413
+    assert (answer.status_code, answer.headers["content-type"]) == (413, "application/problem+json")
 
     def endless() -> Any:
         for _ in range(30):
