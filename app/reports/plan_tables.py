@@ -51,15 +51,15 @@ def groups(title: str, part: BaseModel, leave_out: Sequence[str] = ()) -> list[G
                 own.rows.append(Row(label, _name(value)))
         elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
             own.grids.append(_grid(label, value))
-        else:
+        elif value is not None:
             own.rows.append(Row(label, written(value, info), _extra(info).get("shown_label", "")))
+        elif info.description:
+            own.rows.append(Row(label, info.description.removeprefix("empty: ")))
     return [group for group in [own, *nested] if group.rows or group.grids]
 
 
 def written(value: Any, info: FieldInfo) -> str:
     """A field's value as people read it, in the shown unit."""
-    if value is None:
-        return info.description or "–"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, tuple | list):

@@ -1,0 +1,278 @@
+"""The report: complete, self-contained and light, for completed, tripped and cancelled tests."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.reports.decimate import extremes, packed
+from app.reports.plan_tables import groups
+from app.reports.service import report_html
+from rths_engine import recording as recordings
+from rths_engine import templates
+from rths_engine.ground_motions import Motion, MotionLibrary, spectral_acceleration
+from rths_engine.plan import Plan, Station
+from rths_engine.recording import Recording
+from rths_engine.run import Run
+
+RUN: dict[str, Any] = {
+    "id": "0b7c2a52-6a55-4b3e-b1a6-3f6f2a9d1c11",
+    "number": 12,
+    "submitted_by": "A. Student",
+    "submitted_at": "2026-11-23T01:00:00Z",
+    "started_at": "2026-11-23T01:00:01.250Z",
+    "finished_at": None,
+    "attempt": 1,
+    "reason": "Stopped by A. Student at 1.00 s.",
+    "recording": {"sha256": "ab" * 32, "size": 1},
+}
+
+
+def recorded(
+    folder: Path, plan: Plan, status: str = "completed", steps: int | None = None, library: MotionLibrary | None = None
+) -> Recording:
+    run = Run(plan, library or MotionLibrary(None))
+    run.advance(steps or run.total)
+    recordings.save(folder / "run.h5", run.result("tripped" if run.trip else status, 0.5))
+    return recordings.load(folder / "run.h5")
+
+
+def shortened(template: str, **changes: Any) -> Plan:
+    return templates.template(template).model_copy(update={"duration": 8.0, **changes})
+
+
+@pytest.fixture(scope="module")
+def fourth(tmp_path_factory: pytest.TempPathFactory) -> tuple[Recording, str]:
+    recording = recorded(tmp_path_factory.mktemp("report"), templates.template("table3-04"))
+    return recording, report_html(RUN, recording)
+
+
+class Page(HTMLParser):
+    """Tags, their text and the data of the plots."""
+
+    def __init__(self, html: str):
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = [("", {})]
+        self.texts: list[tuple[str, str]] = []
+        self.specs: list[dict[str, Any]] = []
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_data(self, data: str) -> None:
+        tag, attrs = self.tags[-1]
+        if tag == "script" and attrs.get("type") == "application/json" and data.strip().startswith("{"):
+            self.specs.append(json.loads(data))
+        elif tag not in ("script", "style") and data.strip():
+            self.texts.append((tag, " ".join(data.split())))
+
+    @property
+    def text(self) -> str:
+        return " ".join(text for _, text in self.texts)
+
+
+def unpacked(array: dict[str, str]) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(array["bdata"]), dtype="<f4")
+
+
+def test_the_report_names_the_test_its_end_and_who_asked_for_it(fourth: tuple[Recording, str]) -> None:
+    recording, html = fourth
+    text = Page(html).text
+    assert recording.plan.name in text
+    assert "Completed : all 40.00 s were simulated; no safety limit was exceeded." in text
+    for fact in (
+        "A. Student",
+        "2026-11-23 01:00:01 UTC",
+        recording.plan.digest,
+        "Seed of the sensor noise 4",
+        RUN["id"],
+        "ab" * 32,
+    ):
+        assert fact in text
+
+
+def test_the_measures_stand_beside_those_of_the_paper(fourth: tuple[Recording, str]) -> None:
+    recording, html = fourth
+    cells = [text for tag, text in Page(html).texts if tag in ("th", "td")]
+    at = cells.index("1 · Storey 1 damper")
+    first = recording.summary["stations"][0]
+    assert cells[at + 1] == f"{first['mte_mm']:.2f}"
+    assert cells[at + 6] == f"{first['peak_force_kN']:.1f}"
+    assert cells[at + 7 : at + 12] == ["Chen and Ricles (2012)", "0.8", "1.4", "11.8", "−2.6"]
+    assert f"{recording.summary['floors_peak_mm'][1]:.1f}" in cells
+
+
+def test_an_unstable_simulation_of_the_paper_is_called_so(tmp_path: Path) -> None:
+    text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-01")))).text
+    assert text.count("unstable: the test was stopped by its limits") == 2
+
+
+def test_a_plan_of_another_template_has_no_row_of_the_paper(tmp_path: Path) -> None:
+    assert "Chen and Ricles (2012)" not in Page(report_html(RUN, recorded(tmp_path, shortened("linear-damper")))).text
+
+
+def test_a_tripped_test_says_station_limit_value_and_time(tmp_path: Path) -> None:
+    plan = shortened("linear-damper")
+    tight = plan.stations[0].limits.model_copy(update={"displacement": 0.005})
+    station = plan.stations[0].model_copy(update={"limits": tight})
+    recording = recorded(tmp_path, plan.model_copy(update={"stations": (station,)}))
+    text = Page(report_html(RUN, recording)).text
+    trip = recording.summary["trip"]
+    assert f"Tripped at {trip['time_s']:.3f} s: command displacement of station 1 (Damper) was" in text
+    assert "beyond its limit of 5 mm." in text
+
+
+def test_a_cancelled_test_says_who_stopped_it(tmp_path: Path) -> None:
+    text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-04"), "cancelled", steps=100))).text
+    assert "Cancelled : Stopped by A. Student at 1.00 s." in text
+
+
+def test_a_test_stopped_before_its_first_step_still_has_a_report(tmp_path: Path) -> None:
+    run = Run(shortened("table3-04"), MotionLibrary(None))
+    recordings.save(tmp_path / "run.h5", run.result("cancelled", 0.0))
+    text = Page(report_html(RUN, recordings.load(tmp_path / "run.h5"))).text
+    assert "Cancelled" in text and "0.00 s of test" in text
+
+
+def test_every_plot_of_figures_8_and_9_is_there_with_units_on_its_axes(fourth: tuple[Recording, str]) -> None:
+    page = Page(fourth[1])
+    axes = [(spec["x"], spec["y"]) for spec in page.specs]
+    for wanted in (
+        ("Time, s", "Displacement, mm"),
+        ("Measured displacement, mm", "Damper force, kN"),
+        ("Time, s", "Tracking error, mm"),
+        ("Time, s", "Tracking indicator, mm²"),
+        ("Time, s", "Energy error, kN·m"),
+        ("Time, s", "Δα"),
+    ):
+        assert axes.count(wanted) >= 2, wanted
+    assert ("Time, s", "Ground acceleration, g") in axes
+
+
+def test_plots_keep_the_extremes_of_the_recording_in_shown_units(fourth: tuple[Recording, str]) -> None:
+    recording, html = fourth
+    spec = next(spec for spec in Page(html).specs if spec["y"] == "Tracking error, mm")
+    drawn, error = unpacked(spec["traces"][0]["y"]), recording.signal("s1.error") * 1e3
+    assert (drawn.min(), drawn.max()) == pytest.approx((error.min(), error.max()), rel=1e-6)  # float32
+    assert unpacked(spec["traces"][0]["x"])[-1] == pytest.approx(recording.time[-1], rel=1e-6)
+    assert len(drawn) < len(error) / 10
+
+
+def test_the_spectrum_marks_t1_and_the_spectral_acceleration_of_the_scaled_record(fourth: tuple[Recording, str]) -> None:
+    recording, html = fourth
+    mark = next(spec["mark"] for spec in Page(html).specs if "mark" in spec)
+    record = MotionLibrary(None).get(recording.plan.motion.record).scaled(0.4)
+    period = float(recording.plan.periods()[0])
+    assert mark["x"] == pytest.approx(period)
+    assert mark["y"] == pytest.approx(spectral_acceleration(record, period) / 9.80665)
+    text = Page(html).text
+    assert record.title in text and record.provenance in text and "by a factor, record × 0.4" in text
+
+
+def test_a_stored_record_out_of_reach_is_replaced_by_the_recorded_acceleration(tmp_path: Path) -> None:
+    library = MotionLibrary(tmp_path / "motions")
+    library.add(Motion("own", "Own record", 0.01, np.sin(np.arange(800) * 0.05), provenance="made for this test"))
+    motion = templates.template("table3-04").motion.model_copy(update={"record": "own"})
+    recording = recorded(tmp_path, shortened("table3-04", motion=motion), library=library)
+    with_record, without = Page(report_html(RUN, recording, library)), Page(report_html(RUN, recording))
+    assert "made for this test" in with_record.text
+    assert "the ground acceleration in this recording" in without.text
+    marks = [next(spec["mark"]["y"] for spec in page.specs if "mark" in spec) for page in (with_record, without)]
+    assert marks[1] == pytest.approx(marks[0], rel=0.01)  # sampled every 9.8 ms instead of 10 ms, of a motion of 0.8 Hz
+
+
+def test_the_plan_is_written_with_the_units_of_its_own_fields(fourth: tuple[Recording, str]) -> None:
+    text = Page(fourth[1]).text
+    for row in (
+        "Storey stiffness, kN/m",
+        "36007",
+        "Measured force limit 1000 kN",
+        "Integral gain ki 0.04 1/(mm²·s)",
+        "Pace As fast as possible",
+    ):
+        assert row in text
+
+
+def test_every_field_of_a_station_is_in_its_tables() -> None:
+    station = Station()
+    found = groups("Station", station)
+    assert {group.title for group in found} == {
+        "Station",
+        "Delay compensator: Adaptive inverse (AIC)",
+        "Actuator: First-order delay",
+        "Specimen: MR damper (passive-on)",
+        "Sensor noise",
+        "Safety limits",
+    }
+    labels = {row.label for group in found for row in group.rows}
+    for part in (station.compensator, station.actuator, station.specimen, station.noise, station.limits):
+        assert {info.title for name, info in type(part).model_fields.items() if name != "kind"} <= labels
+
+
+def test_the_report_needs_no_address_outside_itself(fourth: tuple[Recording, str]) -> None:
+    for tag, attrs in Page(fourth[1]).tags:
+        for name in ("src", "href", "srcset", "action", "data"):
+            assert (attrs.get(name) or "data:").startswith("data:"), (tag, attrs)
+    style = re.search(r"<style>(.*?)</style>", fourth[1], re.DOTALL)
+    assert style and "url(" not in style[1] and "@import" not in style[1]
+
+
+def test_the_report_is_plotly_once_and_less_than_2_mb_besides(fourth: tuple[Recording, str]) -> None:
+    from app.reports.service import _plotly
+
+    assert fourth[1].count(_plotly()) == 1
+    assert len(fourth[1].encode()) - len(_plotly().encode()) < 2e6
+
+
+def test_many_stations_share_the_points_of_the_plots(tmp_path: Path) -> None:
+    from app.reports.service import _plotly
+
+    station = templates.template("table3-04").stations[0]
+    stations = tuple(station.model_copy(update={"name": f"S{j}", "dampers": 1}) for j in range(12))
+    html = report_html(RUN, recorded(tmp_path, shortened("table3-04", stations=stations)))
+    assert len(html.encode()) - len(_plotly().encode()) < 2.5e6  # twelve stations' tables and alternative texts come on top
+
+
+def test_headings_descend_without_gaps_and_every_plot_and_table_is_named(fourth: tuple[Recording, str]) -> None:
+    page = Page(fourth[1])
+    levels = [int(tag[1]) for tag, _ in page.tags if re.fullmatch("h[1-6]", tag)]
+    assert levels[0] == 1 and levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+    plots = [attrs for tag, attrs in page.tags if tag == "div" and attrs.get("class") == "plot"]
+    assert len(plots) == len(page.specs) > 0
+    assert all(attrs["role"] == "img" and len(attrs["aria-label"] or "") > 20 for attrs in plots)
+    tables, captions = ([tag for tag, _ in page.tags].count(name) for name in ("table", "caption"))
+    assert tables == captions
+    assert all("scope" in attrs for tag, attrs in page.tags if tag == "th")
+
+
+def test_markup_in_names_is_shown_as_text(tmp_path: Path) -> None:
+    name = "</script><script>alert(1)</script>"
+    plan = shortened("linear-damper", name=name)
+    station = plan.stations[0].model_copy(update={"name": name})
+    html = report_html({**RUN, "submitted_by": name}, recorded(tmp_path, plan.model_copy(update={"stations": (station,)})))
+    assert "<script>alert" not in html and "&lt;script&gt;alert(1)" in html
+
+
+def test_decimation_keeps_a_single_spike_of_each_sign_and_both_ends() -> None:
+    signal = np.zeros((10_000, 1))
+    signal[4321], signal[4322] = 5.0, -7.0
+    kept = extremes(signal, 100)
+    assert {0, 4321, 4322, 9_999} <= set(kept.tolist())
+    assert len(kept) <= 2 * 100 + 2
+    assert np.all(np.diff(kept) > 0)
+
+
+def test_a_short_signal_is_kept_whole_and_arrays_are_packed_as_float32() -> None:
+    assert extremes(np.zeros((50, 2)), 100).tolist() == list(range(50))
+    assert len(extremes(np.zeros((0, 2)), 100)) == 0
+    np.testing.assert_array_equal(unpacked(packed(np.array([1.5, -2.25]))), [1.5, -2.25])
