@@ -19,8 +19,8 @@ ROOT = Path(__file__).parents[2]
 
 
 class Service:
-    def __init__(self, url: str):
-        self.url = url
+    def __init__(self, url: str, data: Path, pid: int):
+        self.url, self.data, self.pid = url, data, pid
         self.http = httpx.Client(base_url=url, timeout=20)
 
     def get(self, path: str) -> Any:
@@ -71,9 +71,10 @@ def running(data: Path) -> Iterator[Service]:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     with (data / "service.log").open("wb") as log:
-        command = [sys.executable, "-m", "tests.browser.serve", str(data / "rths"), str(port)]
+        folder = data / "rths"
+        command = [sys.executable, "-m", "tests.browser.serve", str(folder), str(port)]
         process = subprocess.Popen(command, cwd=ROOT, stdout=log, stderr=subprocess.STDOUT)
-        service = Service(f"http://127.0.0.1:{port}")
+        service = Service(f"http://127.0.0.1:{port}", folder, process.pid)
         try:
             until(lambda: _ready(service, process), bool, STARTED_WITHIN_S)
             yield service
