@@ -13,10 +13,16 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.browser.service import Service, running
 
-ARGUMENTS = (
-    "--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-    "--disable-component-update --disable-sync"
-).split()
+ARGUMENTS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 WIDE = {"width": 1360, "height": 900}
 
 Opener = Callable[..., Page]
@@ -59,7 +65,9 @@ class Watch:
     def __init__(self, page: Page):
         self.faults: list[str] = []
         self.allowed: tuple[str, ...] = ()
-        page.on("console", lambda message: message.type in {"error", "warning"} and self.faults.append(f"console: {message.text}"))
+        page.on(
+            "console", lambda message: message.type in {"error", "warning"} and self.faults.append(f"console: {message.text}")
+        )
         page.on("pageerror", lambda error: self.faults.append(f"exception: {error}"))
         page.on("requestfailed", lambda request: self._failed(request))
         page.on("request", lambda request: self._asked(request.url))

@@ -74,7 +74,9 @@ def test_runs_are_filtered_and_sorted_by_the_address(service: Service, opened: O
     page.get_by_role("button", name="Filter").click()
     expect(page.locator("tbody tr")).to_have_count(2)
     page.get_by_role("link", name="Test", exact=True).click()
-    page.get_by_role("link", name="Test ▼").click()
+    page.wait_for_url("**sort=name**")
+    page.get_by_role("link", name="Test", exact=True).click()
+    page.wait_for_url("**order=asc**")
     expect(page.locator("tbody td.name").first).to_have_text("Brace A")
     assert "q=Brace" in page.url and "sort=name" in page.url and "order=asc" in page.url
 

@@ -54,7 +54,7 @@ function showProgress(at) {
 
 function showActions() {
   const download = (/** @type {string} */ file, /** @type {string} */ label) =>
-    el("a", { href: `/api/v1/runs/${id}/${file}`, role: "button", class: "quiet", ...(file === "report.html" ? {} : { download: true }) }, label);
+    el("a", { href: `/api/v1/runs/${id}/${file}`, class: "button quiet", ...(file === "report.html" ? {} : { download: true }) }, label);
   const cancel = el("button", { type: "button", class: "danger", on: { click: () => stop(cancel) } }, "Cancel this test");
   byId("actions").replaceChildren(
     ...(ended(run.state) ? [] : [cancel]),
@@ -62,7 +62,7 @@ function showActions() {
       ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("report.html", "Report")]
       : []),
     download("plan.yaml", "Plan, YAML"),
-    el("a", { href: `/new?from=${id}`, role: "button", class: "quiet" }, "Run again or edit as a new test"),
+    el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Run again or edit as a new test"),
   );
 }
 

@@ -34,7 +34,7 @@ export class TimeChart {
   readout() {
     const { store } = this.view;
     const left = this.plot?.cursor.left ?? -1;
-    const at = left >= 0 ? Math.round(this.plot.posToVal(left, "x") / store.step) - 1 : -1;
+    const at = left >= 0 ? Math.max(0, Math.round(this.plot.posToVal(left, "x") / store.step) - 1) : -1;
     const k = at >= 0 && at < store.count ? at : store.count - 1;
     const values = this.channels.map((channel) => (k < 0 ? NaN : store.last[channel][k]));
     this.figure.show(k < 0 ? null : store.time(k), values, k === at && at >= 0);
