@@ -12,6 +12,7 @@ from app.config import Settings
 from app.models import Run
 from app.problems import Conflict
 from app.runs.schemas import RunDetail
+from rths_engine.ground_motions import MotionLibrary
 from rths_engine.recording import load
 
 ROWS = 4096
@@ -45,4 +46,6 @@ def report(run: Run, settings: Settings) -> str:
     """Self-contained HTML of a run with a recording."""
     from app.reports.service import report_html
 
-    return report_html(RunDetail.of(run).model_dump(mode="json"), load(recording_path(run, settings)))
+    return report_html(
+        RunDetail.of(run).model_dump(mode="json"), load(recording_path(run, settings)), MotionLibrary(settings.motions)
+    )

@@ -18,7 +18,9 @@ def unpacked(frame: bytes) -> tuple[int, np.ndarray]:
     return first, np.frombuffer(frame, "<f4", offset=HEADER.size).reshape(count, len(CHANNELS), 3)
 
 
-@given(total=st.integers(1, 400), bucket=st.integers(1, 9), cuts=st.lists(st.integers(0, 400), max_size=8), seed=st.integers(0, 99))
+@given(
+    total=st.integers(1, 400), bucket=st.integers(1, 9), cuts=st.lists(st.integers(0, 400), max_size=8), seed=st.integers(0, 99)
+)
 def test_each_bucket_keeps_its_minimum_maximum_and_last_sample_however_it_comes(
     total: int, bucket: int, cuts: list[int], seed: int
 ) -> None:
