@@ -29,7 +29,13 @@ def quantity(
 class Value(BaseModel):
     """A frozen, fully checked value. Numbers are SI; text such as `"36007 kN/m"` is read with its unit."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, validate_default=True)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        validate_default=True,
+        model_title_generator=lambda kind: getattr(kind, "title", kind.__name__),
+    )
 
     @model_validator(mode="before")
     @classmethod
