@@ -37,7 +37,7 @@ export function fieldsOf(schema, node, path, value) {
 /** Fields of an object under a heading. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @param {string} title @returns {Part} */
 function groupPart(schema, node, path, value, title) {
   const fields = fieldsOf(schema, node, path, value);
-  const heading = node.properties.kind && title !== kindLabel(node) ? `${title}: ${kindLabel(node).toLowerCase()}` : title;
+  const heading = node.properties.kind && title !== kindLabel(node) ? `${title}: ${kindLabel(node)}` : title;
   const element = el("fieldset", { class: "group", "data-path": path }, el("legend", { class: path.includes(".") ? "" : "unseen" }, heading), el("div", { class: "fields" }, ...fields.elements));
   return { element, read: fields.read, problems: fields.problems };
 }

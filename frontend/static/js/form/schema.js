@@ -27,8 +27,10 @@ export class Schema {
 
   /** The kinds a union offers, by name. @param {Node} node @returns {Map<string, Node>} */
   kinds(node) {
-    const mapping = Object.entries(node.discriminator?.mapping ?? {});
-    return new Map(mapping.map(([kind, $ref]) => [kind, this.resolve({ $ref })]).sort(byOrderIn(node)));
+    const order = node.oneOf.map((/** @type {Node} */ option) => option.$ref);
+    const mapping = /** @type {[string, string][]} */ (Object.entries(node.discriminator.mapping));
+    mapping.sort(([, a], [, b]) => order.indexOf(a) - order.indexOf(b));
+    return new Map(mapping.map(([kind, $ref]) => [kind, this.resolve({ $ref })]));
   }
 
   /** A value to start from: the default, or the defaults of all fields. @param {Node} node @returns {any} */
@@ -45,20 +47,11 @@ export class Schema {
   }
 }
 
-/** Order the kinds as the union lists them. @param {Node} node */
-function byOrderIn(node) {
-  const order = node.oneOf.map((/** @type {Node} */ option) => option.$ref?.split("/").pop());
-  return (/** @type {[string, Node]} */ [a], /** @type {[string, Node]} */ [b]) =>
-    order.indexOf(name(node, a)) - order.indexOf(name(node, b));
-}
-
-/** @param {Node} node @param {string} kind */
-const name = (node, kind) => node.discriminator.mapping[kind].split("/").pop();
-
 /** The label of a kind: its title in words, `FirstOrderDelay` as `First order delay`. @param {Node} node */
 export function kindLabel(node) {
   const words = node.title.replace(/([a-z])([A-Z])/g, "$1 $2");
-  return words[0] + words.slice(1).replace(/\b[A-Z](?=[a-z])/g, (/** @type {string} */ letter) => letter.toLowerCase());
+  const lower = words[0] + words.slice(1).toLowerCase();
+  return lower.replace(/\b(mr|cr|pga)\b/gi, (/** @type {string} */ acronym) => acronym.toUpperCase());
 }
 
 /** The first line of a description that is prose, which helps in a form; formulas stay in the documentation. @param {Node} node */

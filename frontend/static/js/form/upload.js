@@ -6,6 +6,8 @@ import { previewOf } from "./preview.js";
 
 const UNITS = ["g", "m/s^2", "cm/s^2", "mm/s^2", "in/s^2"];
 
+const QUIET_MS = 400;
+
 /** A file's way into the library: preview first, then add. @param {(motion: any) => void} added @returns {HTMLElement} */
 export function uploadBox(added) {
   const file = el("input", { type: "file", accept: ".at2,.AT2,.v2,.V2,.txt,.csv,.dat,.tsv,.acc,text/*" });
@@ -25,34 +27,45 @@ export function uploadBox(added) {
   };
   const refused = (/** @type {unknown} */ error) => {
     if (!(error instanceof ApiError)) throw error;
+    shown.replaceChildren();
     told.textContent = error.errors.map(sentence).join("; ") || error.message;
     const asked = error.errors.map((problem) => problem.where).find((where) => /(unit|dt)$/.test(where ?? ""));
     if (asked) (asked.endsWith("dt") ? dt : unit).focus();
   };
+  let looks = 0;
   const look = async () => {
-    add.disabled = true;
-    told.textContent = "";
-    shown.replaceChildren();
-    if (!file.files.length) return;
+    add.disabled = !file.files.length;
+    if (!file.files.length) return shown.replaceChildren();
+    const mine = ++looks;
     try {
-      shown.replaceChildren(previewOf(await api.postForm("/motions/preview", form())));
-      add.disabled = false;
+      const preview = await api.postForm("/motions/preview", form());
+      if (mine !== looks) return;
+      told.textContent = "";
+      shown.replaceChildren(previewOf(preview));
     } catch (error) {
-      refused(error);
+      if (mine === looks) refused(error);
     }
+  };
+  let typing = 0;
+  const lookSoon = () => {
+    clearTimeout(typing);
+    typing = setTimeout(look, QUIET_MS);
   };
   const keep = async () => {
     add.disabled = true;
+    looks++;
     try {
       const motion = await api.postForm("/motions", form());
       shown.replaceChildren(el("p", { role: "status" }, `${motion.name} is in the library and chosen.`));
       file.value = "";
       added(motion);
     } catch (error) {
+      add.disabled = false;
       refused(error);
     }
   };
-  for (const control of [file, unit, dt]) control.addEventListener("change", look);
+  for (const control of [file, unit]) control.addEventListener("change", look);
+  dt.addEventListener("input", lookSoon);
 
   const box = el(
     "details",

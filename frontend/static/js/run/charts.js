@@ -27,7 +27,7 @@ export function buildCharts(host, store, stations) {
     const group = `s${i + 1}`;
     const charts = STATION_CHARTS.map(({ title, keys, labels }) => {
       const lines = keys.map((key, j) => series(`${group}.${key}`, labels[j], j));
-      if (lines.length > 1) lines[0].width = 3; // the measured line is drawn over the command's and must not hide it
+      if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // seen behind the measured line
       return new TimeChart(view, title, lines[0].unit, lines);
     });
     const loop = new LoopChart(
