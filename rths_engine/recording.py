@@ -7,10 +7,7 @@ x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summa
 
 from __future__ import annotations
 
-import hashlib
 import json
-import os
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,7 +15,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from rths_engine import __version__
+from rths_engine import __version__, files
 from rths_engine.arrays import Array
 from rths_engine.channels import Channel
 from rths_engine.errors import Issue, RecordingError
@@ -62,19 +59,14 @@ class Recording:
 
 def save(path: Path, result: Result) -> Saved:
     """Write `result` to `path`: temporary name in the same folder, fsync, rename. Nothing is left behind on failure."""
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
-    temporary = Path(name)
-    try:
-        os.close(descriptor)
-        with h5py.File(temporary, "w") as file:
+    with files.temporary(path) as written:
+        with h5py.File(written, "w") as file:
             _write(file, result)
-        saved = _synced(temporary)
-        temporary.replace(path)
-        _sync_folder(path.parent)
-        return saved
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+        files.sync(written)
+        saved = Saved(files.checksum(written), written.stat().st_size)
+        written.replace(path)
+        files.sync(path.parent)
+    return saved
 
 
 def load(path: Path) -> Recording:
@@ -88,12 +80,6 @@ def load(path: Path) -> Recording:
         raise RecordingError(
             Issue("", f"{path.name} is no complete {SCHEMA} recording: {error}", fix="run the plan again")
         ) from None
-
-
-def checksum(path: Path) -> str:
-    """Hex SHA-256 of a file."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _write(file: h5py.File, result: Result) -> None:
@@ -133,18 +119,3 @@ def _read(file: h5py.File) -> Recording:
         summary,
         attrs,
     )
-
-
-def _synced(path: Path) -> Saved:
-    with path.open("rb") as file:
-        digest = hashlib.file_digest(file, "sha256").hexdigest()
-        os.fsync(file.fileno())
-    return Saved(digest, path.stat().st_size)
-
-
-def _sync_folder(folder: Path) -> None:
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

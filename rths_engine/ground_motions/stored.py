@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 import zipfile
 import zlib
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from rths_engine import files
 from rths_engine.errors import Issue, MotionError
 from rths_engine.ground_motions.record import Motion
 
@@ -24,17 +24,13 @@ _DAMAGE = (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFil
 def save(folder: Path, motion: Motion) -> None:
     """Write `motion` to `folder` whole or not at all. FileExistsError when its name is taken."""
     folder.mkdir(parents=True, exist_ok=True)
-    descriptor, name = tempfile.mkstemp(dir=folder, prefix=f".{motion.name}.", suffix=".tmp")
-    temporary = Path(name)
-    try:
-        with os.fdopen(descriptor, "wb") as file:
+    target = folder / f"{motion.name}{SUFFIX}"
+    with files.temporary(target) as written:
+        with written.open("wb") as file:
             np.savez_compressed(file, meta=np.array(json.dumps(_description(motion))), acceleration=motion.acceleration)
-            file.flush()
-            os.fsync(file.fileno())
-        os.link(temporary, folder / f"{motion.name}{SUFFIX}")  # unlike a rename, fails when the name is taken
-        _sync(folder)
-    finally:
-        temporary.unlink(missing_ok=True)
+        files.sync(written)
+        os.link(written, target)  # unlike a rename, fails when the name is taken
+        files.sync(folder)
 
 
 def load(path: Path) -> Motion:
@@ -76,11 +72,3 @@ def _about(file: Any) -> dict[str, Any]:
 def _damaged(path: Path, reason: object) -> MotionError:
     problem = f"the stored record is damaged: {reason}"
     return MotionError(Issue("record", problem, path.stem, "remove it and upload the record again"))
-
-
-def _sync(folder: Path) -> None:
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

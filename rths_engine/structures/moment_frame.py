@@ -29,6 +29,7 @@ class FrameStorey(Value):
     mass: float = quantity("Floor mass", "kg", "t", gt=0, le=1e9, help="the frame's tributary mass, also its gravity load")
     column: str = Field(title="Column section", min_length=1)
     beam: str = Field(title="Beam section", min_length=1)
+    title: ClassVar[str] = "Storey"
     brace_stiffness: float = quantity(
         "Lateral stiffness of the braces",
         "N/m",

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import pytest
 
-from rths_engine import recording, templates
+from rths_engine import files, recording, templates
 from rths_engine.errors import RecordingError
 from rths_engine.run import Run, simulate
 from tests.engine.plans import LIBRARY
@@ -22,7 +22,7 @@ def test_a_recording_gives_back_signals_plan_and_summary(tmp_path: Path) -> None
     loaded = recording.load(tmp_path / "run.h5")
     assert np.array_equal(loaded.signals, result.signals)
     assert (loaded.plan, loaded.channels, loaded.summary) == (PLAN, result.channels, result.summary())
-    assert saved.sha256 == recording.checksum(tmp_path / "run.h5")
+    assert saved.sha256 == files.checksum(tmp_path / "run.h5")
     assert saved.size == (tmp_path / "run.h5").stat().st_size
     assert [path.name for path in tmp_path.iterdir()] == ["run.h5"]
 
@@ -36,10 +36,10 @@ def test_a_run_stopped_before_its_first_substep_can_be_kept(tmp_path: Path) -> N
 
 
 def test_a_failed_save_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(path: Path) -> recording.Saved:
+    def broken(path: Path) -> None:
         raise OSError("disk full")
 
-    monkeypatch.setattr(recording, "_synced", broken)
+    monkeypatch.setattr(files, "sync", broken)
     with pytest.raises(OSError, match="disk full"):
         recording.save(tmp_path / "run.h5", simulate(PLAN, LIBRARY))
     assert list(tmp_path.iterdir()) == []
