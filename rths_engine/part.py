@@ -67,7 +67,16 @@ def validated(model: type[T], data: Any) -> T:
     try:
         return model.model_validate(data)
     except ValidationError as error:
-        raise PlanError(_issue(detail, data) for detail in error.errors(include_url=False)) from None
+        details = error.errors(include_url=False)
+        raise PlanError(_issue(detail, data) for detail in details if not _follows(detail, details)) from None
+
+
+def _follows(detail: Any, details: list[Any]) -> bool:
+    """Whether a list only seems too short because items of it were refused."""
+    inside = detail["loc"]
+    return detail["type"] == "too_short" and any(
+        other is not detail and other["loc"][: len(inside)] == inside for other in details
+    )
 
 
 def _in_si(value: Any, unit: str) -> Any:
@@ -111,6 +120,10 @@ _PLAIN = {
     "less_than_equal": "needs a value <= {le}",
     "finite_number": "needs a finite number, not NaN or infinity",
     "missing": "is required",
+    "too_short": "needs at least {min_length} item(s)",
+    "too_long": "takes at most {max_length} item(s)",
+    "string_too_short": "needs at least {min_length} character(s)",
+    "string_too_long": "takes at most {max_length} characters",
     "extra_forbidden": "is not a field of this part",
     "float_type": "needs a number",
     "float_parsing": "needs a number",

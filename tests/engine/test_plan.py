@@ -70,6 +70,15 @@ def test_a_bad_plan_is_refused_with_the_path_and_the_bound(path: str, value: Any
     assert message in str(caught.value)
 
 
+def test_a_refused_item_is_not_told_again_as_a_list_too_short() -> None:
+    data = table3()
+    for storey in data["structure"]["storeys"]:
+        storey["mass"] = -1
+    with pytest.raises(PlanError) as caught:
+        Plan.read(data)
+    assert [issue.where for issue in caught.value.issues] == ["structure.storeys.0.mass", "structure.storeys.1.mass"]
+
+
 def test_every_issue_is_listed_at_once() -> None:
     data = changed("structure.storeys.1.mass", -5.0)
     data["stations"][0]["actuator"]["alpha"] = 0
