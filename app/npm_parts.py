@@ -44,7 +44,7 @@ def npm() -> str:
         return machine
     beside = Path(sys.executable).parent / "npm"
     if not beside.exists():
-        print(f"No Node.js with npm {OLDEST_NPM} or newer on this machine: installing {NODE_WHEEL} into the environment.", flush=True)
+        print(f"No Node.js with npm {OLDEST_NPM} or newer is here: installing {NODE_WHEEL} into .venv.", flush=True)
         subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", NODE_WHEEL], check=True)
     return str(beside)
 

@@ -1,0 +1,71 @@
+"""`rths`: the command line. Each command's module is imported only when it is called."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from rths_engine.errors import RthsError
+
+DONE, FAILED, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(arguments: list[str] | None = None) -> int:
+    given = parser().parse_args(arguments)
+    module, _, function = given.function.partition(":")
+    try:
+        return int(getattr(import_module(module), function)(given) or DONE)
+    except RthsError as error:
+        for issue in error.issues:
+            print(f"rths {given.command}: {issue}", file=sys.stderr)
+        return UNUSABLE
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def parser() -> argparse.ArgumentParser:
+    """Every command and option."""
+    top = argparse.ArgumentParser(prog="rths", description="Control room for real-time hybrid simulation.")
+    commands = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    plan = _command(commands, "plan", "app.cli_plans:plan", "print a template as YAML, or list the templates")
+    plan.add_argument("name", nargs="?", metavar="NAME", help="the template, such as table3-04")
+
+    run = _command(commands, "run", "app.cli_run:run", "run a plan here, without a server")
+    run.add_argument("plan", metavar="PLAN.yaml", help="the plan; - reads it from standard input")
+    run.add_argument("--out", type=Path, metavar="REC.h5", help="where to write the recording (HDF5)")
+    run.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    run.add_argument("--record", metavar="FILE", help="use this record (AT2, COSMOS V2, columns) instead of the plan's")
+    run.add_argument("--record-unit", metavar="UNIT", help="unit of the record where its file does not say: g, cm/s^2, ...")
+    run.add_argument("--record-dt", metavar="TIME", help="step of the record where its file does not say: 0.01, '5 ms', ...")
+    _data(run)
+
+    serve = _command(commands, "serve", "app.cli_serve:serve", "start the control room")
+    _data(serve)
+    serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")
+    serve.add_argument("--port", type=int, help="port to listen on (RTHS_PORT; default 8000)")
+    serve.add_argument("--demo", action="store_true", help="queue a demonstration test, unless one waits or runs")
+    serve.add_argument("--no-worker", action="store_true", help="start no worker; tests wait for an `rths worker`")
+
+    worker = _command(commands, "worker", "app.cli_worker:worker", "execute queued tests, beside `rths serve --no-worker`")
+    _data(worker)
+    worker.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the control room (default %(default)s)")
+    worker.add_argument("--name", help="name of this worker (default: machine and process)")
+    worker.add_argument("--workers", type=int, metavar="N", help="tests at a time (RTHS_WORKERS; default 2)")
+
+    _data(_command(commands, "migrate", "app.cli_worker:migrate", "bring the database to the newest schema"))
+    _data(_command(commands, "motions", "app.cli_plans:motions", "list the ground-motion records"))
+    _command(commands, "version", "app.cli_plans:version", "print the version")
+    return top
+
+
+def _command(commands: argparse._SubParsersAction, name: str, function: str, about: str) -> argparse.ArgumentParser:
+    command: argparse.ArgumentParser = commands.add_parser(name, help=about, description=f"{about[0].upper()}{about[1:]}.")
+    command.set_defaults(function=function)
+    return command
+
+
+def _data(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--data", type=Path, metavar="DIR", help="data folder (RTHS_DATA; default rths-data)")

@@ -1,0 +1,60 @@
+"""The result of a run as text: measures with units, beside the paper's for a simulation of Table III."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from rths_engine.plan import Plan
+from rths_engine.templates import PAPER
+
+# field of a station's summary -> heading with unit, decimals
+COLUMNS = {
+    "mte_mm": ("MTE mm", 2),
+    "rms_percent": ("RMS %", 2),
+    "mti_mm2": ("MTI mm²", 1),
+    "mee_kNm": ("MEE kN·m", 2),
+    "peak_stroke_mm": ("Stroke mm", 1),
+    "peak_force_kN": ("Force kN", 1),
+}
+LEAST_NAME = 8
+
+
+def text(plan: Plan, summary: dict[str, Any], out: Path | None) -> str:
+    return "\n".join(_lines(plan, summary, out))
+
+
+def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[str]:
+    yield f"{plan.name}: {summary['status']}"
+    if summary["trip"]:
+        yield summary["trip"]["sentence"]
+    yield f"{summary['simulated_s']:.2f} s simulated in {summary['elapsed_s']:.2f} s"
+    stations = summary["stations"]
+    if stations:
+        yield ""
+        width = max(LEAST_NAME, *(len(station["name"]) for station in stations))
+        yield _row("Station", [heading for heading, _ in COLUMNS.values()], width)
+        for number, station in enumerate(stations):
+            yield _row(station["name"], [f"{station[field]:.{digits}f}" for field, (_, digits) in COLUMNS.items()], width)
+            paper = _paper(plan, number)
+            if paper:
+                yield _row("  paper", paper, width)
+        yield ""
+    peaks = ", ".join(f"floor {number} {peak:.1f}" for number, peak in enumerate(summary["floors_peak_mm"], start=1))
+    yield f"Peak displacement, mm: {peaks}"
+    if out:
+        yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
+
+
+def _row(name: str, cells: list[str], width: int) -> str:
+    return f"{name:{width}}" + "".join(f"{cell:>11}" for cell in cells)
+
+
+def _paper(plan: Plan, station: int) -> list[str]:
+    """The paper's measures of a station, or nothing: another plan, or its test was unstable."""
+    row = PAPER.get(plan.template or "")
+    if row is None or row.mte_mm is None:
+        return []
+    published = [getattr(row, field, None) for field in COLUMNS]
+    return [f"{pair[station]:g}" if pair and station < len(pair) else "–" for pair in published]

@@ -1,0 +1,53 @@
+"""What `rths run` is given: a plan, perhaps another record, and a place for the recording."""
+
+from __future__ import annotations
+
+import os
+import sys
+from argparse import Namespace
+from pathlib import Path
+
+from rths_engine.errors import Issue, PlanError, RthsError
+from rths_engine.motion import FileMotion
+from rths_engine.part import validated
+from rths_engine.plan import Plan
+
+STANDARD_INPUT = "-"
+
+
+def read_plan(given: Namespace) -> Plan:
+    """Raises PlanError with every issue."""
+    plan = Plan.from_yaml(_text(given.plan))
+    if given.record:
+        motion = {"kind": "file", "path": given.record, "unit": given.record_unit, "dt": given.record_dt}
+        return _with_motion(plan, validated(FileMotion, {**motion, "scale": plan.motion.scale}))
+    if given.record_unit or given.record_dt:
+        raise PlanError(Issue("--record", "is needed with --record-unit and --record-dt", fix="name the record's file"))
+    if isinstance(plan.motion, FileMotion) and given.plan != STANDARD_INPUT:
+        beside = str(Path(given.plan).parent / plan.motion.path)
+        return _with_motion(plan, plan.motion.model_copy(update={"path": beside}))
+    return plan
+
+
+def check_folder(out: Path) -> None:
+    """Raises RthsError when no recording can be written there."""
+    folder = out.parent
+    if not folder.is_dir():
+        raise RthsError(Issue("--out", f"there is no folder {folder}", str(out), f"make it first: mkdir -p '{folder}'"))
+    if out.is_dir():
+        raise RthsError(Issue("--out", "is a folder", str(out), "name a file in it, such as rec.h5"))
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise RthsError(Issue("--out", f"the folder {folder.resolve()} can't be written to", str(out), "choose another folder"))
+
+
+def _text(path: str) -> str:
+    try:
+        return sys.stdin.read() if path == STANDARD_INPUT else Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise PlanError(Issue("PLAN.yaml", "is no text in UTF-8", path, "give a plan as `rths plan` prints it")) from None
+    except OSError as error:
+        raise PlanError(Issue("PLAN.yaml", f"can't be read: {error.strerror}", path, "`rths plan NAME` prints one")) from None
+
+
+def _with_motion(plan: Plan, motion: FileMotion) -> Plan:
+    return plan.model_copy(update={"motion": motion})

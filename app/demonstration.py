@@ -1,0 +1,26 @@
+"""The test that `make run` shows: simulation 4 of Table III, in real time so that there is something to watch."""
+
+from __future__ import annotations
+
+from fastapi import FastAPI
+
+from app.db import unit_of_work
+from app.runs.repository import Filter, Page
+from app.runs.service import RunService
+from app.states import State
+from rths_engine import templates
+from rths_engine.ground_motions import MotionLibrary
+from rths_engine.plan import RealTime
+
+TEMPLATE = "table3-04"
+SUBMITTER = "demonstration"
+
+
+def queue_demonstration(app: FastAPI) -> None:
+    """Queue the demonstration unless one waits or runs."""
+    with unit_of_work(app.state.sessions) as session:
+        runs = RunService(session, MotionLibrary(app.state.settings.motions), app.state.queue)
+        unfinished = Filter(states=(State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)
+        if not runs.list(unfinished, Page(limit=1))[1]:
+            plan = templates.template(TEMPLATE).model_copy(update={"pace": RealTime()})
+            runs.submit([plan.as_dict()], SUBMITTER)
