@@ -18,6 +18,7 @@ from rths_engine.structures.modes import circular_frequencies, rayleigh
 from rths_engine.structures.sections import SECTIONS
 from rths_engine.units import STANDARD_GRAVITY
 
+MOST_DOF = 3000  # K is stored dense while a plan is checked
 LEAN_AREA = 0.5  # m^2
 LEAN_INERTIA = 1e-5  # m^4, next to none
 
@@ -74,6 +75,10 @@ class MomentFrame(Value):
                     raise ValueError(f"unknown section '{name}' in storey {number}; known are {', '.join(SECTIONS)}")
             if storey.brace_stiffness and len(self.bays) < 2:
                 raise ValueError(f"storey {number} has braces, which need at least two bays")
+        lines = len(self.bays) + 1
+        size = len(self.storeys) * (1 + 2 * lines + 6 * lines + 4 * (lines - 1))
+        if size > MOST_DOF:
+            raise ValueError(f"the frame has some {size} degrees of freedom; {MOST_DOF} is the most")
         return self
 
     def assemble(self) -> Assembled:
