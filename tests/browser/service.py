@@ -38,13 +38,15 @@ class Service:
         return run
 
     def wait(self, run_id: str, *states: str) -> dict[str, Any]:
-        """The run once it is in one of the states (by default: once it has ended)."""
-        return until(lambda: self.get(f"/runs/{run_id}"), lambda run: run["state"] in (set(states) or ENDED))
+        """The run once it is in one of the states (by default: once it has ended); fails when it ends in another."""
+        run: dict[str, Any] = until(lambda: self.get(f"/runs/{run_id}"), lambda run: run["state"] in ENDED.union(states))
+        assert not states or run["state"] in states, f"{run['name']} is {run['state']}: {run['reason']}"
+        return run
 
     def completed(self, **changes: Any) -> str:
         """A short run that has ended."""
         run = self.submit(**{"duration": 3.0, **changes})
-        self.wait(run)
+        self.wait(run, "completed")
         return run
 
     def idle(self) -> None:

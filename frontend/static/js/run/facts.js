@@ -45,6 +45,6 @@ export function reason(run) {
 /** Simulated and elapsed time against the clock. @param {any} at @returns {string} */
 export function clock({ simulated_s, duration_s, elapsed_s }) {
   const parts = [`${fixed(simulated_s, 2)} of ${fixed(duration_s, 2)} s simulated`];
-  if (elapsed_s > 0) parts.push(`${number(elapsed_s, 3)} s elapsed`, `${number(simulated_s / elapsed_s, 3)} × real time`);
+  if (elapsed_s >= 0.01) parts.push(`${number(elapsed_s, 3)} s elapsed`, `${number(simulated_s / elapsed_s, 3)} × real time`);
   return parts.join(" · ");
 }
