@@ -1,6 +1,6 @@
 """The one compiled loop: integrate, ramp, compensate, actuate, measure, check, record.
 
-Order within integration step i: external and measured forces at step i, W (F - C v - r) gives x[i+1] and v[i+1] (3); the
+Order within integration step i: external and measured forces at step i, inv(M_e) (F - C v - r) gives x[i+1] and v[i+1] (3); the
 command ramps from L x[i] to L x[i+1] over n substeps (8); every substep checks the limits, compensates (7), actuates (5),
 reads the specimen and the sensors, and updates the tracking indicator (9) and the energy error (10).
 """
@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rths_engine import actuators, compensators, specimens
+from rths_engine.factor import solve
 from rths_engine.kernel import compiled, entry, fold
 from rths_engine.restoring import subtract_forces, subtract_product
 
@@ -52,7 +53,7 @@ class Setup(NamedTuple):
     n: int  # substeps of an integration step
     dt_step: float  # integration step
     dt: float  # substep
-    w: Any  # W of the integrator (DOF, DOF), symmetric
+    factor: Any  # the integrator's M_e factorised
     damping: Any  # C, compressed rows
     elastic: Any  # stiffness beside the members, compressed rows
     members: Any  # structures.assembled.Members
@@ -111,7 +112,7 @@ def _substep(j, setup, state, x_cmd, noise, row):
 
 
 @compiled
-def _integrate(i, setup, state, residual, x_next):
+def _integrate(i, setup, state, residual, work, x_next):
     """x[i+1] into x_next and v[i+1] into state.v by equation (3), with the measured forces of step i."""
     x, v = state.x, state.v
     for a in range(x.size):
@@ -123,11 +124,7 @@ def _integrate(i, setup, state, residual, x_next):
     subtract_product(setup.damping, v, residual)
     subtract_product(setup.elastic, x, residual)
     subtract_forces(setup.members, x, state.plastic, residual)
-    x_next[:] = 0.0
-    for b in range(x.size):
-        row, force = setup.w[b], residual[b]
-        for a in range(x.size):
-            x_next[a] += row[a] * force
+    solve(setup.factor, residual, work, x_next)
     for a in range(x.size):
         v[a] += setup.dt_step * x_next[a]
         x_next[a] = x[a] + setup.dt_step * v[a]
@@ -138,9 +135,9 @@ def advance(first, last, setup, state, record):
     """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
     x, n, floors = state.x, setup.n, setup.floors
     stations, width = setup.dampers.size, len(STATION_COLUMNS)
-    residual, x_next, command = np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
+    residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
-        _integrate(i, setup, state, residual, x_next)
+        _integrate(i, setup, state, residual, work, x_next)
         for j in range(stations):
             command[j, 0], command[j, 1] = 0.0, 0.0
             for a in range(x.size):

@@ -18,6 +18,7 @@ from rths_engine.arrays import Array
 from rths_engine.compensators import Compensator
 from rths_engine.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.errors import Issue, PlanError
+from rths_engine.factor import Factor, factorised
 from rths_engine.integrators import Integrator
 from rths_engine.integrators.cr import CrIntegrator
 from rths_engine.motion import PlannedMotion
@@ -127,15 +128,15 @@ class Plan(Value):
         rows = self.structure.assemble().drifts
         return rows[[station.storey - 1 for station in self.stations]]
 
-    def integration(self) -> Array:
-        """W (n, n) of the integrator, from M, C and the initial K with the stations' equivalents. Raises PlanError."""
+    def integration(self) -> Factor:
+        """The integrator's M_e factorised, from M, C and the initial K with the stations' equivalents. Raises PlanError."""
         built = self.structure.assemble()
         damping, stiffness = built.damping.copy(), built.stiffness.copy()
         for station, drift in zip(self.stations, self.drifts(), strict=True):
             outer = station.dampers * np.outer(drift, drift)
             damping += station.equivalent_damping * outer
             stiffness += station.equivalent_stiffness * outer
-        return self.integrator.build(built.mass, damping, stiffness)
+        return factorised(self.integrator.build(built.mass, damping, stiffness))
 
     def periods(self) -> Array:
         """Natural periods (s) of the analytical substructure, the first mode's first."""

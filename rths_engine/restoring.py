@@ -22,7 +22,7 @@ class Rows(NamedTuple):
 
 def rows(matrix: Array) -> Rows:
     sparse = csr_array(matrix)
-    return Rows(sparse.indptr.astype(np.int64), sparse.indices.astype(np.int64), sparse.data)
+    return Rows(sparse.indptr.astype(np.uint64), sparse.indices.astype(np.uint64), sparse.data)
 
 
 @compiled

@@ -41,8 +41,8 @@ class Run:
         n, dt = plan.integrator.substeps, plan.integrator.dt
         self._steps = _steps(plan.duration or self.motion.duration, dt)
         self.total = self._steps * n
-        built, w = plan.structure.assemble(), plan.integration()
-        dof, stations = len(w), len(plan.stations)
+        built = plan.structure.assemble()
+        dof, stations = len(built.mass), len(plan.stations)
         self.channels: tuple[Channel, ...] = channels(plan)
         if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
             problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
@@ -54,7 +54,7 @@ class Run:
             n=n,
             dt_step=dt,
             dt=self.dt,
-            w=np.ascontiguousarray(w),
+            factor=plan.integration(),
             damping=rows(built.damping),
             elastic=rows(built.elastic),
             members=built.members,

@@ -1,4 +1,4 @@
-"""Integrators: parts that turn M, C, K into the matrix W with beta a = W (F - C v - r)."""
+"""Integrators: parts that turn M, C, K into the matrix M_e with M_e beta a = F - C v - r."""
 
 from typing import Annotated
 

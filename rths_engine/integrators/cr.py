@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from rths_engine.arrays import Array
-from rths_engine.errors import Issue, PlanError
 from rths_engine.part import Value, quantity
 
 
 class CrIntegrator(Value):
     """v[i+1] = v[i] + dt beta a[i];  x[i+1] = x[i] + dt v[i] + dt^2 beta a[i];  beta = 4 inv(4 M + 2 dt C + dt^2 K) M   (3)
 
-    Since M a = F - C v - r, beta a = W (F - C v - r) with W = 4 inv(4 M + 2 dt C + dt^2 K): M is never inverted, so that
+    Since M a = F - C v - r, beta a solves (M + dt/2 C + dt^2/4 K) beta a = F - C v - r: M is never inverted, so that
     massless degrees of freedom are allowed. Explicit, and unconditionally stable for linear elastic systems; K and C here hold
     the stations' equivalents. Second order in x; v[i] is the backward difference (x[i] - x[i-1])/dt, half a step behind.
     Fails first when the tangent stiffness exceeds K.
@@ -29,15 +26,6 @@ class CrIntegrator(Value):
     title: ClassVar[str] = "CR (Chen and Ricles)"
 
     def build(self, mass: Array, damping: Array, stiffness: Array) -> Array:
-        """W (1/kg), n x n, from M, C, K with the stations' equivalents. Raises PlanError when the sum is singular."""
-        effective = 4 * mass + 2 * self.dt * damping + self.dt**2 * stiffness
-        if not np.isfinite(effective).all() or np.linalg.cond(effective) > 1e14:
-            raise PlanError(
-                Issue(
-                    "structure",
-                    "4M + 2 dt C + dt^2 K is singular",
-                    fix="give every degree of freedom mass, damping or stiffness",
-                )
-            )
-        inverse: Array = 4 * np.linalg.inv(effective)
-        return inverse
+        """M_e = M + dt/2 C + dt^2/4 K (n, n), kg, from M, C, K with the stations' equivalents."""
+        effective: Array = mass + self.dt / 2 * damping + self.dt**2 / 4 * stiffness
+        return effective
