@@ -97,7 +97,8 @@ def _substep(j, setup, state, x_cmd, noise, row):
     if not _within(velocity, limits[1]):
         return 2, velocity
     own = parts[COMPENSATOR, j]
-    x_comp = _compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], own, x_cmd, memory[X_CMD], memory[TI], dt)
+    x_last, x_meas_last, ti = memory[X_CMD], memory[X_MEAS], memory[TI]
+    x_comp = _compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], own, x_cmd, x_last, x_meas_last, ti, dt)
     x_true = _actuate(codes[ACTUATOR], parameters[ACTUATOR, j], parts[ACTUATOR, j], x_comp, memory[F_TRUE])
     f_true = _resist(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], x_true, dt)
     memory[F_TRUE] = f_true

@@ -31,7 +31,7 @@ class AdaptiveInverseCompensation(Part):
         return np.array([self.alpha_es, self.kp, self.ki]), np.zeros(3)
 
     @staticmethod
-    def step(p, s, x_cmd, x_cmd_last, ti, dt):
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
         s[1] += 0.5 * (ti + s[2]) * dt
         s[2] = ti
         s[0] = p[1] * ti + p[2] * s[1]

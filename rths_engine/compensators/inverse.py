@@ -28,5 +28,5 @@ class InverseCompensation(Part):
         return np.array([self.alpha_es]), np.zeros(1)
 
     @staticmethod
-    def step(p, s, x_cmd, x_cmd_last, ti, dt):
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
         return p[0] * x_cmd - (p[0] - 1.0) * x_cmd_last

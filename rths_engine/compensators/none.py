@@ -20,5 +20,5 @@ class NoCompensation(Part):
         return np.zeros(1), np.zeros(1)
 
     @staticmethod
-    def step(p, s, x_cmd, x_cmd_last, ti, dt):
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
         return x_cmd

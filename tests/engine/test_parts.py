@@ -25,7 +25,7 @@ def inputs(registry: str, count: int) -> list[tuple[float, ...]]:
     rng = np.random.default_rng(3)
     x = np.cumsum(rng.normal(scale=2e-4, size=count))
     if registry == "compensators":
-        return [(x[i], x[i - 1], 1e-5 * x[i], DT) for i in range(1, count)]
+        return [(x[i], x[i - 1], 0.9 * x[i - 2], 1e-5 * x[i], DT) for i in range(2, count)]
     if registry == "actuators":
         return [(x[i], 4e6 * np.sin(i / 20)) for i in range(count)]
     return [(x[i], DT) for i in range(count)]
@@ -57,7 +57,7 @@ def test_every_part_says_its_kind_title_equation_and_the_unit_of_each_number(reg
 @pytest.mark.parametrize(("registry", "code"), PARTS)
 def test_every_part_starts_at_rest(registry: str, code: int) -> None:
     part = REGISTRIES[registry].KINDS[code]
-    zeros = [0.0] * len(inputs(registry, 2)[0])
+    zeros = [0.0] * len(inputs(registry, 3)[0])
     zeros[-1] = DT if registry != "actuators" else 0.0
     assert part.step(*part().build(DT), *zeros) == 0.0
 
@@ -67,7 +67,7 @@ def test_inverse_compensation_cancels_a_first_order_delay_of_the_same_alpha() ->
     (pa, sa), (pc, sc) = actuator.build(DT), compensator.build(DT)
     command = 0.01 * np.sin(2 * np.pi * np.arange(1024) * DT)
     moved = [
-        FirstOrderDelay.step(pa, sa, InverseCompensation.step(pc, sc, command[i], command[i - 1], 0.0, DT), 0.0)
+        FirstOrderDelay.step(pa, sa, InverseCompensation.step(pc, sc, command[i], command[i - 1], 0.0, 0.0, DT), 0.0)
         for i in range(1, 1024)
     ]
     assert moved == pytest.approx(command[1:], abs=1e-15)
@@ -98,7 +98,7 @@ def test_aic_integrates_the_indicator_by_the_trapezoidal_rule() -> None:
     parameters, state = part.build(DT)
     ti = 2e-6 * np.arange(1, 6)  # m^2
     for value in ti:
-        AdaptiveInverseCompensation.step(parameters, state, 0.0, 0.0, value, DT)
+        AdaptiveInverseCompensation.step(parameters, state, 0.0, 0.0, 0.0, value, DT)
     integral = np.trapezoid(np.concatenate([[0.0], ti]), dx=DT)
     assert state[0] == pytest.approx(0.4e6 * ti[-1] + 0.04e6 * integral)
 
