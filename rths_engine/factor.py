@@ -1,4 +1,4 @@
-"""Symmetric solve by a sparse factorisation, compiled."""
+"""Sparse factorisation of a symmetric positive definite matrix."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from scipy.sparse.linalg import splu
 
 from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError
-from rths_engine.kernel import compiled
 
 LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled to rounding
 
@@ -52,25 +51,6 @@ def factorised(matrix: Array) -> Factor:
     lower.eliminate_zeros()
     lower.sort_indices()
     return Factor(order, lower.indptr.astype(np.uint64), lower.indices.astype(np.uint64), lower.data, 1 / pivots)
-
-
-@compiled
-def solve(factor: Factor, right: Array, work: Array, result: Array) -> None:
-    """result = inv(A) @ right; `work` has as many numbers. `right` stays."""
-    count = right.size
-    for k in range(count):
-        work[k] = right[factor.order[k]]
-    for k in range(count):
-        known = work[k]
-        for entry in range(factor.start[k], factor.start[k + 1]):
-            work[factor.row[entry]] -= factor.value[entry] * known
-    for k in range(count - 1, -1, -1):
-        total = work[k] * factor.pivot_inverse[k]
-        for entry in range(factor.start[k], factor.start[k + 1]):
-            total -= factor.value[entry] * work[factor.row[entry]]
-        work[k] = total
-    for k in range(count):
-        result[factor.order[k]] = work[k]
 
 
 _SINGULAR = Issue(

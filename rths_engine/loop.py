@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rths_engine import actuators, compensators, specimens
-from rths_engine.factor import solve
 from rths_engine.kernel import compiled, entry, fold
 from rths_engine.restoring import subtract_forces, subtract_product
+from rths_engine.solve import solve
 
 _compensate = fold([part.step for part in compensators.KINDS])
 _actuate = fold([part.step for part in actuators.KINDS])

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rths_engine.errors import PlanError
-from rths_engine.factor import factorised, solve
+from rths_engine.factor import factorised
+from rths_engine.solve import solve
 
 
 def coupled(seed: int, size: int) -> np.ndarray:
