@@ -23,7 +23,7 @@ def test_the_program_is_built_by_make_setup_and_nothing_else() -> None:
 def test_it_runs_as_a_user_of_its_own_who_owns_the_data() -> None:
     (user,) = values("USER")
     assert user not in {"root", "0"}
-    assert f"chown {user} /data" in values("RUN")[-1]
+    assert f"chown -R {user} /data /opt/rths/cache" in values("RUN")[-1]
     assert values("VOLUME") == ["/data"]
 
 
