@@ -4,21 +4,29 @@ from __future__ import annotations
 
 import os
 import secrets
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from rths_engine.errors import Issue, RthsError
+
 MEGABYTE = 1_000_000
+LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Everything that differs between installations. All data lives in the folder `data`."""
+    """Everything that differs between installations. All data lives in the folder `data`.
+
+    `hosts` are the names browsers reach the service by where it is not its own address, as behind a proxy.
+    """
 
     data: Path = Path("rths-data")
     database_url: str = ""
     host: str = "127.0.0.1"
     port: int = 8000
+    hosts: tuple[str, ...] = ()
     embedded_worker: bool = True
     worker_concurrency: int = 2
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
@@ -37,6 +45,11 @@ class Settings:
     def motions(self) -> Path:
         return self.data / "motions"
 
+    @property
+    def known_hosts(self) -> frozenset[str]:
+        """Host names that a browser's request may name; empty where a network's names can't be known."""
+        return LOOPBACK | {self.host, *self.hosts} if self.host in LOOPBACK or self.hosts else frozenset()
+
     def prepared(self) -> Settings:
         """The same settings with their folders made."""
         for folder in (self.data, self.recordings, self.motions):
@@ -45,14 +58,25 @@ class Settings:
 
 
 def from_environment(**given: Any) -> Settings:
-    """Settings from RTHS_DATA, RTHS_DATABASE_URL, RTHS_HOST, RTHS_PORT, RTHS_WORKERS, RTHS_WORKER_TOKEN; `given` wins."""
-    read = {
-        "data": ("RTHS_DATA", Path),
-        "database_url": ("RTHS_DATABASE_URL", str),
-        "host": ("RTHS_HOST", str),
-        "port": ("RTHS_PORT", int),
-        "worker_concurrency": ("RTHS_WORKERS", int),
-        "worker_token": ("RTHS_WORKER_TOKEN", str),
-    }
-    found = {name: convert(os.environ[key]) for name, (key, convert) in read.items() if os.environ.get(key)}
+    """Settings from the variables in VARIABLES; `given` wins where it is not None. Raises RthsError."""
+    found = {name: _read(key, convert) for name, (key, convert) in VARIABLES.items() if os.environ.get(key)}
     return replace(Settings(), **{**found, **{name: value for name, value in given.items() if value is not None}})
+
+
+def _read(key: str, convert: Callable[[str], Any]) -> Any:
+    try:
+        return convert(os.environ[key])
+    except ValueError:
+        raise RthsError(Issue(key, "needs a whole number", os.environ[key], "mend or unset the variable")) from None
+
+
+VARIABLES: dict[str, tuple[str, Callable[[str], Any]]] = {
+    "data": ("RTHS_DATA", Path),
+    "database_url": ("RTHS_DATABASE_URL", str),
+    "host": ("RTHS_HOST", str),
+    "port": ("RTHS_PORT", int),
+    "hosts": ("RTHS_HOSTS", lambda text: tuple(text.split(","))),
+    "worker_concurrency": ("RTHS_WORKERS", int),
+    "worker_token": ("RTHS_WORKER_TOKEN", str),
+    "upload_limit": ("RTHS_UPLOAD_LIMIT_MB", lambda text: int(text) * MEGABYTE),
+}

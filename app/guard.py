@@ -1,48 +1,65 @@
-"""What is refused before any endpoint sees it: changes that another site's page asks for, and bodies declared too large."""
+"""What is refused before any endpoint sees it: another site's page, bodies declared too large, and NUL in an address."""
 
 from __future__ import annotations
 
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
+from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from app.config import Settings
 from app.problems import problem, too_large
 
 SAFE = {"GET", "HEAD", "OPTIONS"}
 NOT_ALLOWED = 4403
+ELSEWHERE = (
+    "Changes are taken only from this service's own pages and from programs. "
+    "Behind a proxy, keep the Host header and set RTHS_HOSTS to the name that browsers use."
+)
 
 
 class Guard:
     """ASGI middleware. Programs send no Origin; a browser's must name the host it talks to, websockets included.
 
-    Bodies that declare no length are counted by the framework (`max_body_size`).
+    The host must be one the service is known by (`Settings.known_hosts`), or a foreign name that resolves to this machine
+    would pass. Bodies that declare no length are counted by the framework (`max_body_size`).
     """
 
-    def __init__(self, app: ASGIApp, limit: int):
-        self.app, self.limit = app, limit
+    def __init__(self, app: ASGIApp, settings: Settings):
+        self.app, self.limit, self.known = app, settings.upload_limit, settings.known_hosts
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] not in {"http", "websocket"} or scope.get("method") in SAFE:
+        refusal = None
+        if scope["type"] in {"http", "websocket"}:
+            refusal = self._refusal(scope, Headers(scope=scope))
+        if refusal is None:
             await self.app(scope, receive, send)
-            return
-        headers = Headers(scope=scope)
-        if _same_origin(headers):
-            if _declared(headers) > self.limit:
-                await too_large(self.limit)(scope, receive, send)
-            else:
-                await self.app(scope, receive, send)
-        elif scope["type"] == "websocket":
-            await send({"type": "websocket.close", "code": NOT_ALLOWED, "reason": "not allowed from another site"})
+        elif scope["type"] == "http":
+            await refusal(scope, receive, send)
         else:
-            await problem(403, "Changes are taken only from this service's own pages and from programs.")(scope, receive, send)
+            await send({"type": "websocket.close", "code": NOT_ALLOWED, "reason": "not allowed"})
+
+    def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
+        if "\0" in scope["path"] or b"%00" in scope["query_string"]:
+            return problem(400, "The address holds a NUL character.")
+        if scope.get("method") in SAFE:
+            return None
+        if not self._own(headers):
+            return problem(403, ELSEWHERE)
+        return too_large(self.limit) if _declared(headers) > self.limit else None
+
+    def _own(self, headers: Headers) -> bool:
+        origin = headers.get("origin")
+        if origin is None:
+            return True
+        try:
+            named = urlsplit(origin)
+        except ValueError:
+            return False
+        return named.netloc == headers.get("host") and (not self.known or named.hostname in self.known)
 
 
 def _declared(headers: Headers) -> int:
     length = headers.get("content-length", "0")
-    return int(length) if length.isdecimal() else 0
-
-
-def _same_origin(headers: Headers) -> bool:
-    origin = headers.get("origin")
-    return origin is None or urlsplit(origin).netloc == headers.get("host")
+    return int(length[:20]) if length.isdecimal() else 0

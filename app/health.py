@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 from fastapi.responses import JSONResponse
+from sqlalchemy.exc import SQLAlchemyError
 
-from app.dependencies import Runs
+from app.db import unit_of_work
+from app.runs.repository import RunRepository
+from app.runs.service import worker_alive
 from rths_engine import __version__
 
 router = APIRouter(tags=["health"])
 
 
 @router.get("/healthz")
-def health(runs: Runs) -> JSONResponse:
+def health(request: Request) -> JSONResponse:
     """200 while the database answers and a worker is alive, else 503."""
-    queue = runs.queue_state()
-    body: dict[str, Any] = {"database": "ok", "worker": "alive" if queue.worker_alive else "silent", "version": __version__}
-    return JSONResponse(body, 200 if queue.worker_alive else 503)
+    try:
+        with unit_of_work(request.app.state.sessions) as session:
+            seen = RunRepository(session).last_beat()
+    except SQLAlchemyError:
+        return JSONResponse({"database": "silent", "worker": "unknown", "version": __version__}, 503)
+    alive = worker_alive(seen)
+    body = {"database": "ok", "worker": "alive" if alive else "silent", "version": __version__}
+    return JSONResponse(body, 200 if alive else 503)

@@ -47,7 +47,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(pages.router)
-    app.add_middleware(Guard, limit=configured.upload_limit)
+    app.add_middleware(Guard, settings=configured)
     return app
 
 

@@ -25,7 +25,7 @@ class UtcDateTime(sa.TypeDecorator[datetime]):
 
 
 class Base(DeclarativeBase):
-    type_annotation_map: ClassVar = {datetime: UtcDateTime, dict[str, Any]: sa.JSON, list[float]: sa.JSON}
+    type_annotation_map: ClassVar = {datetime: UtcDateTime, dict[str, Any]: sa.JSON}
 
 
 class Run(Base):
@@ -35,7 +35,7 @@ class Run(Base):
 
     number: Mapped[int] = mapped_column(primary_key=True)
     id: Mapped[str] = mapped_column(sa.String(36), unique=True)
-    name: Mapped[str] = mapped_column(sa.String(200))
+    name: Mapped[str] = mapped_column(sa.String(200), index=True)
     template: Mapped[str | None] = mapped_column(sa.String(80), index=True)
     plan: Mapped[dict[str, Any]]
     digest: Mapped[str] = mapped_column(sa.String(64), index=True)
@@ -45,7 +45,7 @@ class Run(Base):
     submitted_by: Mapped[str] = mapped_column(sa.String(80), index=True)
     submitted_at: Mapped[datetime] = mapped_column(index=True)
     started_at: Mapped[datetime | None]
-    finished_at: Mapped[datetime | None]
+    finished_at: Mapped[datetime | None] = mapped_column(index=True)
     cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
     attempt: Mapped[int] = mapped_column(default=0)
     worker: Mapped[str | None] = mapped_column(sa.String(80))
@@ -54,7 +54,7 @@ class Run(Base):
     duration_s: Mapped[float]
     elapsed_s: Mapped[float | None]
     simulated_s: Mapped[float | None]
-    floors_peak_mm: Mapped[list[float] | None]
+    floors_peak_mm: Mapped[list[float | None] | None] = mapped_column(sa.JSON)
     recording_sha256: Mapped[str | None] = mapped_column(sa.String(64))
     recording_size: Mapped[int | None] = mapped_column(sa.BigInteger)
     stations: Mapped[list[RunStation]] = relationship(
@@ -63,19 +63,19 @@ class Run(Base):
 
 
 class RunStation(Base):
-    """Measures of one station of a run, as in the paper's Table IV."""
+    """Measures of one station of a run, as in the paper's Table IV; null where one came out as no finite number."""
 
     __tablename__ = "run_station"
 
     run_number: Mapped[int] = mapped_column(sa.ForeignKey("run.number", ondelete="CASCADE"), primary_key=True)
     number: Mapped[int] = mapped_column(primary_key=True)
     name: Mapped[str] = mapped_column(sa.String(80))
-    mte_mm: Mapped[float]
-    rms_percent: Mapped[float]
-    mti_mm2: Mapped[float]
-    mee_kNm: Mapped[float]
-    peak_stroke_mm: Mapped[float]
-    peak_force_kN: Mapped[float]
+    mte_mm: Mapped[float | None]
+    rms_percent: Mapped[float | None]
+    mti_mm2: Mapped[float | None]
+    mee_kNm: Mapped[float | None]
+    peak_stroke_mm: Mapped[float | None]
+    peak_force_kN: Mapped[float | None]
     run: Mapped[Run] = relationship(back_populates="stations")
 
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
+from fastapi.responses import Response
+from sqlalchemy.exc import OperationalError
+from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 
 from app.states import IllegalTransition
-from rths_engine.errors import Issue, RthsError
+from rths_engine.errors import Issue, RecordingError, RthsError
 
 log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"
@@ -25,7 +28,9 @@ TITLES = {
     415: "Of a kind that is not read",
     422: "The input has mistakes",
     500: "The service failed",
+    503: "Not able to now",
 }
+FORMS = {"multipart/form-data", "application/x-www-form-urlencoded"}
 
 
 class NotFound(Exception):
@@ -36,48 +41,92 @@ class Conflict(Exception):
     """Something that can't be done as things are."""
 
 
-def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None) -> JSONResponse:
+def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None) -> Response:
     title = TITLES.get(status, "Not possible")
     body = {"type": "about:blank", "title": title, "status": status, "detail": detail, "errors": errors or []}
-    return JSONResponse(body, status, media_type=MEDIA_TYPE)
+    return Response(json.dumps(body), status, media_type=MEDIA_TYPE)  # ASCII, so that any text can be told back
 
 
 def install(app: FastAPI) -> None:
     """Every error of the application leaves as a problem."""
     app.add_exception_handler(RthsError, _input_error)
+    app.add_exception_handler(RecordingError, lambda _, error: problem(409, f"{error}."))
     app.add_exception_handler(RequestValidationError, _request_error)
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(NotFound, lambda _, error: problem(404, str(error)))
     app.add_exception_handler(Conflict, lambda _, error: problem(409, str(error)))
     app.add_exception_handler(IllegalTransition, lambda _, error: problem(409, f"Not done: {error}."))
+    app.add_exception_handler(OperationalError, _database_error)
     app.add_exception_handler(Exception, _unexpected)
 
 
-def _input_error(_: Request, error: Exception) -> JSONResponse:
+def too_large(limit: int) -> Response:
+    return problem(413, f"The request is larger than {limit / 1e6:g} MB, the most that is taken.")
+
+
+def _input_error(_: Request, error: Exception) -> Response:
     assert isinstance(error, RthsError)
     return problem(422, str(error), [issue.as_dict() for issue in error.issues])
 
 
-def _request_error(_: Request, error: Exception) -> JSONResponse:
+def _request_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
-    issues = [Issue(".".join(str(step) for step in detail["loc"][1:]), detail["msg"]) for detail in error.errors()]
+    expected = _expected_kind(request, error.body)
+    if expected:
+        given = request.headers.get("content-type") or "no Content-Type"
+        return problem(415, f"The body has {given}; send it as {expected}.")
+    issues = [_issue(detail) for detail in error.errors()]
     unread = any(detail["type"] == "json_invalid" for detail in error.errors())
     return problem(400 if unread else 422, "; ".join(str(issue) for issue in issues), [issue.as_dict() for issue in issues])
 
 
-def too_large(limit: int) -> JSONResponse:
-    return problem(413, f"The request is larger than {limit / 1e6:g} MB, the most that is taken.")
+def _issue(detail: Any) -> Issue:
+    where = ".".join(str(step) for step in detail["loc"][1:])
+    if detail["type"] == "json_invalid":
+        return Issue("", f"the body is no JSON: {detail['ctx']['error']} at character {detail['loc'][-1]}")
+    given = detail["input"]
+    value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
+    message = str(detail["msg"]).removeprefix("Value error, ")
+    return Issue(where, message[:1].lower() + message[1:], value)
 
 
-def _http_error(request: Request, error: Exception) -> JSONResponse:
+def _expected_kind(request: Request, body: Any) -> str | None:
+    """The content type to send where the body came as another: then it is there unparsed, or no form was found in it."""
+    if isinstance(body, bytes) and body:
+        return "application/json"
+    form = request.headers.get("content-type", "").partition(";")[0] in FORMS
+    return "multipart/form-data" if isinstance(body, FormData) and not form else None
+
+
+def _http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     if error.status_code == 413:
         return too_large(request.app.state.settings.upload_limit)
-    response = problem(error.status_code, str(error.detail))
+    response = problem(error.status_code, _detail(request, error))
     response.headers.update(error.headers or {})
     return response
 
 
-def _unexpected(request: Request, error: Exception) -> JSONResponse:
+def _detail(request: Request, error: HTTPException) -> str:
+    """In words where the framework says its standard phrase."""
+    path, allowed = request.url.path, (error.headers or {}).get("Allow")
+    words = {
+        "Not Found": f"There is nothing at {path}.",
+        "Method Not Allowed": f"{request.method} is not possible at {path}" + (f"; {allowed} is." if allowed else "."),
+        "There was an error parsing the body": (
+            "The body can't be read: it is not UTF-8, nested too deeply, no whole form, or has a number of too many digits."
+        ),
+    }
+    return words.get(error.detail, error.detail)
+
+
+def _database_error(request: Request, error: Exception) -> Response:
+    log.error("%s %s: the database did not answer: %s", request.method, request.url.path, error)
+    response = problem(503, "The database did not answer; nothing was stored. Try again in a moment.")
+    response.headers["Retry-After"] = "5"
+    return response
+
+
+def _unexpected(request: Request, error: Exception) -> Response:
     log.exception("%s %s failed", request.method, request.url.path, exc_info=error)
     return problem(500, "The service met an error of its own; nothing was stored. Its log holds the details.")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Request
+from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import PlainTextResponse
 
 from app.dependencies import Plans
-from rths_engine.errors import Issue, PlanError
 
 router = APIRouter(prefix="/api/v1", tags=["plans"])
 
@@ -30,7 +30,7 @@ def schema(plans: Plans) -> dict[str, Any]:
 
 
 @router.post("/plans/check")
-def check(plan: Annotated[Any, Body()], plans: Plans) -> dict[str, Any]:
+def check(plan: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, Any]:
     """Check a plan without queueing it."""
     return plans.check(plan)
 
@@ -38,14 +38,10 @@ def check(plan: Annotated[Any, Body()], plans: Plans) -> dict[str, Any]:
 @router.post("/plans/read")
 async def read(request: Request, plans: Plans) -> dict[str, Any]:
     """Plan YAML as JSON."""
-    try:
-        text = (await request.body()).decode()
-    except UnicodeDecodeError as error:
-        raise PlanError(Issue("", f"the text is not UTF-8: byte {error.start} is wrong", fix="save it as UTF-8")) from None
-    return plans.read(text)
+    return await run_in_threadpool(plans.read, await request.body())
 
 
 @router.post("/plans/write")
-def write(plan: Annotated[Any, Body()], plans: Plans) -> PlainTextResponse:
+def write(plan: Annotated[dict[str, Any], Body()], plans: Plans) -> PlainTextResponse:
     """Plan JSON as YAML."""
     return PlainTextResponse(plans.write(plan), media_type="application/yaml")

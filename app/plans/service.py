@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
+from app.checking import Checked, checked
 from app.problems import NotFound
-from rths_engine import motion as planned_motion
-from rths_engine import templates
+from app.text import refuse_unstorable
+from rths_engine import plan_yaml, templates
+from rths_engine.errors import Issue, PlanError
 from rths_engine.ground_motions import MotionLibrary
 from rths_engine.plan import Plan
+
+LARGEST_YAML = 1_000_000  # bytes; YAML is read at some 50 kB/s
 
 
 class PlanService:
@@ -31,31 +35,38 @@ class PlanService:
 
     def check(self, data: Any) -> dict[str, Any]:
         """The plan as understood, with its digest and what it amounts to. Raises PlanError or MotionError."""
-        plan = Plan.read(data)
-        periods = plan.periods()
-        unscaled = plan.motion.unscaled(self.motions)
-        scaled = planned_motion.scaled(plan.motion, self.motions, float(periods[0]))
-        duration = plan.duration or scaled.duration
+        found = checked(data, self.motions)
         summary = {
-            "periods_s": periods.tolist(),
-            "steps": round(duration / plan.integrator.dt),
-            "duration_s": duration,
-            "pga": scaled.pga,
-            "scale_factor": scaled.pga / unscaled.pga,
+            "periods_s": found.periods.tolist(),
+            "steps": found.steps,
+            "duration_s": found.duration_s,
+            "pga": found.pga,
+            "scale_factor": found.scale_factor,
         }
-        return {"plan": plan.as_dict(), "digest": plan.digest, "warnings": _warnings(plan, scaled.duration), "summary": summary}
+        plan = found.plan
+        return {"plan": plan.as_dict(), "digest": plan.digest, "warnings": _warnings(found), "summary": summary}
 
-    def read(self, text: str) -> dict[str, Any]:
-        return Plan.from_yaml(text).as_dict()
+    def read(self, raw: bytes) -> dict[str, Any]:
+        """Plan YAML as JSON. Raises PlanError."""
+        if len(raw) > LARGEST_YAML:
+            fix = "upload a long record and name it, or send the plan as JSON"
+            raise PlanError(Issue("", f"YAML of {len(raw)} bytes is not read; {LARGEST_YAML} is the most", fix=fix))
+        try:
+            data = plan_yaml.parse(raw.decode())
+        except UnicodeDecodeError as error:
+            raise PlanError(Issue("", f"the text is not UTF-8: byte {error.start} is wrong", fix="save it as UTF-8")) from None
+        refuse_unstorable(data)
+        return Plan.read(data).as_dict()
 
     def write(self, data: Any) -> str:
+        refuse_unstorable(data)
         return Plan.read(data).to_yaml()
 
 
-def _warnings(plan: Plan, record: float) -> list[str]:
-    found = []
-    if plan.duration and plan.duration < record:
-        found.append(f"The test ends at {plan.duration:g} s, before its record does at {record:g} s.")
+def _warnings(checked: Checked) -> list[str]:
+    plan, found = checked.plan, []
+    if plan.duration and plan.duration < checked.record_s:
+        found.append(f"The test ends at {plan.duration:g} s, before its record does at {checked.record_s:g} s.")
     for station in plan.stations:
         if station.limits.force > station.actuator.force_limit:
             found.append(f"{station.name}: the force limit is above the actuator's force capacity and can't trip.")

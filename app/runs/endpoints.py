@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from datetime import datetime
+from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, StreamingResponse
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from app.dependencies import Configured, Runs
-from app.runs.exports import csv_lines, recording_path, report
+from app.runs.exports import csv_parts, recording_path, report
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
 from app.states import State
@@ -22,7 +22,7 @@ NOBODY = Person()
 
 
 class Wanted(BaseModel):
-    """Filter, order and page of a list of runs."""
+    """Filter, order and page of a list of runs. An empty parameter is none; a time without a zone is UTC."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -36,6 +36,19 @@ class Wanted(BaseModel):
     order: str = Field("desc", pattern="^(asc|desc)$")
     limit: int = Field(50, ge=1, le=500)
     offset: int = Field(0, ge=0, le=10**9)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _given(cls, query: dict[str, Any]) -> dict[str, Any]:
+        return {name: value for name, value in query.items() if value not in ("", [""])}
+
+    @field_validator("since", "until")
+    @classmethod
+    def _in_utc(cls, time: datetime) -> datetime:
+        try:
+            return time.replace(tzinfo=UTC) if time.tzinfo is None else time.astimezone(UTC)
+        except OverflowError:
+            raise ValueError("is outside the calendar") from None
 
     def filter(self) -> Filter:
         return Filter(tuple(self.state), self.q, self.submitted_by, self.template, self.since, self.until)
@@ -87,7 +100,7 @@ def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileRespo
 def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingResponse:
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}.csv"'}
-    return StreamingResponse(csv_lines(recording_path(run, configured)), media_type="text/csv", headers=headers)
+    return StreamingResponse(csv_parts(recording_path(run, configured)), media_type="text/csv", headers=headers)
 
 
 @router.get("/runs/{run_id}/report.html")
@@ -110,13 +123,6 @@ def abort(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> dict[str, A
 
 @router.get("/queue")
 def queue(runs: Runs) -> QueueOut:
-    return runs.queue_state()
-
-
-@router.post("/queue/hold")
-def hold(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
-    """Start no further test until the queue is released."""
-    runs.hold(person.by)
     return runs.queue_state()
 
 

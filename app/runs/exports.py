@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import io
+import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import h5py
 import numpy as np
 
 from app.config import Settings
@@ -28,18 +31,34 @@ def recording_path(run: Run, settings: Settings) -> Path:
     return path
 
 
-def csv_lines(path: Path) -> Iterator[bytes]:
-    """The recording as CSV: time and all channels in shown units, the units in the header."""
-    recording = load(path)
-    names = [f"{channel.key} ({channel.shown})" if channel.shown != "1" else channel.key for channel in recording.channels]
-    yield (",".join(["t (s)", *names]) + "\r\n").encode()
-    factors = np.array([channel.factor for channel in recording.channels])
-    for first in range(0, len(recording.signals), ROWS):
-        part = slice(first, first + ROWS)
-        text = io.BytesIO()
-        table = np.column_stack([recording.time[part], recording.signals[part] / factors])
-        np.savetxt(text, table, fmt="%.9g", delimiter=",", newline="\r\n")
-        yield text.getvalue()
+def csv_parts(path: Path) -> Iterator[bytes]:
+    """The recording as CSV, read part by part: time and all channels in shown units, the units in the header.
+
+    Raises Conflict for a damaged file, before the first part.
+    """
+    try:
+        file = h5py.File(path, "r")
+        channels = json.loads(file.attrs["channels"])
+        dt, signals = float(file.attrs["dt"]), file["signals"]
+    except (OSError, KeyError, ValueError) as error:
+        raise Conflict(f"The recording {path.name} is damaged: {error}") from None
+    return _parts(file, channels, dt, signals)
+
+
+def _parts(file: h5py.File, channels: list[dict[str, Any]], dt: float, signals: Any) -> Iterator[bytes]:
+    with file:
+        yield (",".join(["t (s)", *(_heading(channel) for channel in channels)]) + "\r\n").encode()
+        factors = np.array([channel["factor"] for channel in channels])
+        for first in range(0, len(signals), ROWS):
+            values = signals[first : first + ROWS] / factors
+            time = np.arange(first + 1, first + 1 + len(values)) * dt
+            text = io.BytesIO()
+            np.savetxt(text, np.column_stack([time, values]), fmt="%.9g", delimiter=",", newline="\r\n")
+            yield text.getvalue()
+
+
+def _heading(channel: dict[str, Any]) -> str:
+    return channel["key"] if channel["shown"] == "1" else f"{channel['key']} ({channel['shown']})"
 
 
 def report(run: Run, settings: Settings) -> str:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import Any
 
 import sqlalchemy as sa
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, defer
 
 from app.models import QueueState, Run, RunStation, WorkerHeartbeat
 from app.states import State
@@ -59,19 +60,26 @@ class RunRepository:
         return self.session.scalar(sa.select(Run).where(Run.id == run_id))
 
     def locked(self, run_id: str) -> Run | None:
-        """The run, held against other writers until the end of the transaction (where the database can)."""
-        return self.session.scalar(sa.select(Run).where(Run.id == run_id).with_for_update())
+        """The run as it is now, held against other writers until the end of the transaction.
+
+        Writing it as it is locks the row; in SQLite, which has no SELECT FOR UPDATE, the database.
+        """
+        untouched = sa.update(Run).where(Run.id == run_id).values(attempt=Run.attempt)
+        self.session.execute(untouched, execution_options={"synchronize_session": False})
+        return self.session.scalar(sa.select(Run).where(Run.id == run_id).execution_options(populate_existing=True))
 
     def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         query = self._filtered(wanted)
         total = self.session.scalar(sa.select(sa.func.count()).select_from(query.subquery())) or 0
         column, _, station = page.sort.partition(":")
         order = self._measure(column, int(station)) if station else SORTS[column]
-        query = query.order_by(order.desc() if page.descending else order.asc(), Run.number.desc())
+        ordered = (order.desc() if page.descending else order.asc()).nulls_last()
+        query = query.options(defer(Run.plan)).order_by(ordered, Run.number.desc())
         return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
 
     def in_states(self, *states: State) -> list[Run]:
-        return list(self.session.scalars(sa.select(Run).where(Run.state.in_(states)).order_by(Run.number)))
+        query = sa.select(Run).where(Run.state.in_(states)).options(defer(Run.plan)).order_by(Run.number)
+        return list(self.session.scalars(query))
 
     def count(self, state: State) -> int:
         return self.session.scalar(sa.select(sa.func.count()).where(Run.state == state)) or 0
@@ -82,15 +90,21 @@ class RunRepository:
         return {run_id: by or "" for run_id, by in self.session.execute(query)}
 
     def queue_state(self) -> QueueState:
-        state = self.session.get(QueueState, 1)
-        if state is None:
-            state = QueueState(id=1, held=False)
-            self.session.add(state)
-            self.session.flush()
-        return state
+        return self.session.get_one(QueueState, 1, populate_existing=True)
+
+    def hold(self, by: str) -> None:
+        self._set_queue(held=True, held_by=by, held_at=datetime.now(UTC))
+
+    def release(self) -> None:
+        self._set_queue(held=False, held_by=None, held_at=None)
 
     def held(self) -> bool:
         return bool(self.session.scalar(sa.select(QueueState.held).where(QueueState.id == 1)))
+
+    def locked_queue(self) -> QueueState:
+        """The queue's state, which nobody else can change until the end of the transaction; locks as `locked` does."""
+        self._set_queue(held=QueueState.held)
+        return self.session.get_one(QueueState, 1, populate_existing=True)
 
     def beat(self, worker: str) -> None:
         self.session.merge(WorkerHeartbeat(worker=worker, seen_at=datetime.now(UTC)))
@@ -122,6 +136,10 @@ class RunRepository:
         if wanted.until:
             query = query.where(Run.submitted_at < wanted.until)
         return query
+
+    def _set_queue(self, **values: Any) -> None:
+        change = sa.update(QueueState).where(QueueState.id == 1).values(**values)
+        self.session.execute(change, execution_options={"synchronize_session": False})
 
     @staticmethod
     def _measure(name: str, station: int) -> sa.ScalarSelect[float]:

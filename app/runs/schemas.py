@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.models import Run
 from app.states import State
+from app.text import Storable
 
 
 class Submission(BaseModel):
@@ -18,7 +19,7 @@ class Submission(BaseModel):
 
     plan: dict[str, Any] | None = None
     plans: list[Any] | None = Field(None, max_length=500)
-    submitted_by: str = Field("", max_length=80)
+    submitted_by: Storable = Field("", max_length=80)
 
 
 class Person(BaseModel):
@@ -26,19 +27,19 @@ class Person(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    by: str = Field("", max_length=80)
+    by: Storable = Field("", max_length=80)
 
 
 class StationOut(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
     name: str
-    mte_mm: float
-    rms_percent: float
-    mti_mm2: float
-    mee_kNm: float
-    peak_stroke_mm: float
-    peak_force_kN: float
+    mte_mm: float | None
+    rms_percent: float | None
+    mti_mm2: float | None
+    mee_kNm: float | None
+    peak_stroke_mm: float | None
+    peak_force_kN: float | None
 
 
 class RecordingOut(BaseModel):
@@ -70,7 +71,7 @@ class RunOut(BaseModel):
     simulated_s: float | None
     duration_s: float
     stations: list[StationOut]
-    floors_peak_mm: list[float] | None
+    floors_peak_mm: list[float | None] | None
     recording: RecordingOut | None = None
 
     @classmethod

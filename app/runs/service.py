@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import json
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from typing import Any, Protocol
 from sqlalchemy.orm import Session
 
 from app import states
+from app.checking import Checked, checked
 from app.models import Run, RunStation
 from app.problems import NotFound
 from app.runs.repository import MEASURES, SORTS, Filter, Page, RunRepository
@@ -20,7 +22,6 @@ from app.states import State
 from rths_engine import __version__
 from rths_engine.errors import Issue, PlanError, RthsError
 from rths_engine.ground_motions import MotionLibrary
-from rths_engine.motion import FileMotion, RecordMotion
 from rths_engine.plan import Plan
 
 MOST_ATTEMPTS = 3
@@ -56,7 +57,7 @@ class RunService:
         runs: list[Run] = []
         for index, data in enumerate(plans):
             try:
-                runs.append(self._run(data, submitted_by.strip() or NOBODY))
+                runs.append(_queued(checked(data, self.motions), submitted_by.strip() or NOBODY))
             except RthsError as error:
                 issues += [_under(prefix.format(index), issue) for issue in error.issues]
         if issues:
@@ -65,17 +66,6 @@ class RunService:
         assert self.queue is not None
         self.queue.enqueue(self.session, [run.id for run in runs])
         return runs
-
-    def checked(self, data: Any) -> tuple[Plan, float]:
-        """The plan with its record pinned, and the duration of its test (s). Raises PlanError or MotionError."""
-        plan = Plan.read(data)
-        if isinstance(plan.motion, FileMotion):
-            fix = "upload the record and name it"
-            raise PlanError(Issue("motion.kind", "files are read by the command line only", plan.motion.path, fix))
-        motion = plan.motion.unscaled(self.motions)
-        if isinstance(plan.motion, RecordMotion):
-            plan = plan.model_copy(update={"motion": plan.motion.model_copy(update={"sha256": motion.sha256})})
-        return plan, plan.duration or motion.duration
 
     def get(self, run_id: str) -> Run:
         run = self.runs.get(run_id)
@@ -88,7 +78,8 @@ class RunService:
 
     def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         column, _, station = page.sort.partition(":")
-        known = (column in SORTS and not station) or (column in MEASURES and station.isdigit() and len(station) < 3)
+        numbered = station.isdecimal() and len(station) < 3
+        known = column in MEASURES if numbered else column in SORTS and page.sort == column
         if not known:
             names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
             near = difflib.get_close_matches(page.sort, names, 1)
@@ -104,7 +95,7 @@ class RunService:
             queued=self.runs.count(State.QUEUED),
             running=[RunOut.of(run) for run in self.runs.in_states(State.RUNNING)],
             worker_seen_at=seen,
-            worker_alive=seen is not None and datetime.now(UTC) - seen < WORKER_SILENCE,
+            worker_alive=worker_alive(seen),
         )
 
     def cancel(self, run_id: str, by: str) -> Run:
@@ -119,21 +110,26 @@ class RunService:
         return run
 
     def abort(self, by: str) -> list[Run]:
-        """Hold the queue and ask every running test to stop."""
-        state = self.runs.queue_state()
-        state.held, state.held_by, state.held_at = True, by.strip() or NOBODY, datetime.now(UTC)
-        return [self.cancel(run.id, by) for run in self.runs.in_states(State.RUNNING)]
-
-    def hold(self, by: str) -> None:
-        state = self.runs.queue_state()
-        state.held, state.held_by, state.held_at = True, by.strip() or NOBODY, datetime.now(UTC)
+        """Hold the queue and ask every running test to stop. A run that a worker is just starting finds the queue held."""
+        by = by.strip() or NOBODY
+        self.runs.hold(by)
+        stopping = []
+        for running in self.runs.in_states(State.RUNNING):
+            run = self.runs.locked(running.id)
+            if run is not None and run.state is State.RUNNING:
+                run.cancel_requested_by = by
+                stopping.append(run)
+        return stopping
 
     def release(self) -> None:
-        state = self.runs.queue_state()
-        state.held, state.held_by, state.held_at = False, None, None
+        self.runs.release()
 
     def start(self, run_id: str, worker: str) -> Run | None:
-        """Give the run to a worker, or None when there is nothing to do: ended, cancelled meanwhile, or tried too often."""
+        """Give the run to a worker, or None when there is nothing to do: ended, cancelled meanwhile, or tried too often.
+
+        Workers come here while the queue is not held; if it is held now, an abort fell on the run's start and ends it.
+        """
+        queue = self.runs.locked_queue()
         run = self.runs.locked(run_id)
         if run is None or run.state.ended:
             return None
@@ -141,6 +137,9 @@ class RunService:
             self._move(run, State.QUEUED)
         if run.cancel_requested_by:
             self._end(run, State.CANCELLED, f"Cancelled by {run.cancel_requested_by}; its worker had died.")
+            return None
+        if queue.held:
+            self._end(run, State.CANCELLED, f"Stopped by {queue.held_by} as it was about to start.")
             return None
         if run.attempt >= MOST_ATTEMPTS:
             self._end(run, State.FAILED, f"Its worker died {run.attempt} times while running it; it is not tried again.")
@@ -155,7 +154,7 @@ class RunService:
         run = self.runs.locked(run_id)
         if run is None or run.state.ended:
             return False
-        summary = outcome.summary
+        summary = _finite(outcome.summary)
         run.trip = summary["trip"]
         run.elapsed_s, run.simulated_s = summary["elapsed_s"], summary["simulated_s"]
         run.floors_peak_mm = summary["floors_peak_mm"]
@@ -171,23 +170,6 @@ class RunService:
         if run is not None and not run.state.ended:
             self._end(run, State.FAILED, reason)
 
-    def _run(self, data: Any, submitted_by: str) -> Run:
-        plan, duration = self.checked(data)
-        return Run(
-            id=str(uuid.uuid4()),
-            name=plan.name,
-            template=plan.template,
-            plan=plan.as_dict(),
-            digest=plan.digest,
-            code_version=__version__,
-            seed=plan.seed,
-            state=State.QUEUED,
-            attempt=0,
-            submitted_by=submitted_by,
-            submitted_at=datetime.now(UTC),
-            duration_s=duration,
-        )
-
     def _reason(self, run: Run, state: State) -> str:
         if state is State.CANCELLED:
             return f"Stopped by {run.cancel_requested_by or NOBODY} at {run.simulated_s:.2f} s."
@@ -200,6 +182,35 @@ class RunService:
     def _end(self, run: Run, state: State, reason: str) -> None:
         self._move(run, state)
         run.reason, run.finished_at = reason, datetime.now(UTC)
+
+
+def worker_alive(seen: datetime | None) -> bool:
+    """Whether the worker last seen then is still taken to be alive."""
+    return seen is not None and datetime.now(UTC) - seen < WORKER_SILENCE
+
+
+def _queued(checked: Checked, submitted_by: str) -> Run:
+    plan = checked.plan
+    return Run(
+        id=str(uuid.uuid4()),
+        name=plan.name,
+        template=plan.template,
+        plan=plan.as_dict(),
+        digest=plan.digest,
+        code_version=__version__,
+        seed=plan.seed,
+        state=State.QUEUED,
+        attempt=0,
+        submitted_by=submitted_by,
+        submitted_at=datetime.now(UTC),
+        duration_s=checked.duration_s,
+    )
+
+
+def _finite(summary: dict[str, Any]) -> dict[str, Any]:
+    """The summary with null for what came out as no finite number, which no database's JSON can hold."""
+    found: dict[str, Any] = json.loads(json.dumps(summary), parse_constant=lambda _: None)
+    return found
 
 
 def _under(prefix: str, issue: Issue) -> Issue:

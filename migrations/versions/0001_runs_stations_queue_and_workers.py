@@ -15,7 +15,7 @@ depends_on = None
 
 
 def upgrade() -> None:
-    op.create_table(
+    queue_state = op.create_table(
         "queue_state",
         sa.Column("id", sa.Integer(), nullable=False),
         sa.Column("held", sa.Boolean(), nullable=False),
@@ -23,6 +23,7 @@ def upgrade() -> None:
         sa.Column("held_at", sa.DateTime(timezone=True), nullable=True),
         sa.PrimaryKeyConstraint("id"),
     )
+    op.bulk_insert(queue_state, [{"id": 1, "held": False}])
     op.create_table(
         "run",
         sa.Column("number", sa.Integer(), nullable=False),
@@ -60,6 +61,8 @@ def upgrade() -> None:
     )
     with op.batch_alter_table("run", schema=None) as batch_op:
         batch_op.create_index(batch_op.f("ix_run_digest"), ["digest"], unique=False)
+        batch_op.create_index(batch_op.f("ix_run_finished_at"), ["finished_at"], unique=False)
+        batch_op.create_index(batch_op.f("ix_run_name"), ["name"], unique=False)
         batch_op.create_index(batch_op.f("ix_run_state"), ["state"], unique=False)
         batch_op.create_index(batch_op.f("ix_run_submitted_at"), ["submitted_at"], unique=False)
         batch_op.create_index(batch_op.f("ix_run_submitted_by"), ["submitted_by"], unique=False)
@@ -76,12 +79,12 @@ def upgrade() -> None:
         sa.Column("run_number", sa.Integer(), nullable=False),
         sa.Column("number", sa.Integer(), nullable=False),
         sa.Column("name", sa.String(length=80), nullable=False),
-        sa.Column("mte_mm", sa.Double(), nullable=False),
-        sa.Column("rms_percent", sa.Double(), nullable=False),
-        sa.Column("mti_mm2", sa.Double(), nullable=False),
-        sa.Column("mee_kNm", sa.Double(), nullable=False),
-        sa.Column("peak_stroke_mm", sa.Double(), nullable=False),
-        sa.Column("peak_force_kN", sa.Double(), nullable=False),
+        sa.Column("mte_mm", sa.Double(), nullable=True),
+        sa.Column("rms_percent", sa.Double(), nullable=True),
+        sa.Column("mti_mm2", sa.Double(), nullable=True),
+        sa.Column("mee_kNm", sa.Double(), nullable=True),
+        sa.Column("peak_stroke_mm", sa.Double(), nullable=True),
+        sa.Column("peak_force_kN", sa.Double(), nullable=True),
         sa.ForeignKeyConstraint(["run_number"], ["run.number"], ondelete="CASCADE"),
         sa.PrimaryKeyConstraint("run_number", "number"),
     )
@@ -95,6 +98,8 @@ def downgrade() -> None:
         batch_op.drop_index(batch_op.f("ix_run_submitted_by"))
         batch_op.drop_index(batch_op.f("ix_run_submitted_at"))
         batch_op.drop_index(batch_op.f("ix_run_state"))
+        batch_op.drop_index(batch_op.f("ix_run_name"))
+        batch_op.drop_index(batch_op.f("ix_run_finished_at"))
         batch_op.drop_index(batch_op.f("ix_run_digest"))
 
     op.drop_table("run")

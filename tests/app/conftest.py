@@ -16,6 +16,8 @@ from app.main import create_app
 from rths_engine import templates
 from tests.browser.service import Service, running
 
+ADDRESS = "http://127.0.0.1:8000"
+
 
 @pytest.fixture(scope="session")
 def migrated(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -34,7 +36,7 @@ def settings(tmp_path: Path, migrated: Path) -> Settings:
 
 @pytest.fixture
 def client(settings: Settings) -> Iterator[TestClient]:
-    with TestClient(create_app(settings), raise_server_exceptions=False) as one:
+    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as one:
         yield one
 
 

@@ -82,7 +82,9 @@ def test_a_checked_plan_comes_back_with_digest_periods_and_warnings(client: Test
     checked = client.post("/api/v1/plans/check", json=plan()).json()
     assert checked["summary"]["periods_s"][0] == pytest.approx(1.48)
     assert checked["summary"]["steps"] == 205
-    assert checked["digest"] == Plan.read(plan()).digest
+    assert checked["digest"] == Plan.read(checked["plan"]).digest
+    (run,) = client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"]
+    assert run["digest"] == checked["digest"]
     assert any("before its record" in warning for warning in checked["warnings"])
 
 

@@ -22,7 +22,7 @@ from rths_engine import recording
 from rths_engine.ground_motions import MotionLibrary
 from rths_engine.plan import Plan
 from rths_engine.run import simulate
-from tests.app.conftest import plan
+from tests.app.conftest import ADDRESS, plan
 
 RUNS = "/api/v1/runs"
 
@@ -230,7 +230,7 @@ def test_another_sites_page_can_change_nothing(client: TestClient) -> None:
     foreign = {"origin": "http://elsewhere.example"}
     assert client.post("/api/v1/abort", headers=foreign).status_code == 403
     assert client.get("/api/v1/queue", headers=foreign).json()["held"] is False
-    assert client.post("/api/v1/queue/release", headers={"origin": "http://testserver"}).status_code == 200
+    assert client.post("/api/v1/queue/release", headers={"origin": ADDRESS}).status_code == 200
 
 
 anything = st.recursive(

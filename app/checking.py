@@ -1,0 +1,77 @@
+"""What must hold before a plan is queued: it can be read, its record is there, and its scaling and its size are possible."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.text import refuse_unstorable
+from rths_engine.arrays import Array
+from rths_engine.channels import channels
+from rths_engine.errors import Issue, PlanError
+from rths_engine.ground_motions import Motion, MotionLibrary
+from rths_engine.motion import FileMotion, RecordMotion
+from rths_engine.plan import Plan
+from rths_engine.units import STANDARD_GRAVITY
+
+LARGEST_PEAK = 100 * STANDARD_GRAVITY  # far above any shaking, so that only a wrong unit or scale is refused
+LARGEST_RECORDING = 2_000_000_000  # bytes, as in the engine, which is not loaded here
+BYTES = 8  # of a recorded number
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """A plan that can be run, its record pinned by checksum, and what it amounts to; SI."""
+
+    plan: Plan
+    periods: Array
+    scale_factor: float
+    pga: float
+    record_s: float
+    steps: int
+
+    @property
+    def duration_s(self) -> float:
+        return self.plan.duration or self.record_s
+
+
+def checked(data: Any, motions: MotionLibrary) -> Checked:
+    """Raises PlanError or MotionError with every issue found; nothing of the server's files is read but its library."""
+    refuse_unstorable(data)
+    plan = Plan.read(data)
+    if isinstance(plan.motion, FileMotion):
+        fix = "upload the record and name it"
+        raise PlanError(Issue("motion.kind", "files are read by the command line only", plan.motion.path, fix))
+    motion = plan.motion.unscaled(motions)
+    if isinstance(plan.motion, RecordMotion):
+        plan = plan.model_copy(update={"motion": plan.motion.model_copy(update={"sha256": motion.sha256})})
+    periods = plan.periods()
+    factor = _scale_factor(plan, motion, float(periods[0]))
+    steps = max(1, math.ceil((plan.duration or motion.duration) / plan.integrator.dt - 1e-9))
+    _check_size(plan, steps)
+    return Checked(plan, periods, factor, motion.pga * factor, motion.duration, steps)
+
+
+def _scale_factor(plan: Plan, motion: Motion, period: float) -> float:
+    assert not isinstance(plan.motion, FileMotion)
+    _check_peak("motion", motion.pga, "give acceleration in m/s^2")
+    with np.errstate(over="ignore", divide="ignore"):
+        factor = float(plan.motion.scale.factor_for(motion, period))
+    _check_peak("motion.scale", motion.pga * factor, "scale it by less")
+    return factor
+
+
+def _check_peak(where: str, pga: float, fix: str) -> None:
+    if not pga <= LARGEST_PEAK:
+        bound = f"peaks above {LARGEST_PEAK / STANDARD_GRAVITY:g} g"
+        raise PlanError(Issue(where, bound, f"{pga / STANDARD_GRAVITY:.3g} g", fix))
+
+
+def _check_size(plan: Plan, steps: int) -> None:
+    substeps, columns = steps * plan.integrator.substeps, len(channels(plan))
+    if substeps * columns * BYTES > LARGEST_RECORDING:
+        problem = f"{substeps} substeps of {columns} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
+        raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))

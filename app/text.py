@@ -1,0 +1,50 @@
+"""Text that every database, file and page can hold."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from pydantic import AfterValidator
+
+from rths_engine.errors import Issue, PlanError
+
+_UNSTORABLE = re.compile("[\x00\ud800-\udfff]")
+_PROBLEM = "holds a character that can't be stored (NUL or half of a surrogate pair)"
+
+
+def _storable(text: str) -> str:
+    if _UNSTORABLE.search(text):
+        raise ValueError(_PROBLEM)
+    return text
+
+
+Storable = Annotated[str, AfterValidator(_storable)]
+
+
+def refuse_unstorable(data: Any) -> None:
+    """Raises PlanError naming every text in `data`, keys included, that can't be stored."""
+    issues = tuple(_issues(data))
+    if issues:
+        raise PlanError(issues)
+
+
+def _issues(data: Any) -> Iterator[Issue]:
+    left: list[tuple[str, Any]] = [("", data)]
+    while left:
+        where, value = left.pop()
+        if isinstance(value, str):
+            if _UNSTORABLE.search(value):
+                yield Issue(where, _PROBLEM, value, "write it anew")
+        elif isinstance(value, dict):
+            for key, inner in value.items():
+                path = f"{where}.{key}" if where else str(key)
+                left += [(path, inner), (path, key)]
+        elif isinstance(value, list):
+            left += [(f"{where}.{index}" if where else str(index), inner) for index, inner in _nested(value)]
+
+
+def _nested(items: list[Any]) -> Iterator[tuple[int, Any]]:
+    """The items that can hold text; a record's samples can't."""
+    return ((index, item) for index, item in enumerate(items) if isinstance(item, str | dict | list))
