@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from playwright.sync_api import Page, WebSocketRoute, expect
+from playwright.sync_api import Locator, Page, WebSocketRoute, expect
 
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
@@ -19,9 +19,7 @@ def test_a_reload_mid_run_shows_the_whole_history(idle: Service, opened: Opener)
     page.reload()
     expect(page.locator(".chart canvas").first).to_be_visible()
     error = page.get_by_role("img", name=re.compile("^Tracking error")).first
-    error.focus()
-    for _ in range(30):
-        page.keyboard.press("Shift+ArrowLeft")
+    _to_the_left_edge(page, error)
     expect(error).to_have_attribute("aria-label", re.compile(r"at 0\.00 s: -?\d"))
     expect(page.locator("#state")).to_have_text("running")
 
@@ -87,6 +85,29 @@ def test_the_lab_page_keeps_the_focus_while_it_refreshes(idle: Service, opened: 
             pass
     expect(cancel).to_be_focused()
     expect(page.locator(f"#running-{run} progress")).to_have_js_property("max", 20)
+
+
+def test_the_charts_are_zoomed_with_the_keyboard(idle: Service, opened: Opener) -> None:
+    page = opened(f"/runs/{idle.completed(duration=10.0)}")
+    error = page.get_by_role("img", name=re.compile("^Tracking error")).first
+    expect(error.locator("canvas")).to_be_visible()
+    _to_the_left_edge(page, error)
+    expect(error).to_have_attribute("aria-label", re.compile(r"at 0\.00 s"))
+    page.keyboard.press("ArrowRight")
+    for _ in range(5):
+        page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("+")
+    _to_the_left_edge(page, error)
+    expect(error).to_have_attribute("aria-label", re.compile(r"at 0\.[1-9]\d s|at [1-9]\.\d\d s"))
+    page.keyboard.press("Escape")
+    _to_the_left_edge(page, error)
+    expect(error).to_have_attribute("aria-label", re.compile(r"at 0\.00 s"))
+
+
+def _to_the_left_edge(page: Page, chart: Locator) -> None:
+    chart.focus()
+    for _ in range(30):
+        page.keyboard.press("Shift+ArrowLeft")
 
 
 def _expect_simulated(page: Page, seconds: int) -> None:

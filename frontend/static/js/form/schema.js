@@ -47,11 +47,9 @@ export class Schema {
   }
 }
 
-/** The label of a kind: its title in words, `FirstOrderDelay` as `First order delay`. @param {Node} node */
+/** The label of a kind: its title; a bare class name in words, `FrameStorey` as `Frame storey`. @param {Node} node */
 export function kindLabel(node) {
-  const words = node.title.replace(/([a-z])([A-Z])/g, "$1 $2");
-  const lower = words[0] + words.slice(1).toLowerCase();
-  return lower.replace(/\b(mr|cr|pga)\b/gi, (/** @type {string} */ acronym) => acronym.toUpperCase());
+  return node.title.replace(/([a-z])([A-Z])/g, (/** @type {string} */ _, /** @type {string} */ a, /** @type {string} */ b) => `${a} ${b.toLowerCase()}`);
 }
 
 /** The first line of a description that is prose, which helps in a form; formulas stay in the documentation. @param {Node} node */

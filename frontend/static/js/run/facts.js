@@ -37,7 +37,7 @@ function motion(planned) {
 
 /** Why a run ended, for people, or null where it simply completed or has not ended. @param {any} run */
 export function reason(run) {
-  if (run.trip?.sentence) return `Tripped: ${run.trip.sentence}`;
+  if (run.trip?.sentence) return run.trip.sentence;
   if (run.state === "completed" || !ended(run.state)) return null;
   return run.reason || run.state;
 }

@@ -33,7 +33,7 @@ export function axis(label, size) {
 /** A range around the data that is never empty. @param {number} low @param {number} high @returns {[number, number]} */
 export function padded(low, high) {
   if (!(high >= low)) return [-1, 1];
-  const pad = Math.max((high - low) * 0.06, Math.abs(high) * 1e-3, 1e-6);
+  const pad = Math.max((high - low) * 0.06, Math.abs(high) * 1e-3) || 1;
   return [low - pad, high + pad];
 }
 
