@@ -4,8 +4,14 @@ from typing import Annotated
 
 from pydantic import Field
 
+from rths_engine.specimens.bouc_wen import BoucWen
+from rths_engine.specimens.elastomeric import Elastomeric
+from rths_engine.specimens.friction_slider import FrictionSlider
+from rths_engine.specimens.hyperbolic_tangent import HyperbolicTangent
 from rths_engine.specimens.linear import LinearSpecimen
 from rths_engine.specimens.mr_damper import MrDamper
 
-KINDS = (LinearSpecimen, MrDamper)
-Specimen = Annotated[LinearSpecimen | MrDamper, Field(discriminator="kind")]
+KINDS = (LinearSpecimen, MrDamper, BoucWen, HyperbolicTangent, FrictionSlider, Elastomeric)
+Specimen = Annotated[
+    LinearSpecimen | MrDamper | BoucWen | HyperbolicTangent | FrictionSlider | Elastomeric, Field(discriminator="kind")
+]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import functools
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -21,6 +24,11 @@ REGISTRIES = {"compensators": compensators, "actuators": actuators, "specimens":
 PARTS = [(name, code) for name, registry in REGISTRIES.items() for code in range(len(registry.KINDS))]
 
 
+@functools.cache
+def dispatcher(registry: str) -> Any:
+    return fold([kind.step for kind in REGISTRIES[registry].KINDS])
+
+
 def inputs(registry: str, count: int) -> list[tuple[float, ...]]:
     rng = np.random.default_rng(3)
     x = np.cumsum(rng.normal(scale=2e-4, size=count))
@@ -34,7 +42,7 @@ def inputs(registry: str, count: int) -> list[tuple[float, ...]]:
 @pytest.mark.parametrize(("registry", "code"), PARTS)
 def test_compiled_step_equals_python_step(registry: str, code: int) -> None:
     part = REGISTRIES[registry].KINDS[code]
-    dispatch = fold([kind.step for kind in REGISTRIES[registry].KINDS])
+    dispatch = dispatcher(registry)
     parameters, state = part().build(DT)
     compiled_state = state.copy()
     for given in inputs(registry, 300):
