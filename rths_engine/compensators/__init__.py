@@ -8,8 +8,32 @@ from typing import Annotated
 from pydantic import Field
 
 from rths_engine.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.compensators.ats import AdaptiveTimeSeries
+from rths_engine.compensators.derivative import DerivativeFeedForward
+from rths_engine.compensators.dual import DualCompensation
 from rths_engine.compensators.inverse import InverseCompensation
 from rths_engine.compensators.none import NoCompensation
+from rths_engine.compensators.phase_lead import PhaseLead
+from rths_engine.compensators.polynomial import PolynomialExtrapolation
 
-KINDS = (NoCompensation, InverseCompensation, AdaptiveInverseCompensation)
-Compensator = Annotated[NoCompensation | InverseCompensation | AdaptiveInverseCompensation, Field(discriminator="kind")]
+KINDS = (
+    NoCompensation,
+    InverseCompensation,
+    AdaptiveInverseCompensation,
+    DualCompensation,
+    PolynomialExtrapolation,
+    DerivativeFeedForward,
+    PhaseLead,
+    AdaptiveTimeSeries,
+)
+Compensator = Annotated[
+    NoCompensation
+    | InverseCompensation
+    | AdaptiveInverseCompensation
+    | DualCompensation
+    | PolynomialExtrapolation
+    | DerivativeFeedForward
+    | PhaseLead
+    | AdaptiveTimeSeries,
+    Field(discriminator="kind"),
+]
