@@ -1,0 +1,142 @@
+"""A station about rest as a linear system of one controller step, from the steps its parts run in a test."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rths_engine.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.arrays import Array
+from rths_engine.errors import Issue, PlanError
+from rths_engine.plan import Station
+
+AMPLITUDE = 1e-9  # m, below any yield, slack or limit; about rest rounding is relative, so nothing is lost
+EXCITED = 24  # controller steps of random command that show which states move
+NEGLIGIBLE = 1e-10  # of the largest
+FEWEST = 16  # states that a realisation begins with
+
+
+@dataclass(frozen=True, slots=True)
+class LinearStation:
+    """s[q] = a s[q-1] + b x_cmd[q];  f[q] = c s[q] is the force (N) of one specimen at controller step q.
+
+    a (m, m), b (m), c (m). Over n controller steps with the command ramping from x0 to x1: s -> power s + start x0 + end x1.
+    Linearised about rest by unit perturbations of the parts' own steps: a nonlinear specimen by its initial tangent, an
+    adaptive compensator by its start value (the tracking indicator is of second order). Fails first at yielding or a limit.
+    """
+
+    a: Array
+    b: Array
+    c: Array
+
+    def over(self, n: int) -> tuple[Array, Array, Array]:
+        """(power, start, end) of n controller steps."""
+        power, start, end = np.eye(len(self.b)), np.zeros_like(self.b), np.zeros_like(self.b)
+        for q in range(1, n + 1):
+            power = self.a @ power
+            start = self.a @ start + self.b * (1 - q / n)
+            end = self.a @ end + self.b * (q / n)
+        return power, start, end
+
+
+def linear(station: Station, dt: float, added: float = 0.0) -> LinearStation:
+    """The station with `added` controller steps of delay. Raises PlanError when a part has no linear behaviour about rest."""
+    chain = _Chain(station, dt, added)
+    still = np.array_equal(chain.step(chain.rest, 0.0), chain.rest)
+    found = _perturbed(chain) if still else _realised(chain)
+    if not all(np.isfinite(one).all() for one in (found.a, found.b, found.c)):
+        raise PlanError(Issue("", f"station '{station.name}' can't be linearised about rest", fix="check its parts' values"))
+    return found
+
+
+def delay(station: Station) -> float | None:
+    """The station's own delay constant alpha, of which added delay is more; None where delay is added as a lag of its own."""
+    return station.actuator.alpha if isinstance(station.actuator, FirstOrderDelay) else None
+
+
+class _Chain:
+    """One controller step of a station: compensator, actuator, lag and specimen, as the loop runs them without noise.
+
+    Flat state: compensator, actuator, specimen, lagging displacement (m), last command (m), last measured displacement (m),
+    last force (N). `added` delay raises the alpha of a first-order actuator (5a); behind any other actuator it is one more
+    first-order lag of alpha = 1 + added.
+    """
+
+    def __init__(self, station: Station, dt: float, added: float):
+        self.dt, self.lag = dt, 1.0 + added
+        actuator: Any = station.actuator
+        if isinstance(actuator, FirstOrderDelay):
+            actuator, self.lag = actuator.model_copy(update={"alpha": actuator.alpha + added}), 1.0
+        self.parts: tuple[Any, ...] = (station.compensator, actuator, station.specimen)
+        built = [part.build(dt) for part in self.parts]
+        self.parameters = [parameters for parameters, _ in built]
+        self.cuts = np.cumsum([len(state) for _, state in built])
+        self.rest: Array = np.concatenate([*(state for _, state in built), np.zeros(4)])
+
+    def step(self, state: Array, x_cmd: float) -> Array:
+        compensator, actuator, specimen = self.parts
+        own = np.split(state.copy(), self.cuts)
+        x_lag, x_cmd_last, x_meas_last, force_last = (float(value) for value in own[3])
+        x_comp = compensator.step(self.parameters[0], own[0], x_cmd, x_cmd_last, x_meas_last, 0.0, self.dt)
+        x_true = actuator.step(self.parameters[1], own[1], x_comp, force_last)
+        x_meas = x_lag + (x_true - x_lag) / self.lag
+        force = specimen.step(self.parameters[2], own[2], x_meas, self.dt)
+        return np.concatenate([*own[:3], [x_meas, x_cmd, x_meas, force]])
+
+
+def _perturbed(chain: _Chain) -> LinearStation:
+    """By central differences; each state is moved by about as much as a random command of AMPLITUDE moves it."""
+    random = np.random.default_rng(0)
+    state, reached = chain.rest, np.zeros(len(chain.rest))
+    for command in random.normal(scale=AMPLITUDE, size=EXCITED):
+        state = chain.step(state, command)
+        reached = np.maximum(reached, np.abs(state - chain.rest))
+    moving = np.flatnonzero(reached)
+    scale = reached[moving]
+
+    def slope(direction: Array, x_cmd: float) -> Array:
+        ahead, back = chain.step(chain.rest + direction, x_cmd), chain.step(chain.rest - direction, -x_cmd)
+        difference: Array = (ahead - back)[moving] / (2 * scale)
+        return difference
+
+    a = np.array([slope(size * one, 0.0) for size, one in zip(scale, np.eye(len(chain.rest))[moving], strict=True)]).T
+    b = slope(np.zeros(len(chain.rest)), AMPLITUDE) / AMPLITUDE
+    c = np.zeros(len(moving))
+    c[moving == len(chain.rest) - 1] = scale[moving == len(chain.rest) - 1]
+    a = a.reshape(len(moving), len(moving))
+    kept = _joined(np.abs(a), np.abs(b) * AMPLITUDE, c != 0.0)
+    return LinearStation(a[np.ix_(kept, kept)], b[kept], c[kept])
+
+
+def _joined(links: Array, entered: Array, seen: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Indices of the states that the command reaches and that the force shows."""
+    linked = links > NEGLIGIBLE
+    after, before = entered > NEGLIGIBLE, seen
+    for _ in range(len(after)):
+        after, before = after | (linked @ after), before | (linked.T @ before)
+    return np.flatnonzero(after & before)
+
+
+def _realised(chain: _Chain) -> LinearStation:
+    """For parts that count steps (ring buffers): the smallest system with the same response to a unit command (Ho-Kalman).
+
+    Source: Ho and Kalman (1966), Regelungstechnik 14, 545-548.
+    """
+    response: list[float] = []
+    state = chain.step(chain.rest, AMPLITUDE)
+    order, size = FEWEST, 0
+    while order > size - FEWEST // 2:  # as many again while nearly all of them count
+        size = 2 * max(order, FEWEST)
+        while len(response) < 2 * size:
+            response.append(state[-1] / AMPLITUDE)
+            state = chain.step(state, 0.0)
+        index = np.add.outer(np.arange(size), np.arange(size))
+        left, values, right = np.linalg.svd(np.array(response)[index])
+        order = int(np.sum(values > NEGLIGIBLE * values[0]))
+    root = np.sqrt(values[:order])
+    left, right = left[:, :order], right[:order]
+    a = left.T @ np.array(response)[index + 1] @ right.T / np.outer(root, root)
+    return LinearStation(a, right[:, 0] * root, left[0] * root)

@@ -1,0 +1,73 @@
+"""The structure and its integrator about rest, reduced to what the stations and the ground reach."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from rths_engine.arrays import Array
+from rths_engine.plan import Plan
+
+REACHED = 1e-9  # a direction shorter than this beside its own length is rounding
+
+
+@dataclass(frozen=True, slots=True)
+class LinearStructure:
+    """q[i+1] = a q[i] - b f[i] with the stations' forces f (N) and their strokes x_cmd[i] = d q[i].
+
+    From (3): v[i+1] = v[i] + dt inv(M_e) (-C v[i] - K x[i] - L^T f[i]) and x[i+1] = x[i] + dt v[i+1], with the initial K.
+    (x, dt v) = basis q; the basis spans what the columns of L^T and of M iota reach in any number of steps, so that the motion
+    of the stations in it is exact. a (r, r), b (r, S), d (S, r). Degrees of freedom that nothing reaches drop out: massless
+    rotations and vertical displacements follow the others. Fails first when members yield.
+    """
+
+    a: Array
+    b: Array
+    d: Array
+
+
+def linear(plan: Plan) -> LinearStructure:
+    """The plan's structure under its integrator. Raises PlanError when it is a mechanism."""
+    built, drifts, dt = plan.structure.assemble(), plan.drifts(), plan.integrator.dt
+    damping, stiffness = built.damping.copy(), built.stiffness.copy()
+    for station, drift in zip(plan.stations, drifts, strict=True):
+        damping += station.dampers * station.equivalent_damping * np.outer(drift, drift)
+        stiffness += station.dampers * station.equivalent_stiffness * np.outer(drift, drift)
+    factor = lu_factor(plan.integrator.build(built.mass, damping, stiffness))
+    dof = len(built.mass)
+
+    def pushed(force: Array) -> Array:
+        moved = dt**2 * lu_solve(factor, force)
+        return np.concatenate([moved, moved])
+
+    def step(state: Array) -> Array:
+        x, move = state[:dof], state[dof:]
+        free = np.concatenate([x + move, move])
+        return free + pushed(-built.stiffness @ x - built.damping @ move / dt)
+
+    forces = pushed(drifts.T)
+    basis, images = _reached(step, np.column_stack([forces, pushed(built.mass @ built.influence)]))
+    return LinearStructure(basis.T @ images, basis.T @ forces, drifts @ basis[:dof])
+
+
+def _reached(step: Callable[[Array], Array], starts: Array) -> tuple[Array, Array]:
+    """Orthonormal basis (N, r) of what repeated steps reach from the columns of `starts`, and the basis after one step."""
+    basis: Array = np.zeros((len(starts), 0))
+    images: Array = np.zeros((len(starts), 0))
+    waiting = deque(starts.T)
+    while waiting and basis.shape[1] < len(starts):
+        one = waiting.popleft()
+        length = np.linalg.norm(one)
+        for _ in range(2):  # once more: a single projection leaves rounding
+            one = one - basis @ (basis.T @ one)
+        rest = np.linalg.norm(one)
+        if length == 0 or rest <= REACHED * length:
+            continue
+        basis = np.column_stack([basis, one / rest])
+        images = np.column_stack([images, step(one / rest)])
+        waiting.append(images[:, -1])
+    return basis, images
