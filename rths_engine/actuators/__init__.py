@@ -1,10 +1,15 @@
-"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N); `force` is the specimen's at the last substep."""
+"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N); `force` is the specimen's at the last substep.
+
+Each has a `velocity_limit` (m/s) and a `force_limit` (N): what it reaches at most.
+"""
 
 from typing import Annotated
 
 from pydantic import Field
 
 from rths_engine.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.actuators.second_order import SecondOrderActuator
+from rths_engine.actuators.servo_hydraulic import ServoHydraulicActuator
 
-KINDS = (FirstOrderDelay,)
-Actuator = Annotated[FirstOrderDelay, Field()]
+KINDS = (FirstOrderDelay, SecondOrderActuator, ServoHydraulicActuator)
+Actuator = Annotated[FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator, Field(discriminator="kind")]
