@@ -1,4 +1,4 @@
-"""What endpoints ask for: settings, a session that commits once, and the services on it."""
+"""What every feature's endpoints ask for: settings, a session that commits once, and the record library."""
 
 from __future__ import annotations
 
@@ -10,9 +10,6 @@ from sqlalchemy.orm import Session
 
 from app.config import Settings
 from app.db import unit_of_work
-from app.motions.service import MotionService
-from app.plans.service import PlanService
-from app.runs.service import RunService
 from rths_engine.ground_motions import MotionLibrary
 
 
@@ -35,20 +32,3 @@ def library(configured: Configured) -> MotionLibrary:
 
 
 Library = Annotated[MotionLibrary, Depends(library)]
-
-
-def run_service(request: Request, one: OneSession, motions: Library) -> RunService:
-    return RunService(one, motions, request.app.state.queue)
-
-
-def motion_service(motions: Library) -> MotionService:
-    return MotionService(motions)
-
-
-def plan_service(motions: Library) -> PlanService:
-    return PlanService(motions)
-
-
-Runs = Annotated[RunService, Depends(run_service)]
-Motions = Annotated[MotionService, Depends(motion_service)]
-Plans = Annotated[PlanService, Depends(plan_service)]

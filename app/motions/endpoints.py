@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, File, Form, UploadFile
 
-from app.dependencies import Motions
+from app.motions.dependency import Motions
 from app.motions.service import preview
 
 router = APIRouter(prefix="/api/v1/motions", tags=["ground motions"])

@@ -7,11 +7,12 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
-from app.dependencies import Plans, Runs
 from app.live.hub import Hub
 from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
 from app.pages.run_list import LIMIT, RunFilter
+from app.plans.dependency import Plans
+from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
 from app.states import State
 from rths_engine.errors import RthsError

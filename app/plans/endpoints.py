@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body, Request
 from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import PlainTextResponse
 
-from app.dependencies import Plans
+from app.plans.dependency import Plans
 
 router = APIRouter(prefix="/api/v1", tags=["plans"])
 

@@ -72,4 +72,5 @@ def _warnings(checked: Checked) -> list[str]:
             found.append(f"{station.name}: the force limit is above the actuator's force capacity and can't trip.")
         if station.limits.velocity > station.actuator.velocity_limit:
             found.append(f"{station.name}: the velocity limit is above what the actuator can reach.")
-    return found
+    unstable = stability.warning(plan)
+    return [*found, unstable] if unstable else found

@@ -9,7 +9,8 @@ from fastapi import APIRouter, Body, Query
 from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from app.dependencies import Configured, Runs
+from app.dependencies import Configured
+from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, recording_path, report
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted

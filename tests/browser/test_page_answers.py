@@ -6,7 +6,7 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app import pages
-from app.dependencies import run_service
+from app.runs.dependency import run_service
 
 
 def _broken() -> None:

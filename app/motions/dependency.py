@@ -1,0 +1,17 @@
+"""The record library's service of a request."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends
+
+from app.dependencies import Library
+from app.motions.service import MotionService
+
+
+def motion_service(motions: Library) -> MotionService:
+    return MotionService(motions)
+
+
+Motions = Annotated[MotionService, Depends(motion_service)]

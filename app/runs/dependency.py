@@ -1,0 +1,17 @@
+"""The run service of a request."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends, Request
+
+from app.dependencies import Library, OneSession
+from app.runs.service import RunService
+
+
+def run_service(request: Request, session: OneSession, motions: Library) -> RunService:
+    return RunService(session, motions, request.app.state.queue)
+
+
+Runs = Annotated[RunService, Depends(run_service)]
