@@ -6,6 +6,7 @@
 
 VENV := .venv
 BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 STAMPS := $(VENV)/stamps
 VENDOR := frontend/static/vendor
 ENGINE := $(shell find rths_engine -name '*.py')
@@ -47,11 +48,12 @@ $(STAMPS)/python:
 	echo "Install one, or name it: make setup PYTHON=/path/to/python3.11" >&2; exit 1
 
 $(STAMPS)/dependencies: requirements.lock $(STAMPS)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(PIP) install --no-deps -r requirements.lock
 	@touch $@
 
 $(STAMPS)/package: pyproject.toml $(STAMPS)/dependencies
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	$(PIP) install --no-deps --no-build-isolation -e .
+	@$(PIP) check
 	@touch $@
 
 $(VENDOR)/.installed: frontend/package.json frontend/package-lock.json frontend/.npmrc app/npm_parts.py $(STAMPS)/python
@@ -74,7 +76,7 @@ browser:
 # Renew requirements.lock: the newest releases that pyproject.toml admits.
 lock:
 	rm -rf $(VENV)/lock && $(BIN)/python -m venv $(VENV)/lock
-	$(VENV)/lock/bin/python -m pip install --quiet --disable-pip-version-check 'setuptools>=80' '.[test]'
+	$(VENV)/lock/bin/python -m pip install --quiet 'setuptools>=80' '.[test]'
 	{ echo "# Every installed package, pinned; made by 'make lock'."; \
 	  $(VENV)/lock/bin/python -m pip freeze --all --exclude pip --exclude rths-control-room; } > requirements.lock
 	rm -rf $(VENV)/lock build

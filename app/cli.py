@@ -42,6 +42,10 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--record-dt", metavar="TIME", help="step of the record where its file does not say: 0.01, '5 ms', ...")
     _data(run)
 
+    stability = _command(commands, "stability", "app.cli_stability:stability", "predict whether a plan's closed loop is stable")
+    stability.add_argument("plan", nargs="?", metavar="PLAN.yaml", help="the plan; without it, a published limit is printed")
+    stability.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
     serve = _command(commands, "serve", "app.cli_serve:serve", "start the control room")
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")
@@ -69,3 +73,7 @@ def _command(commands: argparse._SubParsersAction, name: str, function: str, abo
 
 def _data(command: argparse.ArgumentParser) -> None:
     command.add_argument("--data", type=Path, metavar="DIR", help="data folder (RTHS_DATA; default rths-data)")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

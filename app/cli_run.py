@@ -31,7 +31,6 @@ NAP_S = 0.1
 
 def run(given: Namespace) -> int:
     """Exit code: 0 when a test was made (tripped too), 2 for unusable input, 130 when interrupted, 1 when not stored."""
-    interrupt = Interrupt()
     try:
         if given.out:
             check_folder(given.out)
@@ -39,7 +38,8 @@ def run(given: Namespace) -> int:
         test = Run(plan, MotionLibrary(settings(given).motions))
     except RthsError as error:
         return _failed(error.issues, given.json, UNUSABLE)
-    elapsed_s = advance(test, interrupt)
+    with Interrupt() as interrupt:
+        elapsed_s = advance(test, interrupt)
     status = "tripped" if test.trip else "completed" if test.finished else "cancelled"
     result = test.result(status, elapsed_s)
     try:
@@ -55,9 +55,13 @@ def run(given: Namespace) -> int:
 class Interrupt:
     """Whether Ctrl-C was pressed; pressed again it ends the program at once."""
 
-    def __init__(self) -> None:
+    def __enter__(self) -> Interrupt:
         self.asked = False
-        signal.signal(signal.SIGINT, self._note)
+        self._before = signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        signal.signal(signal.SIGINT, self._before)
 
     def _note(self, _: int, frame: FrameType | None) -> None:
         self.asked = True

@@ -1,0 +1,13 @@
+"""Tests are never timed, and see none of the caller's settings."""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import settings
+
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
+
+for name in [name for name in os.environ if name.startswith("RTHS_") and name != "RTHS_CACHE"]:
+    del os.environ[name]
