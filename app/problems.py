@@ -12,6 +12,7 @@ from fastapi.responses import Response
 from sqlalchemy.exc import OperationalError
 from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
+from starlette.routing import compile_path
 
 from app.states import IllegalTransition
 from rths_engine.errors import Issue, RecordingError, RthsError
@@ -102,17 +103,27 @@ def _http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     if error.status_code == 413:
         return too_large(request.app.state.settings.upload_limit)
+    if error.status_code == 405:
+        return _not_possible(request)
     response = problem(error.status_code, _detail(request, error))
     response.headers.update(error.headers or {})
     return response
 
 
+def _not_possible(request: Request) -> Response:
+    """Names the methods of every route at the address; the framework knows of the first only."""
+    path, described = request.url.path, request.app.openapi()["paths"]
+    methods = {method.upper() for route, item in described.items() if compile_path(route)[0].match(path) for method in item}
+    allowed = ", ".join(sorted(methods)) or "GET"
+    response = problem(405, f"{request.method} is not possible at {path}; {allowed} is.")
+    response.headers["Allow"] = allowed
+    return response
+
+
 def _detail(request: Request, error: HTTPException) -> str:
     """In words where the framework says its standard phrase."""
-    path, allowed = request.url.path, (error.headers or {}).get("Allow")
     words = {
-        "Not Found": f"There is nothing at {path}.",
-        "Method Not Allowed": f"{request.method} is not possible at {path}" + (f"; {allowed} is." if allowed else "."),
+        "Not Found": f"There is nothing at {request.url.path}.",
         "There was an error parsing the body": (
             "The body can't be read: it is not UTF-8, nested too deeply, no whole form, or has a number of too many digits."
         ),
