@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import signal
 import socket
 import sys
 import threading
@@ -43,6 +44,7 @@ def main(arguments: list[str] | None = None) -> None:
     ).prepared()
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
     if given.with_parent:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the parent too, which ends this process in its order
         threading.Thread(target=_end_with_parent, daemon=True).start()
     work(settings, given.web, given.name)
 
