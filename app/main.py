@@ -22,6 +22,8 @@ from app.live.hub import Hub
 from app.motions.endpoints import router as motions
 from app.plans.endpoints import router as plans
 from app.runs.endpoints import router as runs
+from app.stability.endpoints import router as stability
+from app.stability.page import router as stability_page
 from app.worker.embedded import EmbeddedWorker
 from rths_engine import __version__
 
@@ -42,10 +44,11 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = configured
     app.state.hub = Hub()
     problems.install(app)
-    for router in (runs, motions, plans, health, live):
+    for router in (runs, motions, plans, stability, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
+    app.include_router(stability_page)
     app.include_router(pages.router)
     app.add_middleware(Guard, settings=configured)
     return app

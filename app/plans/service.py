@@ -8,7 +8,7 @@ from typing import Any
 from app.checking import Checked, checked
 from app.problems import NotFound
 from app.text import refuse_unstorable
-from rths_engine import plan_yaml, templates
+from rths_engine import plan_yaml, stability, templates
 from rths_engine.errors import Issue, PlanError
 from rths_engine.ground_motions import MotionLibrary
 from rths_engine.plan import Plan

@@ -13,9 +13,10 @@ from rths_engine.plan import Plan
 from rths_engine.specimens.linear import LinearSpecimen
 from rths_engine.stability import station as stations
 from rths_engine.stability import structure
-from rths_engine.stability.station import LinearStation
+from rths_engine.stability.station import Lifted
 
 ROUNDING = 1e-9  # a radius above 1 by no more is 1
+GONE = 1e-3  # a root so small is over within a step, and no mode
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,29 +42,28 @@ class ClosedLoop:
         self._structure = structure.linear(plan)
         self._own = [self.station(j) for j in range(len(plan.stations))]
 
-    def station(self, j: int, added: float = 0.0) -> LinearStation:
-        """Station j with `added` controller steps of delay."""
-        return stations.linear(self.plan.stations[j], self.plan.substep, added)
+    def station(self, j: int, added: float = 0.0) -> Lifted:
+        """Station j with `added` controller steps of delay, over an integration step."""
+        return stations.linear(self.plan.stations[j], self.plan.substep, added).over(self.plan.integrator.substeps)
 
-    def matrix(self, changed: Mapping[int, LinearStation] | None = None) -> Array:
+    def matrix(self, changed: Mapping[int, Lifted] | None = None) -> Array:
         """A, with some stations changed."""
         used = [(changed or {}).get(j, own) for j, own in enumerate(self._own)]
         a, b, d = self._structure.a, self._structure.b, self._structure.d
-        forces = np.zeros((len(used), len(a) + sum(len(one.b) for one in used)))
-        places = np.cumsum([len(a), *(len(one.b) for one in used)])
+        forces = np.zeros((len(used), len(a) + sum(len(one.c) for one in used)))
+        places = np.cumsum([len(a), *(len(one.c) for one in used)])
         for j, one in enumerate(used):
             forces[j, places[j] : places[j + 1]] = self.plan.stations[j].dampers * one.c
         before = np.eye(len(a), forces.shape[1])
         after = np.hstack([a, np.zeros((len(a), forces.shape[1] - len(a)))]) - b @ forces
         rows = [after]
         for j, one in enumerate(used):
-            power, start, end = one.over(self.plan.integrator.substeps)
-            row = np.outer(start, d[j] @ before) + np.outer(end, d[j] @ after)
-            row[:, places[j] : places[j + 1]] += power
+            row = np.outer(one.start, d[j] @ before) + np.outer(one.end, d[j] @ after)
+            row[:, places[j] : places[j + 1]] += one.power
             rows.append(row)
         return np.vstack(rows)
 
-    def radius(self, changed: Mapping[int, LinearStation] | None = None) -> float:
+    def radius(self, changed: Mapping[int, Lifted] | None = None) -> float:
         return float(np.max(np.abs(np.linalg.eigvals(self.matrix(changed)))))
 
     def radii(self, matrices: Sequence[Array]) -> Array:
@@ -76,7 +76,8 @@ class ClosedLoop:
     def modes(self) -> list[Mode]:
         """The oscillating modes, the least damped first; z < 0 oscillates at the Nyquist frequency."""
         roots = np.linalg.eigvals(self.matrix())
-        found = [_mode(complex(z), self.dt) for z in roots if z.imag > 0 or (z.imag == 0 and z.real < 0)]
+        lasting = roots[np.abs(roots) > GONE]
+        found = [_mode(complex(z), self.dt) for z in lasting if z.imag > 0 or (z.imag == 0 and z.real < 0)]
         return sorted(found, key=lambda mode: mode.damping)
 
     def notes(self) -> list[str]:
@@ -102,6 +103,6 @@ def stable(radius: float) -> bool:
 
 def _mode(z: complex, dt: float) -> Mode:
     radius = abs(z)
-    decay = math.log(max(radius, 1e-300)) / dt
+    decay = math.log(radius) / dt
     angle = math.atan2(z.imag, z.real) / dt
     return Mode(abs(angle) / (2 * math.pi), -decay / math.hypot(decay, angle), radius)

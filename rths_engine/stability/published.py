@@ -62,6 +62,12 @@ def limit(alpha1: float) -> float | None:
     return crossing(holds, np.linspace(1.0, MOST, 1000)) if holds(1.0) else None
 
 
+def largest_alpha1() -> float:
+    """The alpha1 of the limit while the second actuator does not delay."""
+    found = crossing(lambda alpha1: stable(radius((alpha1, 1.0))), np.linspace(1.0, MOST, 1000))
+    return MOST if found is None else found
+
+
 def section2(alpha: tuple[float, float]) -> Plan:
     """The structure as a plan. Its damping ratio is that of half the stiffness with the same C = a0 M + a1 K."""
     storey = Storey(mass=MASS, stiffness=STIFFNESS / 2)

@@ -35,6 +35,19 @@ def mapped(plan: Plan, points: int) -> dict[str, Any] | None:
     return {"axes": axes, "radius": found.radius.tolist()}
 
 
+def warning(plan: Plan) -> str | None:
+    """Sentences for a plan whose closed loop is predicted unstable about rest; None for any other."""
+    loop = ClosedLoop(plan)
+    radius = loop.radius()
+    if stable(radius):
+        return None
+    fastest = max(loop.modes(), key=lambda mode: mode.radius, default=None)
+    oscillates = fastest is not None and fastest.radius > radius - 1e-9
+    how = f"oscillates at {fastest.frequency:.3g} Hz and grows" if fastest and oscillates else "grows"
+    found = f"Predicted unstable about rest: the closed loop {how} by {100 * (radius - 1):.2g} % a step."
+    return " ".join([found, *loop.notes()])
+
+
 def _mode(mode: Mode) -> dict[str, float]:
     return {"frequency_hz": mode.frequency, "damping_ratio": mode.damping, "radius": mode.radius}
 

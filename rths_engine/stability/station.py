@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +19,20 @@ NEGLIGIBLE = 1e-10  # of the largest
 FEWEST = 16  # states that a realisation begins with
 
 
+class Lifted(NamedTuple):
+    """A station over n controller steps, the command ramping from x0 to x1: s -> power s + start x0 + end x1;  f = c s."""
+
+    power: Array
+    start: Array
+    end: Array
+    c: Array
+
+
 @dataclass(frozen=True, slots=True)
 class LinearStation:
     """s[q] = a s[q-1] + b x_cmd[q];  f[q] = c s[q] is the force (N) of one specimen at controller step q.
 
-    a (m, m), b (m), c (m). Over n controller steps with the command ramping from x0 to x1: s -> power s + start x0 + end x1.
+    a (m, m), b (m), c (m).
     Linearised about rest by unit perturbations of the parts' own steps: a nonlinear specimen by its initial tangent, an
     adaptive compensator by its start value (the tracking indicator is of second order). Fails first at yielding or a limit.
     """
@@ -32,14 +41,13 @@ class LinearStation:
     b: Array
     c: Array
 
-    def over(self, n: int) -> tuple[Array, Array, Array]:
-        """(power, start, end) of n controller steps."""
+    def over(self, n: int) -> Lifted:
         power, start, end = np.eye(len(self.b)), np.zeros_like(self.b), np.zeros_like(self.b)
         for q in range(1, n + 1):
             power = self.a @ power
             start = self.a @ start + self.b * (1 - q / n)
             end = self.a @ end + self.b * (q / n)
-        return power, start, end
+        return Lifted(power, start, end, self.c)
 
 
 def linear(station: Station, dt: float, added: float = 0.0) -> LinearStation:

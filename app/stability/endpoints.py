@@ -1,0 +1,32 @@
+"""REST of stability, and plotly.js for its page."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body
+from fastapi.responses import Response
+
+from app.stability.service import StabilityService
+
+router = APIRouter(tags=["plans"])
+
+
+@router.post("/api/v1/stability")
+def predict(plan: Annotated[Any, Body()]) -> dict[str, Any]:
+    """Predicted stability of a plan about rest: spectral radius, modes, delay margins, and a map over two stations' delays."""
+    return StabilityService().predict(plan)
+
+
+@router.get("/static/plotly.min.js", include_in_schema=False)
+def plotly() -> Response:
+    """plotly.js of the installed wheel."""
+    headers = {"Cache-Control": "public, max-age=86400", "X-Content-Type-Options": "nosniff"}
+    return Response(_plotly(), media_type="text/javascript", headers=headers)
+
+
+@cache
+def _plotly() -> bytes:
+    return (files("plotly") / "package_data" / "plotly.min.js").read_bytes()

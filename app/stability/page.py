@@ -1,0 +1,43 @@
+"""The page of a run's or a template's stability."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request
+from fastapi.responses import HTMLResponse, RedirectResponse
+
+from app.pages.errors import PageRoute
+from app.pages.rendering import HEADERS, page
+from app.plans.dependency import Plans
+from app.problems import NotFound
+from app.runs.dependency import Runs
+
+# Plotly writes style elements and attributes
+POLICY = {
+    "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
+        "style-src 'self'", "style-src 'self' 'unsafe-inline'"
+    )
+}
+FIRST = "table3-04"
+
+router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
+
+
+@router.get("/stability")
+def first() -> RedirectResponse:
+    return RedirectResponse(f"/stability/{FIRST}")
+
+
+@router.get("/stability/{name}")
+def stability(request: Request, name: str, plans: Plans, runs: Runs) -> HTMLResponse:
+    """`name` is a template or a run's id."""
+    templates = plans.templates()
+    known = name in {template["name"] for template in templates}
+    source = f"/templates/{name}" if known else f"/runs/{name}"
+    if not known:
+        try:
+            runs.get(name)
+        except NotFound:
+            raise NotFound(f"There is no run or template {name}.") from None
+    shown = page(request, "stability.html", name=name, source=source, templates=templates, known=known)
+    shown.headers.update(POLICY)
+    return shown

@@ -1,0 +1,17 @@
+"""Predicted stability of a plan, and its map over two stations' delays."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rths_engine import stability
+from rths_engine.plan import Plan
+
+POINTS = 31
+
+
+class StabilityService:
+    def predict(self, data: Any) -> dict[str, Any]:
+        """Radius, verdict, modes, delay margins and the map (null for fewer than two stations). Raises PlanError."""
+        plan = Plan.read(data)
+        return {"name": plan.name, **stability.summary(plan), "map": stability.mapped(plan, POINTS)}
