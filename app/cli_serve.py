@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import socket
 from argparse import Namespace
+from contextlib import suppress
 
 import uvicorn
 from fastapi import FastAPI
@@ -23,11 +24,12 @@ def serve(given: Namespace) -> int:
     settings = stored(given, embedded_worker=not given.no_worker)
     listening = listen(settings)
     server = Server(create_app(settings), settings, given.demo)
-    try:
+    with suppress(KeyboardInterrupt):
         server.run(sockets=[listening])
-    except KeyboardInterrupt:
-        print("\nStopped.")
-    return DONE if server.started else FAILED
+    if not server.started:
+        return FAILED
+    print("\nStopped.")
+    return DONE
 
 
 class Server(uvicorn.Server):

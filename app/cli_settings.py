@@ -17,10 +17,7 @@ PORTS = range(1, 65_536)
 def settings(given: Namespace, **more: Any) -> Settings:
     """Raises RthsError for values no service can use."""
     options = {name: getattr(given, name, None) for name in ("data", "host", "port")}
-    try:
-        found = from_environment(**options, worker_concurrency=getattr(given, "workers", None), **more)
-    except ValueError as error:
-        raise RthsError(Issue("RTHS_PORT or RTHS_WORKERS", f"needs a whole number: {error}")) from None
+    found = from_environment(**options, worker_concurrency=getattr(given, "workers", None), **more)
     if found.port not in PORTS:
         raise RthsError(Issue("port", f"needs {PORTS[0]} to {PORTS[-1]}", found.port))
     if found.worker_concurrency < 1:

@@ -6,7 +6,7 @@ from fastapi import FastAPI
 
 from app.db import unit_of_work
 from app.runs.repository import Filter, Page
-from app.runs.service import RunService
+from app.runs.service import MOST_ATTEMPTS, RunService
 from app.states import State
 from rths_engine import templates
 from rths_engine.ground_motions import MotionLibrary
@@ -17,10 +17,10 @@ SUBMITTER = "demonstration"
 
 
 def queue_demonstration(app: FastAPI) -> None:
-    """Queue the demonstration unless one waits or runs."""
+    """Queue the demonstration unless one waits or runs and will be tried again."""
     with unit_of_work(app.state.sessions) as session:
         runs = RunService(session, MotionLibrary(app.state.settings.motions), app.state.queue)
         unfinished = Filter(states=(State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)
-        if not runs.list(unfinished, Page(limit=1))[1]:
+        if all(run.attempt >= MOST_ATTEMPTS for run in runs.list(unfinished, Page())[0]):
             plan = templates.template(TEMPLATE).model_copy(update={"pace": RealTime()})
             runs.submit([plan.as_dict()], SUBMITTER)

@@ -1,0 +1,124 @@
+"""`rths serve`: its address, the demonstration, Ctrl-C, and what it refuses."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from app.cli import main
+from tests.browser.service import until
+
+RTHS = [sys.executable, "-m", "app.cli"]
+
+
+@pytest.fixture
+def taken() -> Iterator[int]:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        yield other.getsockname()[1]
+
+
+@pytest.fixture
+def free(taken: int) -> int:
+    """A port that nothing listens on."""
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port: int = other.getsockname()[1]
+    return port
+
+
+@contextmanager
+def serving(port: int, data: Path, *options: str) -> Iterator[httpx.Client]:
+    """The control room from its first word to Ctrl-C, which must end it and all that it started."""
+    command = [*RTHS, "serve", "--port", str(port), "--data", str(data), *options]
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    try:
+        assert running.stdout is not None
+        heading = [running.stdout.readline().strip() for _ in range(4)]
+        assert heading[1:3] == [f"RTHS control room: http://127.0.0.1:{port}/", f"Data folder: {data}"]
+        with httpx.Client(base_url=f"http://127.0.0.1:{port}/api/v1", timeout=20) as http:
+            yield http
+        os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the service, its worker and the engines
+        out, err = running.communicate()  # returns when no process is left that could write there
+        assert running.returncode == 0 and out.endswith("Stopped.\n") and not err
+    finally:
+        if running.poll() is None:
+            os.killpg(running.pid, signal.SIGKILL)
+            running.communicate()
+
+
+def runs(http: httpx.Client) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = http.get("/runs").raise_for_status().json()["runs"]
+    return found
+
+
+def test_one_demonstration_waits_however_often_the_control_room_starts(free: int, tmp_path: Path) -> None:
+    with serving(free, tmp_path, "--demo", "--no-worker") as http:
+        (first,) = runs(http)
+        assert first["template"] == "table3-04" and first["state"] == "queued"
+        plan = http.get(f"/runs/{first['id']}").json()["plan"]
+        assert plan["pace"] == {"kind": "real_time", "factor": 1.0}
+    with serving(free, tmp_path, "--demo", "--no-worker") as http:
+        (run,) = runs(http)
+        assert run["id"] == first["id"]
+        http.post(f"/runs/{run['id']}/cancel", json={}).raise_for_status()
+    with serving(free, tmp_path, "--demo", "--no-worker") as http:
+        assert sorted(run["state"] for run in runs(http)) == ["cancelled", "queued"]
+
+
+def test_ctrl_c_ends_the_worker_and_its_engines_too(free: int, tmp_path: Path) -> None:
+    with serving(free, tmp_path, "--demo") as http:
+        until(lambda: runs(http)[0]["state"], lambda state: state == "running")
+
+
+def test_a_taken_port_is_refused_with_the_way_to_choose_another(
+    taken: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["serve", "--port", str(taken), "--data", str(tmp_path)]) == 2
+    assert f"port = {taken}: is taken" in (err := capsys.readouterr().err) and f"RTHS_PORT={taken + 1} make run" in err
+
+
+@pytest.mark.parametrize(
+    ("options", "variable", "problem"),
+    [
+        (["--port", "70000"], None, "port = 70000: needs 1 to 65535"),
+        (["--host", "203.0.113.7"], None, "can't be listened on"),
+        (["--data", "/dev/null/rths"], None, "data folder = /dev/null/rths: can't be used"),
+        ([], ("RTHS_PORT", "http"), "RTHS_PORT = http: needs a whole number"),
+    ],
+)
+def test_settings_no_service_can_use_are_refused(
+    options: list[str],
+    variable: tuple[str, str] | None,
+    problem: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if variable:
+        monkeypatch.setenv(*variable)
+    assert main(["serve", *options]) == 2
+    assert problem in capsys.readouterr().err
+
+
+def test_migrate_makes_a_database_that_the_service_opens(tmp_path: Path) -> None:
+    assert main(["migrate", "--data", str(tmp_path)]) == 0
+    assert (tmp_path / "rths.sqlite").exists()
+    assert main(["migrate", "--data", str(tmp_path)]) == 0
+
+
+def test_the_workers_token_is_kept_for_its_owner_only(tmp_path: Path) -> None:
+    main(["migrate", "--data", str(tmp_path)])
+    token = tmp_path / "worker-token"
+    kept = token.read_text()
+    main(["migrate", "--data", str(tmp_path)])
+    assert token.read_text() == kept and token.stat().st_mode & 0o777 == 0o600
