@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 
 import pytest
 
 from app.cli import parser
-from app.config import Settings
+from app.config import VARIABLES, Settings
 from app.main import create_app
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text()
-CONTRACTS = (ROOT / "docs" / "architecture.md").read_text()
+REST = (ROOT / "docs" / "rest.md").read_text()
 
 
 def commands() -> dict[str, argparse.ArgumentParser]:
@@ -30,11 +31,15 @@ def test_the_readme_names_every_command_and_option(name: str) -> None:
             assert option in row or option in {"-h", "--help"}
 
 
-def test_the_contracts_name_every_rest_route(tmp_path: Path) -> None:
+@pytest.mark.parametrize("variable", [variable for variable, _ in VARIABLES.values()])
+def test_the_readme_names_every_variable(variable: str) -> None:
+    assert f"| `{variable}` |" in README
+
+
+def test_the_rest_page_names_every_route_and_no_other(tmp_path: Path) -> None:
     routes = create_app(Settings(data=tmp_path, embedded_worker=False)).openapi()["paths"]
-    paths = {path.removeprefix("/api/v1").replace("{run_id}", "{id}") for path in routes}
-    missing = {path for path in paths if path not in CONTRACTS and path.rsplit("/", 1)[-1] not in CONTRACTS}
-    assert not missing
+    served = {f"{method.upper()} {path}" for path, methods in routes.items() for method in methods}
+    assert set(re.findall(r"^\| `([A-Z]+ [^`]+)` \|", REST, re.MULTILINE)) == served
 
 
 def test_the_licences_of_bundled_records_lie_beside_them() -> None:
