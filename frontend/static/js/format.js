@@ -10,6 +10,11 @@ export function number(value, digits = 4) {
   return value.toFixed(decimals);
 }
 
+/** A value read off a chart: as `number`, but what is next to nothing reads 0.000. @param {number | null | undefined} value */
+export function reading(value) {
+  return value != null && Math.abs(value) < 1e-3 ? value.toFixed(3) : number(value);
+}
+
 /** @param {number | null | undefined} value */
 export function fixed(value, decimals = 1) {
   return value == null || !Number.isFinite(value) ? "–" : value.toFixed(decimals);

@@ -1,6 +1,6 @@
 // @ts-check
 import { el } from "../dom.js";
-import { number } from "../format.js";
+import { reading } from "../format.js";
 
 /** @typedef {{index: number, label: string, unit: string, colour: string, width?: number}} Series */
 
@@ -31,9 +31,9 @@ export class Figure {
 
   /** Show values and say them in the plot's description. @param {number | null} time @param {number[]} values @param {boolean} atCursor */
   show(time, values, atCursor) {
-    values.forEach((value, i) => (this.values[i].textContent = number(value)));
+    values.forEach((value, i) => (this.values[i].textContent = reading(value)));
     this.at.textContent = atCursor && time !== null ? `at ${time.toFixed(3)} s` : "";
-    const said = this.series.map((one, i) => `${one.label} ${number(values[i])} ${one.unit}`.trim()).join(", ");
+    const said = this.series.map((one, i) => `${one.label} ${reading(values[i])} ${one.unit}`.trim()).join(", ");
     const when = time === null ? "no data yet" : `at ${time.toFixed(2)} s: ${said}`;
     this.plot.setAttribute("aria-label", `${this.title}, ${when}. ${this.keys ? KEYS : ""}`);
   }
