@@ -13,7 +13,7 @@ QUEUE = "tests"
 WORKFLOW = "run-test"
 APPLICATION = "rths"
 VERSION = "1"  # pinned: editing the workflow must not strand tests that wait in the queue
-POLLING_S = 0.05
+POLLING_S = 0.1
 KEEP = timedelta(days=7)
 MOST_PURGED = 5000
 
