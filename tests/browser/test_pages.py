@@ -20,6 +20,8 @@ CONTENT = {
     "/new": ".good",
     "/runs": "tbody tr",
     "/runs/{run}": "#metrics tbody tr",
+    "/stability/table3-04": "#map .plot-container",
+    "/stability/{run}": "#map .plot-container",
 }
 
 

@@ -2,9 +2,11 @@
 import { colour } from "../dom.js";
 import { fixed } from "../format.js";
 
-/** @typedef {{axes: {label: string, present: number, values: number[]}[], radius: number[][]}} StabilityMap */
+/** @typedef {{axes: {station: number, label: string, present: number, values: number[]}[], radius: number[][]}} StabilityMap */
 
 const LIMIT = 1;
+// seen from the corner of no delay, the plan's side of the limit
+const VIEW = { camera: { eye: { x: -1.5, y: -1.7, z: 1.1 } }, aspectmode: "manual", aspectratio: { x: 1.2, y: 1.2, z: 0.7 } };
 // from well damped to fast growing; the middle, white or black, is the limit
 const COLOURS = ["#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"];
 
@@ -15,7 +17,7 @@ export function mapWords(map, found) {
   const [first, second] = map.axes;
   return (
     `The line is the limit, a spectral radius of 1; ${Math.round((100 * unstable) / all.length)} % of the map is unstable. ` +
-    `The cross is this plan: ${first.label} ${fixed(first.present, 1)}, ${second.label} ${fixed(second.present, 1)}, ` +
+    `The mark is this plan: ${first.label} ${fixed(first.present, 1)}, ${second.label} ${fixed(second.present, 1)}, ` +
     `${found.stable ? "stable" : "unstable"}.`
   );
 }
@@ -33,17 +35,18 @@ export function drawMap(box, map, radius, kind) {
     colorscale: COLOURS.map((one, i) => [i / (COLOURS.length - 1), one]),
     colorbar: { title: { text: "Radius" }, thickness: 12, tickformat: ".3f" },
   };
-  const axis = (/** @type {string} */ title) => ({ title: { text: title }, gridcolor: grid, zerolinecolor: grid });
+  const axis = (/** @type {string} */ title) => ({ title: { text: title }, gridcolor: grid, zerolinecolor: grid, automargin: true });
+  const axis3d = (/** @type {string} */ title) => ({ title: { text: title }, gridcolor: grid, zerolinecolor: grid });
   const surface = kind === "surface";
-  const drawn = surface ? [surfaceOf(shown, away), present3d(first, second, radius, text)] : contourOf(shown, away, first, second, text);
+  const drawn = surface ? [surfaceOf(shown, away), present3d(first, second, radius + 0.04 * span(map))] : contourOf(shown, away, first, second);
   const layout = {
     font: { family: "system-ui, sans-serif", size: 12, color: text },
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
-    margin: { l: 60, r: 10, t: 15, b: 50 },
+    margin: surface ? { l: 0, r: 0, t: 0, b: 0 } : { l: 60, r: 10, t: 15, b: 60 },
     showlegend: false,
     ...(surface
-      ? { scene: { xaxis: axis(first.label), yaxis: axis(second.label), zaxis: axis("Radius") } }
+      ? { scene: { ...VIEW, xaxis: axis3d(`Station ${first.station}`), yaxis: axis3d(`Station ${second.station}`), zaxis: axis3d("Radius") } }
       : { xaxis: axis(first.label), yaxis: axis(second.label) }),
   };
   plotly().react(box, drawn, layout, { responsive: true, displaylogo: false });
@@ -55,23 +58,26 @@ const surfaceOf = (shown, away) => ({
   type: "surface",
   cmin: LIMIT - away,
   cmax: LIMIT + away,
-  contours: { z: { show: true, start: LIMIT, end: LIMIT, size: 1, color: "#000", width: 4 } },
+  contours: { z: { show: true, start: LIMIT, end: LIMIT + 1e-6, size: 1, color: "#000", width: 4 } },
   hovertemplate: "%{x:.1f}, %{y:.1f}: radius %{z:.5f}<extra></extra>",
 });
 
-/** @param {any} first @param {any} second @param {number} radius @param {string} text */
-const present3d = (first, second, radius, text) => ({
+/** @param {StabilityMap} map */
+const span = (map) => Math.max(...map.radius.flat()) - Math.min(...map.radius.flat());
+
+/** The mark stands a little above the surface, to be seen. @param {any} first @param {any} second @param {number} height */
+const present3d = (first, second, height) => ({
   type: "scatter3d",
   mode: "markers",
   x: [first.present],
   y: [second.present],
-  z: [radius],
-  marker: { symbol: "cross", size: 6, color: text },
-  hovertemplate: "this plan: radius %{z:.5f}<extra></extra>",
+  z: [height],
+  marker: { symbol: "diamond", size: 6, color: "#111" },
+  hovertemplate: "this plan<extra></extra>",
 });
 
-/** @param {any} shown @param {number} away @param {any} first @param {any} second @param {string} text */
-const contourOf = (shown, away, first, second, text) => [
+/** @param {any} shown @param {number} away @param {any} first @param {any} second */
+const contourOf = (shown, away, first, second) => [
   {
     ...shown,
     type: "heatmap",
@@ -95,7 +101,7 @@ const contourOf = (shown, away, first, second, text) => [
     mode: "markers",
     x: [first.present],
     y: [second.present],
-    marker: { symbol: "x-thin", size: 14, line: { width: 3, color: "#111" }, color: text },
+    marker: { symbol: "x-thin", size: 14, line: { width: 3, color: "#111" } },
     hovertemplate: "this plan<extra></extra>",
   },
 ];

@@ -29,16 +29,16 @@ async function load() {
 
 function showVerdict() {
   const verdict = byId("verdict");
-  verdict.classList.toggle("bad", !found.stable);
+  verdict.classList.add(found.stable ? "held" : "bad");
   const mode = found.least_damped;
   const least = mode ? ` Least damped: ${number(mode.frequency_hz)} Hz with a damping ratio of ${fixed(100 * mode.damping_ratio, 2)} %.` : "";
   verdict.textContent =
     `${found.name}: predicted ${found.stable ? "stable" : "unstable"} about rest, spectral radius ${fixed(found.radius, 5)} a step.${least}`;
 }
 
-/** @param {string[]} heads */
-const head = (heads) =>
-  el("thead", {}, el("tr", {}, ...heads.map((text, i) => el("th", { scope: "col", class: i ? "number" : null }, text))));
+/** @param {string[]} heads @param {number} words how many of them head words, not numbers */
+const head = (heads, words = 0) =>
+  el("thead", {}, el("tr", {}, ...heads.map((text, i) => el("th", { scope: "col", class: i < words ? null : "number" }, text))));
 
 function margins() {
   const rows = found.stations.map((/** @type {any} */ station) => {
@@ -46,7 +46,7 @@ function margins() {
     const words = steps == null ? ["beyond 1000", "–"] : [fixed(steps, 1), fixed(1000 * station.delay_margin_s, 1)];
     return el("tr", {}, el("td", { class: "name" }, station.name), ...words.map((text) => el("td", { class: "number" }, text)));
   });
-  return [head(["Station", "Controller steps", "ms"]), el("tbody", {}, ...rows)];
+  return [head(["Station", "Controller steps", "ms"], 1), el("tbody", {}, ...rows)];
 }
 
 function modes() {
