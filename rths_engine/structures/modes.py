@@ -3,28 +3,32 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import LinAlgError, eigh
+from scipy.linalg import LinAlgError, cho_factor, cho_solve, cholesky, eigvalsh
 
 from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError
 
-MECHANISM = Issue(
-    "structure",
-    "the stiffness matrix is singular: the structure is a mechanism",
-    fix="support it or raise its softest stiffness",
-)
+PROBLEM = "its stiffness matrix is singular: it is a mechanism"
+MECHANISM = Issue("structure", PROBLEM, fix="support it or raise its softest stiffness")
+LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled to rounding
 
 
 def circular_frequencies(mass: Array, stiffness: Array) -> Array:
-    """omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none. PlanError for a mechanism."""
+    """omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none. PlanError for a mechanism.
+
+    1/omega^2 are the eigenvalues of G^T F G, where F is the flexibility at the DOF that have mass and G G^T their mass matrix.
+    """
+    massive = np.flatnonzero(mass.any(axis=0))
     try:
-        inverses = eigh(mass, stiffness, eigvals_only=True)[::-1]
-    except LinAlgError:
+        factor, lower = cho_factor(stiffness)
+        pivots = np.diagonal(factor) ** 2
+        if not len(massive) or (pivots <= LOST * np.diagonal(stiffness)).any():
+            raise PlanError(MECHANISM)
+        flexibility = cho_solve((factor, lower), np.eye(len(mass))[:, massive])[massive]
+        root = cholesky(mass[np.ix_(massive, massive)], lower=True)
+        omega: Array = 1 / np.sqrt(eigvalsh(root.T @ flexibility @ root)[::-1])
+    except (LinAlgError, ValueError):
         raise PlanError(MECHANISM) from None
-    inverses = inverses[inverses > 1e-12 * inverses[0]]
-    if not len(inverses) or not np.isfinite(inverses).all() or np.linalg.cond(stiffness) > 1e14:
-        raise PlanError(MECHANISM)
-    omega: Array = 1 / np.sqrt(inverses)
     return omega
 
 
