@@ -26,7 +26,7 @@ def settings(given: Namespace, **more: Any) -> Settings:
 
 
 def stored(given: Namespace, **more: Any) -> Settings:
-    """Settings with the data folder made, and the token in it that a worker shows to the web service."""
+    """Settings with the data folder made, its database reachable, and the token a worker shows to the web service."""
     found = settings(given, **more)
     try:
         found.prepared()
@@ -34,7 +34,23 @@ def stored(given: Namespace, **more: Any) -> Settings:
     except OSError as error:
         fix = "choose another with --data or RTHS_DATA"
         raise RthsError(Issue("data folder", f"can't be used: {error.strerror}", str(found.data), fix)) from None
+    _check_database(found.url)
     return settings(given, worker_token=token, **more)
+
+
+def _check_database(url: str) -> None:
+    import sqlalchemy as sa
+
+    from app.db import connect
+
+    try:
+        engine = connect(url)
+        with engine.connect():
+            pass
+        engine.dispose()
+    except sa.exc.SQLAlchemyError as error:
+        problem = f"can't be opened: {str(getattr(error, 'orig', error)).splitlines()[0]}"
+        raise RthsError(Issue("database", problem, fix="mend RTHS_DATABASE_URL, or unset it to use SQLite")) from None
 
 
 def _kept_token(path: Path) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -218,6 +219,15 @@ def test_motions_lists_every_record_with_its_peak(capsys: pytest.CaptureFixture[
     assert main(["motions"]) == 0
     heading, *rows = capsys.readouterr().out.splitlines()
     assert "PGA g" in heading and [row.split()[0] for row in rows] == MotionLibrary(None).names()
+
+
+def test_a_reader_that_stops_early_gets_no_traceback() -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-u", "-m", "app.cli", "plan"]
+    made = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writing)
+    assert made.returncode == 0 and not made.stderr
 
 
 def test_help_imports_none_of_the_engine_and_the_service() -> None:

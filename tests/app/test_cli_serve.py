@@ -93,6 +93,8 @@ def test_a_taken_port_is_refused_with_the_way_to_choose_another(
         (["--host", "203.0.113.7"], None, "can't be listened on"),
         (["--data", "/dev/null/rths"], None, "data folder = /dev/null/rths: can't be used"),
         ([], ("RTHS_PORT", "http"), "RTHS_PORT = http: needs a whole number"),
+        ([], ("RTHS_DATABASE_URL", "nonsense"), "database: can't be opened"),
+        ([], ("RTHS_DATABASE_URL", "postgresql://127.0.0.1:1/rths"), "database: can't be opened"),
     ],
 )
 def test_settings_no_service_can_use_are_refused(
