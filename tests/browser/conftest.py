@@ -33,7 +33,7 @@ expect.set_options(timeout=15_000)
 @pytest.fixture(scope="session")
 def service(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     with running(tmp_path_factory.mktemp("service")) as one:
-        one.completed()  # the engine is compiled and warm from here on
+        one.warm_up()
         yield one
 
 
