@@ -20,10 +20,10 @@ from app.health import router as health
 from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.motions.endpoints import router as motions
+from app.pages.stability import router as stability_page
 from app.plans.endpoints import router as plans
 from app.runs.endpoints import router as runs
 from app.stability.endpoints import router as stability
-from app.stability.page import router as stability_page
 from app.worker.embedded import EmbeddedWorker
 from rths_engine import __version__
 

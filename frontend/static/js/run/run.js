@@ -62,6 +62,7 @@ function showActions() {
       ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("report.html", "Report")]
       : []),
     download("plan.yaml", "Plan, YAML"),
+    el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability"),
     el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Run again or edit as a new test"),
   );
 }
