@@ -12,7 +12,8 @@ from pydantic import Field, model_validator
 
 from rths_engine.arrays import Array
 from rths_engine.part import Value, quantity
-from rths_engine.structures.assembled import Assembled
+from rths_engine.structures.assembled import Assembled, no_members
+from rths_engine.structures.condensation import condensed
 from rths_engine.structures.frame_model import FrameModel, Member
 from rths_engine.structures.modes import circular_frequencies, rayleigh
 from rths_engine.structures.sections import SECTIONS
@@ -50,7 +51,8 @@ class MomentFrame(Value):
     carries all gravity loads; its P-delta effect is K_g = -P/h on the storey's drift. Braces of a storey meet in a node at its
     top, between two elastic bars that start from the second and third column line; dampers act between node and floor.
     Masses act on the floors' lateral displacement; rotations and vertical displacements are massless. C = a0 M + a1 K with the
-    initial K. Fails first at large rotations, local buckling and axial-flexural interaction.
+    initial K. A frame that stays elastic is condensed to its floors and brace tops, which is exact.
+    Fails first at large rotations, local buckling and axial-flexural interaction.
     Sources: Chen and Ricles (2012), EESD 41, section 4; Neuenhofer and Filippou (1997), J. Struct. Eng. 123, for the element.
     """
 
@@ -160,13 +162,17 @@ class MomentFrame(Value):
 @lru_cache(maxsize=8)
 def _assembled(frame: MomentFrame) -> Assembled:
     model = frame.model()
-    stiffness = model.stiffness()
+    stiffness, drifts, members = model.stiffness(), model.drift_rows(), model.tables()
+    kept = np.arange(model.size)
+    if not frame.inelastic:
+        kept = np.union1d(model.floors, np.flatnonzero(drifts.any(axis=0)))
+        stiffness, drifts, members = condensed(stiffness, kept), drifts[:, kept], no_members()
+    floors = np.searchsorted(kept, model.floors)
     mass: Array = np.zeros_like(stiffness)
-    for floor, storey in zip(model.floors, frame.storeys, strict=True):
-        mass[floor, floor] = storey.mass
+    mass[floors, floors] = [storey.mass for storey in frame.storeys]
     omega = circular_frequencies(mass, stiffness)
     damping = rayleigh(mass, stiffness, frame.damping_ratio, omega)
-    members, elastic = (model.tables(), model.rest()) if frame.inelastic else (FrameModel().tables(), stiffness)
-    influence: Array = np.zeros(model.size)
-    influence[model.floors] = 1.0
-    return Assembled(mass, damping, stiffness, elastic, influence, tuple(model.floors), model.drift_rows(), members)
+    elastic = model.rest() if frame.inelastic else stiffness
+    influence: Array = np.zeros(len(kept))
+    influence[floors] = 1.0
+    return Assembled(mass, damping, stiffness, elastic, influence, tuple(floors.tolist()), drifts, members)
