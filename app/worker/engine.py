@@ -29,6 +29,18 @@ class Job:
 
 
 @dataclass(frozen=True, slots=True)
+class Cancel:
+    """A request to stop one run; it may come when that run has just ended, and then means nothing."""
+
+    run_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stopping:
+    """The engine's answer to Cancel: the test stands still, what was recorded is being saved."""
+
+
+@dataclass(frozen=True, slots=True)
 class Done:
     """The run's summary, and checksum and size of its recording."""
 
@@ -53,6 +65,8 @@ def serve(pipe: Connection) -> None:
     try:
         while True:
             job = pipe.recv()
+            if isinstance(job, Cancel):
+                continue
             try:
                 outcome: Done | Failed = _execute(job, pipe)
             except (EOFError, BrokenPipeError):
@@ -76,7 +90,7 @@ def _execute(job: Job, pipe: Connection) -> Done | Failed:
         run = Run(plan, MotionLibrary(job.motions))
     except RthsError as error:
         return Failed(str(error))
-    telling = _Telling(run, job.attempt, pipe)
+    telling = _Telling(run, job, pipe)
     cancelled = telling.run_to_end()
     status = "cancelled" if cancelled else "tripped" if run.trip else "completed"
     result = run.result(status, telling.elapsed)
@@ -87,12 +101,12 @@ def _execute(job: Job, pipe: Connection) -> Done | Failed:
 class _Telling:
     """Advances a run in chunks at its pace, sends frames and progress, and looks for a cancel between chunks."""
 
-    def __init__(self, run: Any, attempt: int, pipe: Connection):
-        self.run, self.pipe = run, pipe
+    def __init__(self, run: Any, job: Job, pipe: Connection):
+        self.run, self.job, self.pipe = run, job, pipe
         self.elapsed = 0.0
         bucket = bucket_size(run.total)
         self.decimator = Decimator(run.channels, bucket)
-        pipe.send(schema(attempt, run.dt, bucket, run.total, run.channels))
+        pipe.send(schema(job.attempt, run.dt, bucket, run.total, run.channels))
 
     def run_to_end(self) -> bool:
         """True when the test was cancelled."""
@@ -103,7 +117,9 @@ class _Telling:
         start, told = time.perf_counter(), -PROGRESS_S
         while not self.run.finished:
             if self.pipe.poll(self._wait(start, factor)):
-                self.pipe.recv()  # the one message a running engine gets is cancel; a closed pipe raises EOFError
+                if self.pipe.recv() != Cancel(self.job.run_id):
+                    continue
+                self.pipe.send(Stopping())
                 self._tell(time.perf_counter() - start, ended=True)
                 return True
             begun = time.perf_counter()

@@ -6,10 +6,9 @@ import multiprocessing
 import queue
 import threading
 from collections.abc import Callable
-from multiprocessing.connection import Connection
 from typing import Any
 
-from app.worker.engine import Done, Failed, Job, serve
+from app.worker.engine import Cancel, Done, Failed, Job, Stopping, serve
 
 CANCEL_PATIENCE_S = 2.0
 Listener = Callable[[Any], None]
@@ -26,17 +25,23 @@ class EngineProcess:
         theirs.close()
         self._sending = threading.Lock()
         self.job: Job | None = None
+        self._asked: Job | None = None
+        self._stopping: Job | None = None
 
     def execute(self, job: Job, listener: Listener) -> Done | Failed:
         """Run a job; what the engine tells meanwhile goes to `listener`. A crash of the engine is a Failed."""
-        self.job = job
         try:
-            self._pipe.send(job)
+            with self._sending:
+                self.job = job
+                self._pipe.send(job)
             while True:
                 told = self._pipe.recv()
                 if isinstance(told, Done | Failed):
                     return told
-                listener(told)
+                if isinstance(told, Stopping):
+                    self._stopping = job
+                else:
+                    listener(told)
         except (EOFError, OSError):
             self._process.join(CANCEL_PATIENCE_S)
             return Failed(f"The engine process ended unexpectedly (exit code {self._process.exitcode}).")
@@ -44,12 +49,17 @@ class EngineProcess:
             self.job = None
 
     def cancel(self) -> None:
-        """Ask the engine to stop and keep what it recorded; kill it where it does not answer."""
-        job = self.job
-        if job is None:
-            return
-        _send(self._pipe, self._sending, "cancel")
-        timer = threading.Timer(CANCEL_PATIENCE_S, self._kill_if_still, args=(job,))
+        """Ask the engine, once, to stop and keep what it recorded; kill it where it does not answer."""
+        with self._sending:
+            job = self.job
+            if job is None or job is self._asked:
+                return
+            self._asked = job
+            try:
+                self._pipe.send(Cancel(job.run_id))
+            except OSError:
+                return
+        timer = threading.Timer(CANCEL_PATIENCE_S, self._kill_unless_stopping, args=(job,))
         timer.daemon = True
         timer.start()
 
@@ -61,8 +71,8 @@ class EngineProcess:
         self._pipe.close()
         self._process.kill()
 
-    def _kill_if_still(self, job: Job) -> None:
-        if self.job is job:
+    def _kill_unless_stopping(self, job: Job) -> None:
+        if self.job is job and self._stopping is not job:
             self._process.kill()
 
 
@@ -80,11 +90,3 @@ class Pool:
 
     def give(self, engine: EngineProcess) -> None:
         self._idle.put(engine)
-
-
-def _send(pipe: Connection, lock: threading.Lock, message: str) -> None:
-    with lock:
-        try:
-            pipe.send(message)
-        except OSError:
-            return

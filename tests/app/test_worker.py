@@ -99,6 +99,17 @@ def test_cancel_stops_a_running_test_within_a_second_and_keeps_what_was_recorded
     assert run["simulated_s"] < 30
 
 
+def test_a_cancel_touches_no_test_but_its_own(service: Service) -> None:
+    for _ in range(3):
+        running_id = service.submit(pace=SLOW, duration=30.0)
+        next_ones = [service.submit(duration=1.0, seed=seed) for seed in range(3)]
+        service.wait(running_id, "running")
+        for _ in range(3):
+            service.http.post(f"/api/v1/runs/{running_id}/cancel", json={})
+        assert service.wait(running_id)["state"] == "cancelled"
+        assert {service.wait(run_id)["state"] for run_id in next_ones} == {"completed"}
+
+
 def test_a_killed_worker_leaves_one_run_executed_again(service: Service, data: Path) -> None:
     run_id = service.submit(pace=QUICK, duration=30.0)
     service.wait(run_id, "running")
