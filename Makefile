@@ -14,7 +14,7 @@ PYTEST ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone check browser lock clean
+.PHONY: setup run test test-clone check bench browser lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -26,6 +26,10 @@ test: setup browser check
 
 test-clone: setup
 	$(BIN)/pytest -m slow tests/test_fresh_clone.py $(PYTEST)
+
+# Times of one run on this machine, beside OpenSees where it is installed: docs/benchmarks.md.
+bench: setup
+	$(BIN)/python -m benchmarks
 
 check: setup
 	$(BIN)/ruff check .
