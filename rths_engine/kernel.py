@@ -60,16 +60,26 @@ def fold(steps: Sequence[Callable[..., Any]]) -> Any:
     def only(code, *args):
         return last(*args)
 
-    dispatch = compiled(only)
+    dispatch = compiled(_named(only, len(steps) - 1, steps))
     for code in reversed(range(len(steps) - 1)):
-        dispatch = _choice(code, compiled(steps[code]), dispatch)
+        dispatch = _choice(code, steps, dispatch)
     return dispatch
 
 
-def _choice(own: int, step: Any, rest: Any) -> Any:
+def _choice(own: int, steps: Sequence[Callable[..., Any]], rest: Any) -> Any:
+    step = compiled(steps[own])
+
     def choose(code, *args):
         if code == own:
             return step(*args)
         return rest(code, *args)
 
-    return compiled(choose)
+    return compiled(_named(choose, own, steps))
+
+
+def _named(function: Callable[..., Any], own: int, steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+    """Name a closure by the steps it calls. Code loaded from disk is linked by name to code compiled in this process: two
+    closures of one name that call different steps would be taken for each other, and write where they must not."""
+    called = " ".join(f"{step.__module__}.{step.__qualname__}" for step in steps[own:])
+    function.__qualname__ = f"{function.__name__}_{hashlib.sha256(f'{own} {called}'.encode()).hexdigest()[:16]}"
+    return function
