@@ -54,32 +54,34 @@ def entry(function: Callable[..., Any]) -> Any:
 
 
 def fold(steps: Sequence[Callable[..., Any]]) -> Any:
-    """One compiled `dispatch(code, *args)` that calls `steps[code](*args)`; the last step answers any higher code."""
+    """One compiled `dispatch(code, *args)` that calls `steps[code](*args)`; the last step answers any higher code.
+
+    Each dispatch is named by what it holds. Code that was kept on disk finds what it calls by name, and would call another
+    process's closure of the same name and number.
+    """
     last = compiled(steps[-1])
 
     def only(code, *args):
         return last(*args)
 
-    dispatch = compiled(_named(only, len(steps) - 1, steps))
+    dispatch = compiled(_named(only, steps[-1:]))
     for code in reversed(range(len(steps) - 1)):
-        dispatch = _choice(code, steps, dispatch)
+        dispatch = _choice(code, steps[code:], dispatch)
     return dispatch
 
 
 def _choice(own: int, steps: Sequence[Callable[..., Any]], rest: Any) -> Any:
-    step = compiled(steps[own])
+    step = compiled(steps[0])
 
     def choose(code, *args):
         if code == own:
             return step(*args)
         return rest(code, *args)
 
-    return compiled(_named(choose, own, steps))
+    return compiled(_named(choose, steps))
 
 
-def _named(function: Callable[..., Any], own: int, steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
-    """Name a closure by the steps it calls. Code loaded from disk is linked by name to code compiled in this process: two
-    closures of one name that call different steps would be taken for each other, and write where they must not."""
-    called = " ".join(f"{step.__module__}.{step.__qualname__}" for step in steps[own:])
-    function.__qualname__ = f"{function.__name__}_{hashlib.sha256(f'{own} {called}'.encode()).hexdigest()[:16]}"
+def _named(function: Callable[..., Any], steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+    held = "|".join(f"{step.__module__}.{step.__qualname__}" for step in steps)
+    function.__qualname__ = f"{function.__name__}_{hashlib.sha256(held.encode()).hexdigest()[:16]}"
     return function
