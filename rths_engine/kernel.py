@@ -64,7 +64,7 @@ def fold(steps: Sequence[Callable[..., Any]]) -> Any:
     def only(code, *args):
         return last(*args)
 
-    dispatch = compiled(_named(only, steps[-1:]))
+    dispatch = compiled(_named(only, 0, steps[-1:]))
     for code in reversed(range(len(steps) - 1)):
         dispatch = _choice(code, steps[code:], dispatch)
     return dispatch
@@ -78,10 +78,10 @@ def _choice(own: int, steps: Sequence[Callable[..., Any]], rest: Any) -> Any:
             return step(*args)
         return rest(code, *args)
 
-    return compiled(_named(choose, steps))
+    return compiled(_named(choose, own, steps))
 
 
-def _named(function: Callable[..., Any], steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+def _named(function: Callable[..., Any], own: int, steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
     held = "|".join(f"{step.__module__}.{step.__qualname__}" for step in steps)
-    function.__qualname__ = f"{function.__name__}_{hashlib.sha256(held.encode()).hexdigest()[:16]}"
+    function.__qualname__ = f"{function.__name__}_{own}_{hashlib.sha256(held.encode()).hexdigest()[:16]}"
     return function
