@@ -54,7 +54,5 @@ class EmbeddedWorker:
             "RTHS_DATABASE_URL": settings.database_url,
             "RTHS_WORKERS": str(settings.worker_concurrency),
             "RTHS_WORKER_TOKEN": settings.worker_token,
-            "OMP_NUM_THREADS": "1",
-            "OPENBLAS_NUM_THREADS": "1",
         }
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)

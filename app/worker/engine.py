@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import time
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
@@ -36,6 +35,11 @@ class Cancel:
 
 
 @dataclass(frozen=True, slots=True)
+class Ready:
+    """The engine is compiled and takes jobs."""
+
+
+@dataclass(frozen=True, slots=True)
 class Stopping:
     """The engine's answer to Cancel: the test stands still, what was recorded is being saved."""
 
@@ -58,11 +62,11 @@ class Failed:
 
 def serve(pipe: Connection) -> None:
     """Execute jobs until the worker is gone."""
-    os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     from rths_engine.warm import warm
 
     warm()
     try:
+        pipe.send(Ready())
         while True:
             job = pipe.recv()
             if isinstance(job, Cancel):

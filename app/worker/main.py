@@ -21,13 +21,14 @@ from app.config import Settings, from_environment
 from app.db import connect, sessions, unit_of_work
 from app.queue import APPLICATION, POLLING_S, QUEUE, VERSION, WORKFLOW
 from app.runs.repository import RunRepository
-from app.runs.service import WORKER_SILENCE
+from app.runs.service import MOST_ATTEMPTS, WORKER_SILENCE
 from app.worker.executor import Executor
 from app.worker.link import Link
 
 log = logging.getLogger("rths.worker")
 WATCH_S = 0.1
 BEAT_S = 1.0
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # engines share the cores among themselves
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -51,6 +52,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 def work(settings: Settings, web: str, name: str) -> None:
     """Serve the queue until the process ends."""
+    os.environ.update(ONE_THREAD)  # read where engine processes load numpy
     engine = connect(settings.url)
     maker = sessions(engine)
     link = Link(f"{web}/api/v1/worker", settings.worker_token)
@@ -74,7 +76,7 @@ def work(settings: Settings, web: str, name: str) -> None:
 
 
 def _register(executor: Executor) -> None:
-    @DBOS.step(name="execute")
+    @DBOS.step(name="execute", retries_allowed=True, max_attempts=MOST_ATTEMPTS + 1)  # the last one parks the run
     def execute(run_id: str) -> None:
         executor.execute(run_id)
 

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import queue
 import threading
 from collections.abc import Callable
 from typing import Any
 
-from app.worker.engine import Cancel, Done, Failed, Job, Stopping, serve
+from app.worker.engine import Cancel, Done, Failed, Job, Ready, Stopping, serve
 
 CANCEL_PATIENCE_S = 2.0
+KILLED = f"The engine did not answer within {CANCEL_PATIENCE_S:g} s of being asked to stop, and was ended; nothing was recorded."
+CRASHED = "The engine process ended unexpectedly (exit code {})."
 Listener = Callable[[Any], None]
 
 
@@ -27,26 +30,26 @@ class EngineProcess:
         self.job: Job | None = None
         self._asked: Job | None = None
         self._stopping: Job | None = None
+        self._ready = self._killed = False
 
     def execute(self, job: Job, listener: Listener) -> Done | Failed:
         """Run a job; what the engine tells meanwhile goes to `listener`. A crash of the engine is a Failed."""
         try:
-            with self._sending:
-                self.job = job
-                self._pipe.send(job)
-            while True:
-                told = self._pipe.recv()
-                if isinstance(told, Done | Failed):
-                    return told
-                if isinstance(told, Stopping):
-                    self._stopping = job
-                else:
-                    listener(told)
+            return self._follow(job, listener)
         except (EOFError, OSError):
             self._process.join(CANCEL_PATIENCE_S)
-            return Failed(f"The engine process ended unexpectedly (exit code {self._process.exitcode}).")
+            return Failed(KILLED if self._killed else CRASHED.format(self._process.exitcode))
+        except BaseException:
+            self._process.kill()  # it is in the middle of this job and must not be given another
+            raise
         finally:
             self.job = None
+
+    def wait_ready(self) -> None:
+        """Wait until the engine is compiled, or has died of it."""
+        with contextlib.suppress(EOFError, OSError):
+            while not self._ready:
+                self._ready = isinstance(self._pipe.recv(), Ready)
 
     def cancel(self) -> None:
         """Ask the engine, once, to stop and keep what it recorded; kill it where it does not answer."""
@@ -71,8 +74,22 @@ class EngineProcess:
         self._pipe.close()
         self._process.kill()
 
+    def _follow(self, job: Job, listener: Listener) -> Done | Failed:
+        with self._sending:
+            self.job = job
+            self._pipe.send(job)
+        while True:
+            told = self._pipe.recv()
+            if isinstance(told, Done | Failed):
+                return told
+            if isinstance(told, Stopping):
+                self._stopping = job
+            else:
+                listener(told)
+
     def _kill_unless_stopping(self, job: Job) -> None:
         if self.job is job and self._stopping is not job:
+            self._killed = True
             self._process.kill()
 
 
@@ -85,8 +102,12 @@ class Pool:
             self._idle.put(EngineProcess())
 
     def take(self) -> EngineProcess:
+        """A living engine, compiled; waits for one."""
         engine = self._idle.get()
-        return engine if engine.alive else EngineProcess()
+        if not engine.alive:
+            engine = EngineProcess()
+        engine.wait_ready()
+        return engine
 
     def give(self, engine: EngineProcess) -> None:
         self._idle.put(engine)

@@ -1,0 +1,216 @@
+"""What a worker does with a run when something fails on the way; a scripted engine stands in for the real one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from sqlalchemy.orm import Session, sessionmaker
+
+from app import db
+from app.config import Settings
+from app.models import Run
+from app.queue import DurableQueue
+from app.runs.repository import RunRepository
+from app.runs.service import MOST_ATTEMPTS, RunService
+from app.states import State
+from app.worker import executor as module
+from app.worker.engine import Done, Failed, Job
+from app.worker.executor import Executor
+from rths_engine.ground_motions import MotionLibrary
+from tests.app.conftest import plan
+
+SUMMARY: dict[str, Any] = {
+    "status": "completed", "trip": None, "elapsed_s": 0.1, "simulated_s": 2.0, "floors_peak_mm": [1.0, 2.0], "stations": []
+}  # fmt: skip
+Script = Callable[[Job], Done | Failed]
+
+
+class ScriptedEngine:
+    """Does with a job what the test says."""
+
+    script: Script
+
+    def execute(self, job: Job, listener: Any) -> Done | Failed:
+        return self.script(job)
+
+
+class OneEngine:
+    """A pool of it; `on_take` happens while a run waits for its engine."""
+
+    def __init__(self) -> None:
+        self.engine = ScriptedEngine()
+        self.on_take: Callable[[], None] = lambda: None
+
+    def take(self) -> ScriptedEngine:
+        self.on_take()
+        return self.engine
+
+    def give(self, engine: ScriptedEngine) -> None: ...
+
+
+class Told:
+    """The link, as a list of the runs whose end viewers were told of."""
+
+    class Telling:
+        ended = False
+
+        def take(self, told: Any) -> None: ...
+
+    def __init__(self) -> None:
+        self.tellings: dict[tuple[str, int], Told.Telling] = {}
+
+    def open(self, run_id: str, attempt: int) -> Telling:
+        return self.tellings.setdefault((run_id, attempt), Told.Telling())
+
+    @property
+    def ended(self) -> list[tuple[str, int]]:
+        return [key for key, telling in self.tellings.items() if telling.ended]
+
+
+class Bench:
+    """An executor on an empty database, with one queued run."""
+
+    def __init__(self, settings: Settings, maker: sessionmaker[Session], queue: DurableQueue):
+        self.settings, self.maker = settings, maker
+        self.told, self.pool = Told(), OneEngine()
+        self.executor = Executor(settings, maker, self.told, "here")  # type: ignore[arg-type]
+        with db.unit_of_work(maker) as session:
+            (run,) = RunService(session, MotionLibrary(None), queue).submit([plan()], "Ana Ruiz")
+            self.run_id = run.id
+
+    def execute(self, script: Script) -> Run:
+        self.pool.engine.script = script
+        self.executor.execute(self.run_id)
+        return self.run
+
+    @property
+    def run(self) -> Run:
+        with db.unit_of_work(self.maker) as session:
+            found = RunRepository(session).get(self.run_id)
+            assert found is not None
+            return found
+
+    def started_elsewhere(self, times: int = 1) -> None:
+        """As a worker leaves a run that it was killed with."""
+        for _ in range(times):
+            with db.unit_of_work(self.maker) as session:
+                RunService(session, MotionLibrary(None)).start(self.run_id, "elsewhere")
+
+    def cancel(self) -> None:
+        with db.unit_of_work(self.maker) as session:
+            RunService(session, MotionLibrary(None)).cancel(self.run_id, "Bo")
+
+    @property
+    def files(self) -> list[str]:
+        return sorted(path.name for path in self.settings.recordings.iterdir())
+
+
+@pytest.fixture
+def bench(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+    engine = db.connect(settings.url)
+    queue = DurableQueue(engine)
+    pool = OneEngine()
+    monkeypatch.setattr(module, "Pool", lambda size: pool)
+    made = Bench(settings, db.sessions(engine), queue)
+    made.pool = pool
+    yield made
+    queue.close()
+    engine.dispose()
+
+
+def recorded(job: Job) -> Done:
+    job.recording.write_bytes(b"recording")
+    return Done(SUMMARY, "0" * 64, len(b"recording"))
+
+
+def never(job: Job) -> Done:
+    raise AssertionError("this run must not be executed")
+
+
+def test_a_recording_goes_to_its_place_and_viewers_are_told_of_the_end(bench: Bench) -> None:
+    run = bench.execute(recorded)
+    assert run.state is State.COMPLETED and run.recording_sha256 == "0" * 64
+    assert bench.files == [f"{run.id}.h5"]
+    assert bench.told.ended == [(run.id, 1)]
+
+
+def test_a_recording_that_cannot_be_put_in_its_place_is_a_failed_run_that_says_why(bench: Bench) -> None:
+    def unwritable(job: Job) -> Done:
+        (bench.settings.recordings / f"{job.run_id}.h5" / "in the way").mkdir(parents=True)
+        return recorded(job)
+
+    run = bench.execute(unwritable)
+    assert run.state is State.FAILED and run.recording_sha256 is None
+    assert run.reason is not None and "could not be stored" in run.reason and "directory" in run.reason
+    assert bench.told.ended == [(run.id, 1)]
+
+
+def test_what_a_killed_worker_left_behind_is_removed_before_the_next_attempt(bench: Bench) -> None:
+    bench.started_elsewhere()
+    left = [f".{bench.run_id}.1.h5", f"..{bench.run_id}.1.h5.x1y2.tmp", f"{bench.run_id}.h5"]
+    for name in left:
+        (bench.settings.recordings / name).write_bytes(b"half")
+    seen: list[str] = []
+
+    def look(job: Job) -> Failed:
+        seen.extend(bench.files)
+        return Failed("looked")
+
+    assert bench.execute(look).attempt == 2
+    assert seen == [] and bench.files == []
+
+
+def test_the_recording_of_an_ended_run_is_left_where_it_is(bench: Bench) -> None:
+    bench.execute(recorded)
+    assert bench.execute(never).state is State.COMPLETED  # delivered once more
+    assert bench.files == [f"{bench.run_id}.h5"]
+
+
+def test_a_run_that_kept_killing_its_worker_is_parked_and_its_viewers_are_told(bench: Bench) -> None:
+    bench.started_elsewhere(MOST_ATTEMPTS)
+    (bench.settings.recordings / f"{bench.run_id}.h5").write_bytes(b"uncommitted")
+    run = bench.execute(never)
+    assert run.state is State.FAILED and "3 times" in (run.reason or "")
+    assert bench.files == []
+    assert bench.told.ended == [(run.id, MOST_ATTEMPTS)]
+
+
+def test_viewers_are_told_of_a_run_cancelled_after_its_worker_died(bench: Bench) -> None:
+    bench.started_elsewhere()
+    bench.cancel()
+    assert bench.execute(never).state is State.CANCELLED
+    assert bench.told.ended == [(bench.run_id, 1)]
+
+
+def test_a_run_waits_queued_for_an_engine_that_is_being_compiled_and_can_be_cancelled_there(bench: Bench) -> None:
+    states: list[State] = []
+
+    def meanwhile() -> None:
+        states.append(bench.run.state)
+        bench.cancel()
+
+    bench.pool.on_take = meanwhile
+    run = bench.execute(never)
+    assert states == [State.QUEUED]
+    assert run.state is State.CANCELLED and run.attempt == 0
+
+
+def test_a_worker_taken_for_dead_cannot_fail_the_run_that_another_took_up(bench: Bench) -> None:
+    def slow(job: Job) -> Failed:
+        bench.started_elsewhere()
+        return Failed("too late")
+
+    run = bench.execute(slow)
+    assert (run.state, run.worker, run.attempt) == (State.RUNNING, "elsewhere", 2)
+
+
+def test_a_run_whose_worker_stumbled_is_executed_when_it_is_delivered_again(bench: Bench) -> None:
+    def broken(job: Job) -> Failed:
+        raise RuntimeError("the listener broke")
+
+    with pytest.raises(RuntimeError):
+        bench.execute(broken)
+    assert bench.executor.running == {}
+    assert bench.execute(recorded).attempt == 2
