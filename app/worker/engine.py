@@ -73,12 +73,12 @@ def serve(pipe: Connection) -> None:
                 continue
             try:
                 outcome: Done | Failed = _execute(job, pipe)
-            except (EOFError, BrokenPipeError):
+            except (EOFError, ConnectionError):
                 return
             except Exception as error:
                 outcome = Failed(f"{type(error).__name__}: {error}")
             pipe.send(outcome)
-    except (EOFError, BrokenPipeError, KeyboardInterrupt):
+    except (EOFError, ConnectionError, KeyboardInterrupt):
         return
 
 
