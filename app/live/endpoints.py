@@ -16,12 +16,13 @@ from app.live.hub import Hub, LiveRun
 from app.live.messages import progress
 from app.runs.repository import RunRepository
 from app.runs.schemas import RunOut
+from rths_engine.errors import RecordingError
 
 router = APIRouter()
 FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
 SHORTEST_GAP_S = 1 / 30
 WAITING_POLL_S = 0.25
-UNKNOWN_RUN, NOT_ALLOWED = 4404, 4403
+UNKNOWN_RUN, NOT_ALLOWED, UNREADABLE = 4404, 4403, 4409
 
 
 @router.websocket("/api/v1/worker")
@@ -43,7 +44,7 @@ async def ingest(socket: WebSocket) -> None:
                 hub.frame(run_id.decode(), attempt, message["bytes"][FRAME_HEADER.size :])
             else:
                 told = json.loads(message["text"])
-                hub.take(told.pop("run_id"), told)
+                hub.take(told["run_id"], told["attempt"], told["message"])
     except WebSocketDisconnect:
         return
 
@@ -107,17 +108,28 @@ class _Viewer:
             await changed.wait()
 
     async def _end(self, run: RunOut, told: LiveRun | None) -> None:
-        """The end of the run; its history first, from the recording, for a viewer that has not seen it live."""
-        if told is None and run.recording:
+        """The end of the run; before it, from the recording, what the viewer has not seen live."""
+        if run.recording and not self._saw_all(run, told):
             path = self.socket.app.state.settings.recordings / f"{run.id}.h5"
-            schema, store = await asyncio.to_thread(from_recording.replay, path, run.attempt)
-            await self.socket.send_json({**schema, "run": run.model_dump(mode="json")})
+            try:
+                schema, store = await asyncio.to_thread(from_recording.replay, path, run.attempt)
+            except RecordingError:
+                return await self.socket.close(UNREADABLE, "the recording is missing or damaged")
+            if told is None or told.attempt != run.attempt:
+                self.cursor = self.cursor if told is None else 0
+                await self.socket.send_json({**schema, "run": run.model_dump(mode="json")})
             frame = store.since(self.cursor)
             if frame is not None:
                 await self.socket.send_bytes(frame)
         await self.socket.send_json(progress(run.state, run.simulated_s or 0.0, run.elapsed_s or 0.0, run.duration_s))
         await self.socket.send_json({"type": "end", "run": run.model_dump(mode="json")})
         await self.socket.close()
+
+    def _saw_all(self, run: RunOut, told: LiveRun | None) -> bool:
+        if told is None or told.attempt != run.attempt or run.simulated_s is None:
+            return False
+        substeps = round(run.simulated_s / told.schema["dt"])
+        return self.cursor >= -(-substeps // told.schema["bucket"])
 
     def _run(self) -> RunOut | None:
         with unit_of_work(self.socket.app.state.sessions) as session:

@@ -68,10 +68,10 @@ class FrameStore:
 
     def since(self, first: int) -> bytes | None:
         """Everything from bucket `first` on as one frame, or None when there is nothing new."""
-        first = max(0, first)
-        if first >= self.count:
+        first, end = max(0, first), self.count  # once: another thread may be appending
+        if first >= end:
             return None
-        return HEADER.pack(first, self.count - first) + bytes(self._data[first * self.row :])
+        return HEADER.pack(first, end - first) + bytes(self._data[first * self.row : end * self.row])
 
 
 def _extremes(buckets: Array) -> Array:

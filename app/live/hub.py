@@ -11,8 +11,8 @@ from app.live.frames import FrameStore
 class LiveRun:
     """One attempt of a run as its worker tells it. `changed` is set at the next change, and then replaced."""
 
-    def __init__(self, schema: dict[str, Any]):
-        self.schema = schema
+    def __init__(self, attempt: int, schema: dict[str, Any]):
+        self.attempt, self.schema = attempt, schema
         self.store = FrameStore(len(schema["channels"]))
         self.progress: dict[str, Any] | None = None
         self.ended = False
@@ -29,15 +29,15 @@ class Hub:
     def __init__(self) -> None:
         self.runs: dict[str, LiveRun] = {}
 
-    def take(self, run_id: str, message: dict[str, Any]) -> None:
-        """A JSON message of a worker: schema, progress or end."""
+    def take(self, run_id: str, attempt: int, message: dict[str, Any]) -> None:
+        """A JSON message of a worker: schema, progress or end. What an earlier attempt still tells is ignored."""
         live = self.runs.get(run_id)
         if message["type"] == "schema":
-            if live is None or live.schema["attempt"] < message["attempt"]:
-                self.runs[run_id] = LiveRun(message)
+            if live is None or live.attempt < attempt:
+                self.runs[run_id] = LiveRun(attempt, message)
                 if live is not None:
                     live.notify()
-        elif live is not None:
+        elif live is not None and live.attempt <= attempt:
             if message["type"] == "progress":
                 live.progress = message
             else:
@@ -47,5 +47,5 @@ class Hub:
 
     def frame(self, run_id: str, attempt: int, frame: bytes) -> None:
         live = self.runs.get(run_id)
-        if live is not None and live.schema["attempt"] == attempt and live.store.append(frame):
+        if live is not None and live.attempt == attempt and live.store.append(frame):
             live.notify()

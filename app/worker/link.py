@@ -8,10 +8,10 @@ import threading
 import time
 from typing import Any
 
-from websockets.exceptions import WebSocketException
+from websockets.exceptions import ConnectionClosedError, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from app.live.endpoints import FRAME_HEADER
+from app.live.endpoints import FRAME_HEADER, NOT_ALLOWED
 from app.live.frames import FrameStore
 
 log = logging.getLogger(__name__)
@@ -38,6 +38,10 @@ class Telling:
             self.store, self.schema = FrameStore(len(told["channels"])), told
         else:
             self.progress = told
+
+    def forget(self) -> None:
+        """Keep only that it ended: the rest is in the recording."""
+        self.schema = self.store = self.progress = None
 
 
 class _Cursor:
@@ -67,7 +71,7 @@ class _Cursor:
         return ended
 
     def _say(self, socket: ClientConnection, message: dict[str, Any]) -> None:
-        socket.send(json.dumps({**message, "run_id": self.telling.run_id}))
+        socket.send(json.dumps({"run_id": self.telling.run_id, "attempt": self.telling.attempt, "message": message}))
 
 
 class Link:
@@ -88,15 +92,26 @@ class Link:
     def _keep(self) -> None:
         delay = BACK_OFF_S[0]
         while True:
+            begun = time.monotonic()
             try:
                 headers = {"Authorization": f"Bearer {self.token}"}
                 with connect(self.url, additional_headers=headers, compression=None, max_size=None) as socket:
-                    delay = BACK_OFF_S[0]
                     self._tell(socket)
             except (OSError, WebSocketException) as error:
-                log.info("no connection to the web at %s: %s", self.url, error)
+                refused = isinstance(error, ConnectionClosedError) and error.rcvd is not None and error.rcvd.code == NOT_ALLOWED
+                log.log(logging.WARNING if refused else logging.INFO, "no connection to the web at %s: %s", self.url, error)
+            self._forget_ended()
+            if time.monotonic() - begun > BACK_OFF_S[1]:
+                delay = BACK_OFF_S[0]
             time.sleep(delay)
             delay = min(2 * delay, BACK_OFF_S[1])
+
+    def _forget_ended(self) -> None:
+        """However long the web is away, ended runs take no memory here."""
+        with self._lock:
+            for telling in self._tellings:
+                if telling.ended:
+                    telling.forget()
 
     def _tell(self, socket: ClientConnection) -> None:
         cursors: dict[int, _Cursor] = {}

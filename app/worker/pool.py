@@ -12,7 +12,9 @@ from typing import Any
 from app.worker.engine import Cancel, Done, Failed, Job, Ready, Stopping, serve
 
 CANCEL_PATIENCE_S = 2.0
-KILLED = f"The engine did not answer within {CANCEL_PATIENCE_S:g} s of being asked to stop, and was ended; nothing was recorded."
+KILLED = (
+    f"The engine did not answer within {CANCEL_PATIENCE_S:g} s of being asked to stop, and was ended; nothing was recorded."
+)
 CRASHED = "The engine process ended unexpectedly (exit code {})."
 Listener = Callable[[Any], None]
 
@@ -41,6 +43,7 @@ class EngineProcess:
             return Failed(KILLED if self._killed else CRASHED.format(self._process.exitcode))
         except BaseException:
             self._process.kill()  # it is in the middle of this job and must not be given another
+            self._process.join()
             raise
         finally:
             self.job = None

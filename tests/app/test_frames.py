@@ -63,14 +63,16 @@ def test_the_hub_begins_anew_with_a_new_attempt_and_ignores_the_old_one() -> Non
     schema = {"type": "schema", "channels": [{}, {}]}
     frame = Decimator(CHANNELS, 1).frame(np.ones((4, 2)), 4)
     assert frame is not None
-    hub.take("run", {**schema, "attempt": 1})
+    hub.take("run", 1, schema)
     hub.frame("run", 1, frame)
     first = hub.runs["run"]
     assert first.store.count == 4
-    hub.take("run", {**schema, "attempt": 1})  # told again after a lost connection
+    hub.take("run", 1, schema)  # told again after a lost connection
     assert hub.runs["run"] is first
-    hub.take("run", {**schema, "attempt": 2})
+    hub.take("run", 2, schema)
     hub.frame("run", 1, frame)
-    assert hub.runs["run"].store.count == 0
-    hub.take("run", {"type": "end"})
+    hub.take("run", 1, {"type": "progress"})
+    hub.take("run", 1, {"type": "end"})  # of a worker taken for dead
+    assert hub.runs["run"].store.count == 0 and hub.runs["run"].progress is None
+    hub.take("run", 2, {"type": "end"})
     assert "run" not in hub.runs
