@@ -13,7 +13,7 @@ from rths_engine.arrays import Array
 from rths_engine.channels import channels
 from rths_engine.errors import Issue, PlanError
 from rths_engine.ground_motions import Motion, MotionLibrary
-from rths_engine.motion import FileMotion, RecordMotion
+from rths_engine.motion import FileMotion, NoMotion, RecordMotion
 from rths_engine.plan import Plan
 from rths_engine.units import STANDARD_GRAVITY
 
@@ -30,12 +30,9 @@ class Checked:
     periods: Array
     scale_factor: float
     pga: float
-    record_s: float
+    duration_s: float
+    moved_s: float
     steps: int
-
-    @property
-    def duration_s(self) -> float:
-        return self.plan.duration or self.record_s
 
 
 def checked(data: Any, motions: MotionLibrary) -> Checked:
@@ -49,17 +46,18 @@ def checked(data: Any, motions: MotionLibrary) -> Checked:
     if isinstance(plan.motion, RecordMotion):
         plan = plan.model_copy(update={"motion": plan.motion.model_copy(update={"sha256": motion.sha256})})
     periods = plan.periods()
-    factor = _scale_factor(plan, motion, float(periods[0]))
-    steps = max(1, math.ceil((plan.duration or motion.duration) / plan.integrator.dt - 1e-9))
+    factor = _scale_factor(plan, motion, periods)
+    steps = max(1, math.ceil(plan.length(motion.duration) / plan.step - 1e-9))
     _check_size(plan, steps)
-    return Checked(plan, periods, factor, motion.pga * factor, motion.duration, steps)
+    return Checked(plan, periods, factor, motion.pga * factor, plan.length(motion.duration), plan.moved(motion.duration), steps)
 
 
-def _scale_factor(plan: Plan, motion: Motion, period: float) -> float:
-    assert not isinstance(plan.motion, FileMotion)
+def _scale_factor(plan: Plan, motion: Motion, periods: Array) -> float:
+    if isinstance(plan.motion, FileMotion | NoMotion):
+        return 1.0
     _check_peak("motion", motion.pga, "give acceleration in m/s^2")
     with np.errstate(over="ignore", divide="ignore"):
-        factor = float(plan.motion.scale.factor_for(motion, period))
+        factor = float(plan.motion.scale.factor_for(motion, float(periods[0])))
     _check_peak("motion.scale", motion.pga * factor, "scale it by less")
     return factor
 
@@ -71,7 +69,7 @@ def _check_peak(where: str, pga: float, fix: str) -> None:
 
 
 def _check_size(plan: Plan, steps: int) -> None:
-    substeps, columns = steps * plan.integrator.substeps, len(channels(plan))
+    substeps, columns = steps * plan.substeps, len(channels(plan))
     if substeps * columns * BYTES > LARGEST_RECORDING:
         problem = f"{substeps} substeps of {columns} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
         raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))

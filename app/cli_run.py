@@ -71,7 +71,7 @@ class Interrupt:
 def advance(test: Run, interrupt: Interrupt) -> float:
     """Run to the end at the plan's pace, or until interrupted. Returns the wall time (s)."""
     warm()
-    pace, step = test.plan.pace, test.plan.integrator.dt
+    pace, step = test.plan.pace, test.plan.step
     factor = pace.factor if pace.kind == "real_time" else math.inf
     steps = max(1, round(CHUNK_S * factor / step)) if math.isfinite(factor) else CHUNK_STEPS
     start = time.perf_counter()

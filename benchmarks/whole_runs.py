@@ -83,7 +83,7 @@ def memory() -> dict[str, Any]:
     run.history[:] = 0.0
     resident = []
     for _ in range(4):
-        run.advance(run.total // run.plan.integrator.substeps // 4)
+        run.advance(run.total // run.plan.substeps // 4)
         resident.append(_resident_kb())
     return {"memory_kb_at_quarters": resident, "memory_growth_kb": resident[-1] - resident[0]}
 

@@ -45,10 +45,14 @@ class Channel:
 
 
 def channels(plan: Plan) -> tuple[Channel, ...]:
-    """Columns in the order of the compiled loop: ground acceleration, floors, stations."""
-    found = [Channel("ag", "Ground acceleration", "m/s^2", "g", "input")]
-    for floor in range(1, len(plan.structure.storeys) + 1):
-        found.append(Channel(f"floor{floor}.x", f"Floor {floor} displacement", "m", "mm", "floors"))
+    """Columns in the order of the compiled loop: inputs (ground acceleration, forces on floors), floors, stations."""
+    found = []
+    if not plan.driven:
+        found.append(Channel("ag", "Ground acceleration", "m/s^2", "g", "input"))
+        for number, force in enumerate(plan.forces, start=1):
+            found.append(Channel(f"force{number}", f"Force on floor {force.floor}", "N", "kN", "input"))
+        for floor in range(1, len(plan.structure.assemble().floors) + 1):
+            found.append(Channel(f"floor{floor}.x", f"Floor {floor} displacement", "m", "mm", "floors"))
     for number, station in enumerate(plan.stations, start=1):
         found += [
             Channel(f"s{number}.{key}", f"{station.name}: {label}", unit, shown, f"s{number}")

@@ -1,8 +1,9 @@
 """The one compiled loop: integrate, ramp, compensate, actuate, measure, check, record.
 
-Order within integration step i: external and measured forces at step i, inv(M_e) (F - C v - r) gives x[i+1] and v[i+1] (3); the
+Order within step i: from the external and measured forces at step i the integrator gives x[i+1] and v[i+1], for CR (3); the
 command ramps from L x[i] to L x[i+1] over n substeps (8); every substep checks the limits, compensates (7), actuates (5),
-reads the specimen and the sensors, and updates the tracking indicator (9) and the energy error (10).
+reads the specimen and the sensors, and updates the tracking indicator (9) and the energy error (10). A test of a specimen or an
+actuator alone has no degrees of freedom: its command is the drive.
 """
 
 from __future__ import annotations
@@ -53,14 +54,18 @@ class Setup(NamedTuple):
     n: int  # substeps of an integration step
     dt_step: float  # integration step
     dt: float  # substep
-    factor: Any  # the integrator's M_e factorised
+    factor: Any  # the integrator's D factorised
+    held: Any  # its E, compressed rows
+    weight: float  # its w
+    shift: float  # its s
     damping: Any  # C, compressed rows
     elastic: Any  # stiffness beside the members, compressed rows
     members: Any  # structures.assembled.Members
-    influence: Any  # M @ iota (DOF)
+    loads: Any  # (I, DOF), forces by a unit of each input: -M @ iota for the ground acceleration
+    inputs: Any  # (steps + 1, I) at the integration steps
     floors: Any  # DOF of the floors
-    ag: Any  # ground acceleration at the integration steps
     drifts: Any  # L (S, DOF)
+    drive: Any  # (steps + 1, S), added to L x
     dampers: Any  # equal dampers a station stands for (S)
     codes: Any  # part codes (S, 3)
     parameters: Any  # (3, S, widest)
@@ -73,13 +78,14 @@ class State(NamedTuple):
 
     x: Any  # (DOF)
     v: Any  # (DOF)
+    carry: Any  # c of the scheme (DOF)
     plastic: Any  # plastic curvature (members, 3)
     parts: Any  # (3, S, widest)
     memory: Any  # (S, MEMORY)
 
 
 class Record(NamedTuple):
-    """What a run writes: columns of signals are ag, floors, stations; trip is station from 0, value, bound, substep from 1."""
+    """What a run writes. Columns of signals: inputs, floors, stations; trip: station from 0, value, bound, substep from 1."""
 
     signals: Any  # (Q, channels)
     history: Any  # (steps + 1, 2, floors), x and v
@@ -114,10 +120,13 @@ def _substep(j, setup, state, x_cmd, noise, row):
 
 @compiled
 def _integrate(i, setup, state, residual, work, x_next):
-    """x[i+1] into x_next and v[i+1] into state.v by equation (3), with the measured forces of step i."""
+    """x[i+1] into x_next and v[i+1] into state.v by the scheme (`integrators.scheme`), with the measured forces of step i."""
     x, v = state.x, state.v
     for a in range(x.size):
-        residual[a] = -setup.influence[a] * setup.ag[i]
+        residual[a] = 0.0
+    for k in range(setup.loads.shape[0]):
+        for a in range(x.size):
+            residual[a] += setup.loads[k, a] * setup.inputs[i, k]
     for j in range(setup.dampers.size):
         force = setup.dampers[j] * state.memory[j, F_MEAS]
         for a in range(x.size):
@@ -125,22 +134,30 @@ def _integrate(i, setup, state, residual, work, x_next):
     subtract_product(setup.damping, v, residual)
     subtract_product(setup.elastic, x, residual)
     subtract_forces(setup.members, x, state.plastic, residual)
+    remembers = setup.held.value.size > 0
+    if remembers:
+        for a in range(x.size):
+            now = residual[a]
+            residual[a] = (1.0 - setup.weight) * now + state.carry[a]
+            state.carry[a] = setup.weight * now
     solve(setup.factor, residual, work, x_next)
+    if remembers:
+        subtract_product(setup.held, x_next, state.carry)
     for a in range(x.size):
         v[a] += setup.dt_step * x_next[a]
-        x_next[a] = x[a] + setup.dt_step * v[a]
+        x_next[a] = x[a] + setup.dt_step * (v[a] + setup.shift * setup.dt_step * x_next[a])
 
 
 @entry
 def advance(first, last, setup, state, record):
     """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
-    x, n, floors = state.x, setup.n, setup.floors
+    x, n, floors, inputs = state.x, setup.n, setup.floors, setup.loads.shape[0]
     stations, width = setup.dampers.size, len(STATION_COLUMNS)
     residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
         _integrate(i, setup, state, residual, work, x_next)
         for j in range(stations):
-            command[j, 0], command[j, 1] = 0.0, 0.0
+            command[j, 0], command[j, 1] = setup.drive[i, j], setup.drive[i + 1, j]
             for a in range(x.size):
                 command[j, 0] += setup.drifts[j, a] * x[a]
                 command[j, 1] += setup.drifts[j, a] * x_next[a]
@@ -148,13 +165,14 @@ def advance(first, last, setup, state, record):
             done = i * n + q - 1
             share = q / n
             row = record.signals[done]
-            row[0] = setup.ag[i] + share * (setup.ag[i + 1] - setup.ag[i])
+            for k in range(inputs):
+                row[k] = setup.inputs[i, k] + share * (setup.inputs[i + 1, k] - setup.inputs[i, k])
             for f in range(floors.size):
                 a = floors[f]
-                row[1 + f] = x[a] + share * (x_next[a] - x[a])
+                row[inputs + f] = x[a] + share * (x_next[a] - x[a])
             for j in range(stations):
                 x_cmd = command[j, 0] + share * (command[j, 1] - command[j, 0])
-                start = 1 + floors.size + j * width
+                start = inputs + floors.size + j * width
                 broken, value = _substep(j, setup, state, x_cmd, setup.noise[done, j], row[start : start + width])
                 if broken > 0:
                     record.trip[0], record.trip[1] = j, value

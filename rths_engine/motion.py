@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from rths_engine.arrays import Array
 from rths_engine.errors import Issue, MotionError
 from rths_engine.ground_motions import Motion, MotionLibrary, read
 from rths_engine.ground_motions.scaling import Factor, Scale
@@ -72,11 +73,23 @@ class FileMotion(Value):
         return read(raw, path.name, unit=self.unit, dt=self.dt)
 
 
-PlannedMotion = Annotated[RecordMotion | InlineMotion | FileMotion, Field(discriminator="kind")]
+class NoMotion(Value):
+    """The ground does not move."""
+
+    kind: Literal["none"] = "none"
+    scale: ClassVar[Scale] = Factor()
+    title: ClassVar[str] = "No ground motion"
+
+    def unscaled(self, library: MotionLibrary) -> Motion:
+        return Motion(name="none", title="No ground motion", dt=1.0, acceleration=np.zeros(2))
 
 
-def scaled(planned: Any, library: MotionLibrary, period: float) -> Motion:
-    """The planned record times its scale factor; `period` is the structure's T1 (s). Raises MotionError."""
-    motion = planned.unscaled(library)
-    result: Motion = motion.scaled(planned.scale.factor_for(motion, period))
-    return result
+PlannedMotion = Annotated[RecordMotion | InlineMotion | FileMotion | NoMotion, Field(discriminator="kind")]
+
+
+def scaled(planned: Any, library: MotionLibrary, periods: Array) -> Motion:
+    """The planned record times its scale factor; `periods` are the structure's, T1 (s) first. Raises MotionError."""
+    motion: Motion = planned.unscaled(library)
+    if isinstance(planned, NoMotion):
+        return motion
+    return motion.scaled(planned.scale.factor_for(motion, float(periods[0])))

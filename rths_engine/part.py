@@ -107,7 +107,9 @@ def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
         )
         if inside:
             data = data[step]
-        elif position < len(loc) - 1 and (not isinstance(data, Mapping) or step == data.get("kind")):
+        elif isinstance(data, Mapping) and step == data.get("kind"):
+            continue
+        elif position < len(loc) - 1 and not isinstance(data, Mapping):
             continue
         path.append(step)
     return path

@@ -4,30 +4,32 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field
 
-from rths_engine import plan_yaml
+from rths_engine import plan_checks, plan_yaml
 from rths_engine.actuators import Actuator
 from rths_engine.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.arrays import Array
 from rths_engine.compensators import Compensator
 from rths_engine.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.errors import Issue, PlanError
-from rths_engine.factor import Factor, factorised
+from rths_engine.excitation import Drive, FloorForce, Start
+from rths_engine.factor import factorised
 from rths_engine.integrators import Integrator
 from rths_engine.integrators.cr import CrIntegrator
-from rths_engine.motion import PlannedMotion
+from rths_engine.integrators.scheme import Scheme
+from rths_engine.motion import NoMotion, PlannedMotion
 from rths_engine.part import Value, quantity, validated
 from rths_engine.safety import Limits
 from rths_engine.specimens import Specimen
 from rths_engine.specimens.mr_damper import MrDamper
 from rths_engine.structures import Structure
 from rths_engine.structures.modes import circular_frequencies
+from rths_engine.structures.no_structure import NoStructure
 
 
 class Noise(Value):
@@ -71,7 +73,11 @@ Pace = Annotated[Fastest | RealTime, Field(discriminator="kind")]
 
 
 class Plan(Value):
-    """A hybrid test. `digest` names what decides its result; `Plan.read` checks everything that needs no ground motion."""
+    """A test. `digest` names what decides its result; `Plan.read` checks everything that needs no ground motion.
+
+    `test` says which half is computed and which is tested: `hybrid` both; `structure` nothing is tested; `specimen` and
+    `actuator` nothing is computed, and the one station follows `drive`.
+    """
 
     model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
 
@@ -79,13 +85,19 @@ class Plan(Value):
     name: str = Field("Untitled test", title="Name", min_length=1, max_length=200)
     notes: str = Field("", title="Notes", max_length=10_000)
     template: str | None = Field(None, title="Template", max_length=80)
-    motion: PlannedMotion = Field(title="Ground motion")
-    structure: Structure = Field(title="Structure")
+    test: Literal["hybrid", "specimen", "actuator", "structure"] = Field(
+        "hybrid", title="Kind of test", json_schema_extra={"titles": {**plan_checks.TESTS}}
+    )
+    motion: PlannedMotion = Field(NoMotion(), title="Ground motion")
+    forces: tuple[FloorForce, ...] = Field((), title="Forces on floors", max_length=32)
+    start: Start = Field(Start(), title="Start")
+    drive: Drive = Field(Drive(), title="Drive")
+    structure: Structure = Field(NoStructure(), title="Structure")
     integrator: Integrator = Field(CrIntegrator(), title="Integration")
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
     stations: tuple[Station, ...] = Field((), title="Stations", max_length=32)
     seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
-    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: as long as the record")
+    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: as long as what moves it")
     pace: Pace = Field(Fastest(), title="Pace")
 
     @classmethod
@@ -94,10 +106,10 @@ class Plan(Value):
         if not isinstance(data, Mapping):
             raise PlanError(Issue("", "a plan is a mapping of fields", fix="start from a template"))
         plan = validated(cls, data)
-        issues = tuple(plan._issues())
+        issues = tuple(plan_checks.issues(plan))
         if issues:
             raise PlanError(issues)
-        plan.integration()
+        factorised(plan.scheme().effective)
         return plan
 
     @classmethod
@@ -123,41 +135,49 @@ class Plan(Value):
         """Controller step (s)."""
         return 1.0 / self.controller_rate
 
+    @property
+    def driven(self) -> bool:
+        """Whether the station follows the drive instead of a structure."""
+        return self.test in plan_checks.DRIVEN
+
+    @property
+    def substeps(self) -> int:
+        """Controller steps of a step of the loop."""
+        return 1 if self.driven else self.integrator.substeps
+
+    @property
+    def step(self) -> float:
+        """Step of the loop (s): the integration step, or the controller step of a driven test."""
+        return self.substep if self.driven else self.integrator.dt
+
+    def length(self, record: float) -> float:
+        """Duration (s) of the test: as planned, else as long as it is moved; `record` is the ground motion's (s)."""
+        return self.duration or self.moved(record)
+
+    def moved(self, record: float) -> float:
+        """Until when (s) ground motion, forces or drive move it."""
+        forces = (force.shape.duration for force in self.forces)
+        return max(0.0 if self.motion.kind == "none" else record, self.drive.shape.duration, *forces)
+
     def drifts(self) -> Array:
         """L (stations, DOF): row j takes displacements to the stroke of station j."""
         rows = self.structure.assemble().drifts
         return rows[[station.storey - 1 for station in self.stations]]
 
-    def integration(self) -> Factor:
-        """The integrator's M_e factorised, from M, C and the initial K with the stations' equivalents. Raises PlanError."""
+    def scheme(self) -> Scheme:
+        """The integrator's scheme from M, C and the initial K with the stations' equivalents. Raises PlanError."""
         built = self.structure.assemble()
         damping, stiffness = built.damping.copy(), built.stiffness.copy()
         for station, drift in zip(self.stations, self.drifts(), strict=True):
             outer = station.dampers * np.outer(drift, drift)
             damping += station.equivalent_damping * outer
             stiffness += station.equivalent_stiffness * outer
-        return factorised(self.integrator.build(built.mass, damping, stiffness))
+        return self.integrator.build(built.mass, damping, stiffness)
 
     def periods(self) -> Array:
         """Natural periods (s) of the analytical substructure, the first mode's first."""
         built = self.structure.assemble()
+        if not len(built.mass):
+            return np.zeros(0)
         periods: Array = 2 * np.pi / circular_frequencies(built.mass, built.stiffness)
         return periods
-
-    def _issues(self) -> Iterator[Issue]:
-        dt, n, rate = self.integrator.dt, self.integrator.substeps, self.controller_rate
-        if not math.isclose(dt * rate, n, rel_tol=1e-9):
-            fix = f"with {n} substeps at {rate:g} Hz the step is {n / rate:.9g} s"
-            yield Issue("integrator.dt", f"is {dt * rate:.6g} controller steps, but a step has {n} substeps", dt, fix)
-        storeys = len(self.structure.storeys)
-        for index, station in enumerate(self.stations):
-            if station.storey > storeys:
-                yield Issue(
-                    f"stations.{index}.storey", f"the structure has {storeys} storeys", station.storey, f"give 1 to {storeys}"
-                )
-        names = [station.name for station in self.stations]
-        for index, name in enumerate(names):
-            if name in names[:index]:
-                yield Issue(
-                    f"stations.{index}.name", "is another station's name already", name, "give each station its own name"
-                )

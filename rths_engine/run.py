@@ -11,15 +11,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rths_engine import actuators, compensators, loop, motion, specimens
+from rths_engine import actuators, compensators, loop, motion, specimens, starting
 from rths_engine.arrays import Array
 from rths_engine.channels import Channel, channels
 from rths_engine.errors import Issue, PlanError
+from rths_engine.factor import factorised
 from rths_engine.ground_motions import Motion, MotionLibrary
 from rths_engine.plan import Plan
 from rths_engine.restoring import rows
 from rths_engine.result import Result
 from rths_engine.safety import LIMITS, Trip
+from rths_engine.structures.assembled import Assembled
 
 LARGEST_RECORDING = 2_000_000_000  # bytes
 
@@ -27,22 +29,23 @@ LARGEST_RECORDING = 2_000_000_000  # bytes
 class Run:
     """One execution of a plan. `signals[:done]` holds what was recorded, columns as in `channels`, SI.
 
-    Starts from rest, or from `initial` displacements (m) and velocities (m/s) of the degrees of freedom.
+    Starts as planned, or from `initial` displacements (m) and velocities (m/s) of the degrees of freedom, as the loop holds
+    them.
     Raises PlanError or MotionError when the plan can't be run; nothing has happened then.
     """
 
     def __init__(self, plan: Plan, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None):
         self.plan = plan
-        self.motion: Motion = motion.scaled(plan.motion, motions, float(plan.periods()[0]))
+        self.motion: Motion = motion.scaled(plan.motion, motions, plan.periods())
         self.dt = plan.substep
         self.trip: Trip | None = None
         self.done = 0
         self._step = 0
-        n, dt = plan.integrator.substeps, plan.integrator.dt
-        self._steps = _steps(plan.duration or self.motion.duration, dt)
+        n, dt = plan.substeps, plan.step
+        self._steps = _steps(plan.length(self.motion.duration), dt)
         self.total = self._steps * n
         built = plan.structure.assemble()
-        dof, stations = len(built.mass), len(plan.stations)
+        stations = len(plan.stations)
         self.channels: tuple[Channel, ...] = channels(plan)
         if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
             problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
@@ -50,30 +53,38 @@ class Run:
         self.signals: Array = np.zeros((self.total, len(self.channels)))
         self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
         codes, parameters, parts = _built(plan)
+        scheme = plan.scheme()
+        times = np.arange(self._steps + 1) * dt
         self._setup = loop.Setup(
             n=n,
             dt_step=dt,
             dt=self.dt,
-            factor=plan.integration(),
+            factor=factorised(scheme.effective),
+            held=rows(np.zeros_like(scheme.effective) if scheme.held is None else scheme.held),
+            weight=scheme.weight,
+            shift=scheme.shift,
             damping=rows(built.damping),
             elastic=rows(built.elastic),
             members=built.members,
-            influence=built.mass @ built.influence,
+            loads=_loads(plan, built),
+            inputs=_inputs(plan, self.motion, times),
             floors=np.array(built.floors, dtype=np.int64),
-            ag=_sampled(self.motion, dt, self._steps + 1),
             drifts=plan.drifts(),
+            drive=np.repeat(plan.drive.sample(times)[:, None], stations, axis=1),
             dampers=np.array([float(station.dampers) for station in plan.stations]),
             codes=codes,
             parameters=parameters,
             limits=np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS)),
             noise=_noise(plan, self.total),
         )
-        x, v = initial or (np.zeros(dof), np.zeros(dof))
         memory = np.zeros((stations, loop.MEMORY))
         plastic = np.zeros((len(built.members.dofs), 3))
-        self._state = loop.State(np.array(x, dtype=float), np.array(v, dtype=float), plastic, parts, memory)
+        x, v, carry = starting.state(plan.start, built, scheme, dt, self._setup.inputs[0] @ self._setup.loads)
+        if initial:
+            x[:], v[:] = initial
+        self._state = loop.State(x, v, carry, plastic, parts, memory)
         self._record = loop.Record(self.signals, self.history, np.zeros(4))
-        self.history[0] = self._state.x[self._setup.floors], self._state.v[self._setup.floors]
+        self.history[0] = x[self._setup.floors], v[self._setup.floors]
 
     @property
     def finished(self) -> bool:
@@ -93,7 +104,7 @@ class Run:
 
     def result(self, status: str, elapsed_s: float) -> Result:
         """What was recorded so far, with its measures. `status` is completed, tripped or cancelled."""
-        steps = self.done // self.plan.integrator.substeps
+        steps = self.done // self.plan.substeps
         return Result(
             plan=self.plan,
             motion=self.motion,
@@ -172,8 +183,20 @@ def _steps(duration: float, dt: float) -> int:
     return max(1, math.ceil(duration / dt - 1e-9))
 
 
-def _sampled(record: Motion, dt: float, count: int) -> Array:
-    """Ground acceleration (m/s^2) at the integration steps: linear between samples, zero after the record's end."""
-    times = np.arange(count) * dt
-    samples: Array = np.interp(times, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
-    return samples
+def _loads(plan: Plan, built: Assembled) -> Array:
+    """(inputs, DOF): what a unit of the ground acceleration (m/s^2) and of each floor force (N) does to the equations."""
+    if plan.driven:
+        return np.zeros((0, 0))
+    loads: Array = np.zeros((1 + len(plan.forces), len(built.mass)))
+    loads[0] = -built.mass @ built.influence
+    for number, force in enumerate(plan.forces, start=1):
+        loads[number, built.floors[force.floor - 1]] = 1.0
+    return loads
+
+
+def _inputs(plan: Plan, record: Motion, time: Array) -> Array:
+    """(steps + 1, inputs): ground acceleration, linear between samples and zero after the record's end, and floor forces."""
+    if plan.driven:
+        return np.zeros((len(time), 0))
+    ground = np.interp(time, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
+    return np.column_stack([ground, *(force.sample(time) for force in plan.forces)])

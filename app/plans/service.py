@@ -65,8 +65,8 @@ class PlanService:
 
 def _warnings(checked: Checked) -> list[str]:
     plan, found = checked.plan, []
-    if plan.duration and plan.duration < checked.record_s:
-        found.append(f"The test ends at {plan.duration:g} s, before its record does at {checked.record_s:g} s.")
+    if plan.duration and plan.duration < checked.moved_s:
+        found.append(f"The test ends at {plan.duration:g} s, before its record does at {checked.moved_s:g} s.")
     for station in plan.stations:
         if station.limits.force > station.actuator.force_limit:
             found.append(f"{station.name}: the force limit is above the actuator's force capacity and can't trip.")

@@ -133,7 +133,7 @@ def _motion(recording: Recording, motions: MotionLibrary, figures: Figures) -> d
 
 def _recorded_motion(recording: Recording) -> Motion | None:
     """The ground acceleration at integration steps as recorded, where the record itself is out of reach."""
-    substeps = recording.plan.integrator.substeps
+    substeps = recording.plan.substeps
     samples = recording.signal("ag")[substeps - 1 :: substeps]
     return Motion("recorded", "recorded", recording.dt * substeps, samples) if len(samples) > 1 else None
 

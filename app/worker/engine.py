@@ -116,7 +116,7 @@ class _Telling:
         """True when the test was cancelled."""
         pace = self.run.plan.pace
         factor = pace.factor if pace.kind == "real_time" else math.inf
-        dt_step = self.run.plan.integrator.dt
+        dt_step = self.run.plan.step
         chunk = max(1, round(CHUNK_S * factor / dt_step)) if math.isfinite(factor) else 16
         start, told = time.perf_counter(), -PROGRESS_S
         while not self.run.finished:

@@ -1,10 +1,13 @@
-"""Integrators: parts that turn M, C, K into the matrix M_e with M_e beta a = F - C v - r."""
+"""Integrators: parts that turn M, C, K into the scheme that the loop steps."""
 
 from typing import Annotated
 
 from pydantic import Field
 
+from rths_engine.integrators.central_difference import CentralDifference
 from rths_engine.integrators.cr import CrIntegrator
+from rths_engine.integrators.kr_alpha import KrAlphaIntegrator
+from rths_engine.integrators.newmark import ExplicitNewmark
 
-KINDS = (CrIntegrator,)
-Integrator = Annotated[CrIntegrator, Field()]
+KINDS = (CrIntegrator, KrAlphaIntegrator, ExplicitNewmark, CentralDifference)
+Integrator = Annotated[CrIntegrator | KrAlphaIntegrator | ExplicitNewmark | CentralDifference, Field(discriminator="kind")]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 from rths_engine.arrays import Array
-from rths_engine.part import Value, quantity
+from rths_engine.integrators.scheme import Scheme
+from rths_engine.integrators.stepping import Stepping
 
 
-class CrIntegrator(Value):
+class CrIntegrator(Stepping):
     """v[i+1] = v[i] + dt beta a[i];  x[i+1] = x[i] + dt v[i] + dt^2 beta a[i];  beta = 4 inv(4 M + 2 dt C + dt^2 K) M   (3)
 
     Since M a = F - C v - r, beta a solves (M + dt/2 C + dt^2/4 K) beta a = F - C v - r: M is never inverted, so that
@@ -19,13 +20,7 @@ class CrIntegrator(Value):
     """
 
     kind: Literal["cr"] = "cr"
-    dt: float = quantity("Integration step Δt", "s", "ms", gt=0, le=0.1, default=10 / 1024)
-    substeps: int = quantity(
-        "Substeps per step n", ge=1, le=1000, default=10, help="ramp from command to command in n controller steps"
-    )
     title: ClassVar[str] = "CR (Chen and Ricles)"
 
-    def build(self, mass: Array, damping: Array, stiffness: Array) -> Array:
-        """M_e = M + dt/2 C + dt^2/4 K (n, n), kg, from M, C, K with the stations' equivalents."""
-        effective: Array = mass + self.dt / 2 * damping + self.dt**2 / 4 * stiffness
-        return effective
+    def build(self, mass: Array, damping: Array, stiffness: Array) -> Scheme:
+        return Scheme(mass + self.dt / 2 * damping + self.dt**2 / 4 * stiffness)

@@ -38,13 +38,13 @@ class ClosedLoop:
 
     def __init__(self, plan: Plan):
         self.plan = plan
-        self.dt = plan.integrator.dt
+        self.dt = plan.step
         self._structure = structure.linear(plan)
         self._own = [self.station(j) for j in range(len(plan.stations))]
 
     def station(self, j: int, added: float = 0.0) -> Lifted:
         """Station j with `added` controller steps of delay, over an integration step."""
-        return stations.linear(self.plan.stations[j], self.plan.substep, added).over(self.plan.integrator.substeps)
+        return stations.linear(self.plan.stations[j], self.plan.substep, added).over(self.plan.substeps)
 
     def matrix(self, changed: Mapping[int, Lifted] | None = None) -> Array:
         """A, with some stations changed."""

@@ -19,10 +19,10 @@ REACHED = 1e-9  # a direction shorter than this beside its own length is roundin
 class LinearStructure:
     """q[i+1] = a q[i] - b f[i] with the stations' forces f (N) and their strokes x_cmd[i] = d q[i].
 
-    From (3): v[i+1] = v[i] + dt inv(M_e) (-C v[i] - K x[i] - L^T f[i]) and x[i+1] = x[i] + dt v[i+1], with the initial K.
-    (x, dt v) = basis q; the basis spans what the columns of L^T and of M iota reach in any number of steps, so that the motion
-    of the stations in it is exact. a (r, r), b (r, S), d (S, r). Degrees of freedom that nothing reaches drop out: massless
-    rotations and vertical displacements follow the others. Fails first when members yield.
+    From `integrators.scheme` with the initial K and R[i] = -C v[i] - K x[i] - L^T f[i]. (x, dt v, dt^2 inv(D) c) = basis q,
+    without c where the scheme keeps nothing; the basis spans what the columns of L^T and of M iota reach in any number of
+    steps, so that the motion of the stations in it is exact. a (r, r), b (r, S), d (S, r). Degrees of freedom that nothing
+    reaches drop out: massless rotations and vertical displacements follow the others. Fails first when members yield.
     """
 
     a: Array
@@ -32,24 +32,29 @@ class LinearStructure:
 
 def linear(plan: Plan) -> LinearStructure:
     """The plan's structure under its integrator. Raises PlanError when it is a mechanism."""
-    built, drifts, dt = plan.structure.assemble(), plan.drifts(), plan.integrator.dt
-    damping, stiffness = built.damping.copy(), built.stiffness.copy()
-    for station, drift in zip(plan.stations, drifts, strict=True):
-        damping += station.dampers * station.equivalent_damping * np.outer(drift, drift)
-        stiffness += station.dampers * station.equivalent_stiffness * np.outer(drift, drift)
-    factor = lu_factor(plan.integrator.build(built.mass, damping, stiffness))
-    dof = len(built.mass)
+    built, drifts, dt, scheme = plan.structure.assemble(), plan.drifts(), plan.step, plan.scheme()
+    factor = lu_factor(scheme.effective)
+    dof, weight = len(built.mass), scheme.weight
 
-    def pushed(force: Array) -> Array:
-        moved = dt**2 * lu_solve(factor, force)
-        return np.concatenate([moved, moved])
+    def moved(state: Array, force: Array) -> Array:
+        """The state after a step under the force R beyond what it holds itself."""
+        x, move = state[:dof], state[dof : 2 * dof]
+        pushed = dt**2 * lu_solve(factor, force - built.stiffness @ x - built.damping @ move / dt)
+        change = pushed if scheme.held is None else (1 - weight) * pushed + state[2 * dof :]
+        parts = [x + move + (1 + scheme.shift) * change, move + change]
+        if scheme.held is not None:
+            parts.append(weight * pushed - lu_solve(factor, scheme.held @ change))
+        return np.concatenate(parts)
+
+    rest = np.zeros((2 if scheme.held is None else 3) * dof)
 
     def step(state: Array) -> Array:
-        x, move = state[:dof], state[dof:]
-        free = np.concatenate([x + move, move])
-        return free + pushed(-built.stiffness @ x - built.damping @ move / dt)
+        return moved(state, np.zeros(dof))
 
-    forces = pushed(drifts.T)
+    def pushed(force: Array) -> Array:
+        return np.array([moved(rest, one) for one in np.atleast_2d(force)]).reshape(-1, len(rest)).T
+
+    forces = pushed(drifts)
     basis, images = _reached(step, np.column_stack([forces, pushed(built.mass @ built.influence)]))
     return LinearStructure(basis.T @ images, basis.T @ forces, drifts @ basis[:dof])
 

@@ -28,8 +28,11 @@ def building(masses: list[float], stiffnesses: list[float], ratio: float = 0.0) 
     return {"kind": "shear_building", "storeys": storeys, "damping_ratio": ratio}
 
 
-def make(structure: dict[str, Any], motion: dict[str, Any], dt: float, substeps: int = 1, **more: Any) -> Plan:
-    integrator = {"kind": "cr", "dt": dt, "substeps": substeps}
+def make(
+    structure: dict[str, Any], motion: dict[str, Any], dt: float, substeps: int = 1, kind: str = "cr", **more: Any
+) -> Plan:
+    rho = {"rho": more.pop("rho")} if "rho" in more else {}
+    integrator = {"kind": kind, "dt": dt, "substeps": substeps, **rho}
     return Plan.read(
         {"structure": structure, "motion": motion, "integrator": integrator, "controller_rate": substeps / dt, **more}
     )
