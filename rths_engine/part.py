@@ -107,9 +107,7 @@ def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
         )
         if inside:
             data = data[step]
-        elif isinstance(data, Mapping) and step == data.get("kind"):
-            continue
-        elif position < len(loc) - 1 and not isinstance(data, Mapping):
+        elif step == data.get("kind") if isinstance(data, Mapping) else position < len(loc) - 1:
             continue
         path.append(step)
     return path

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
+from rths_engine.part import validated
+from rths_engine.plan import Plan, Station
 from rths_engine.run import Run
 
 NO_LIMITS = {"displacement": 10.0, "velocity": 10.0, "force": 1e9}
@@ -28,11 +29,20 @@ def building(masses: list[float], stiffnesses: list[float], ratio: float = 0.0) 
     return {"kind": "shear_building", "storeys": storeys, "damping_ratio": ratio}
 
 
+def followed(station: dict[str, Any]) -> dict[str, Any]:
+    """The station with NO_LIMITS lowered to what its actuator can follow, as a plan has to."""
+    capacity = validated(Station, {key: station[key] for key in ("actuator",) if key in station}).actuator.velocity_limit
+    limits = station.get("limits", {})
+    wide = limits.get("velocity") == NO_LIMITS["velocity"] and capacity < NO_LIMITS["velocity"]
+    return {**station, "limits": {**limits, "velocity": capacity}} if wide else station
+
+
 def make(
     structure: dict[str, Any], motion: dict[str, Any], dt: float, substeps: int = 1, kind: str = "cr", **more: Any
 ) -> Plan:
     rho = {"rho": more.pop("rho")} if "rho" in more else {}
     integrator = {"kind": kind, "dt": dt, "substeps": substeps, **rho}
+    more["stations"] = [followed(station) for station in more.get("stations", [])]
     return Plan.read(
         {"structure": structure, "motion": motion, "integrator": integrator, "controller_rate": substeps / dt, **more}
     )

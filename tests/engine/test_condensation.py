@@ -20,7 +20,7 @@ SHAKING = shaking(2.0 * np.sin(2 * np.pi * TIME / 1.1) + np.cos(2 * np.pi * TIME
 def run(stations: bool, **frame: object) -> Run:
     specimen = {"kind": "linear", "stiffness": 2e6, "damping": 5e5}
     # no adaptation, which would amplify rounding
-    calm = {"actuator": {"kind": "first_order_delay", "alpha": 2}, "compensator": {"kind": "none"}}
+    calm = {"actuator": {"kind": "first_order_delay", "alpha": 2, "velocity_limit": 10.0}, "compensator": {"kind": "none"}}
     equivalents = {"equivalent_stiffness": 2e6, "equivalent_damping": 5e5}
     tested = [
         {"name": f"S{storey}", "storey": storey, "dampers": 2, "specimen": specimen, "limits": NO_LIMITS, **equivalents, **calm}
