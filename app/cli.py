@@ -50,6 +50,15 @@ def parser() -> argparse.ArgumentParser:
     stability.add_argument("plan", nargs="?", metavar="PLAN.yaml", help="the plan; without it, a published limit is printed")
     stability.add_argument("--json", action="store_true", help="print the result as one JSON object")
 
+    table4 = _command(commands, "table4", "app.cli_table4:table4", "run the paper's twelve simulations beside its Table IV")
+    table4.add_argument("--record", metavar="FILE", help="run them under this record instead of a bundled one")
+    table4.add_argument("--record-unit", metavar="UNIT", help="unit of the record where its file does not say (default g)")
+    table4.add_argument("--record-dt", metavar="TIME", help="step of the record where its file does not say (default 0.02)")
+    table4.add_argument(
+        "--factor", type=float, metavar="F", help="factor of the record (default: by the floors of simulation 2)"
+    )
+    table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
+
     serve = _command(commands, "serve", "app.cli_serve:serve", "start the control room")
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")

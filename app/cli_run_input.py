@@ -29,15 +29,15 @@ def read_plan(given: Namespace) -> Plan:
     return plan
 
 
-def check_folder(out: Path) -> None:
-    """Raises RthsError when no recording can be written there."""
+def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> None:
+    """Raises RthsError when nothing can be written there."""
     folder = out.parent
     if not folder.is_dir():
-        raise RthsError(Issue("--out", f"there is no folder {folder}", str(out), f"make it first: mkdir -p '{folder}'"))
+        raise RthsError(Issue(option, f"there is no folder {folder}", str(out), f"make it first: mkdir -p '{folder}'"))
     if out.is_dir():
-        raise RthsError(Issue("--out", "is a folder", str(out), "name a file in it, such as rec.h5"))
+        raise RthsError(Issue(option, "is a folder", str(out), f"name a file in it, such as {example}"))
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise RthsError(Issue("--out", f"the folder {folder.resolve()} can't be written to", str(out), "choose another folder"))
+        raise RthsError(Issue(option, f"the folder {folder.resolve()} can't be written to", str(out), "choose another folder"))
 
 
 def _text(path: str) -> str:

@@ -9,5 +9,6 @@ from hypothesis import settings
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
 
-for name in [name for name in os.environ if name.startswith("RTHS_") and name != "RTHS_CACHE"]:
+KEPT = ("RTHS_CACHE", "RTHS_GROUND_MOTIONS")
+for name in [name for name in os.environ if name.startswith("RTHS_") and name not in KEPT]:
     del os.environ[name]

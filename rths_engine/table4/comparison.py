@@ -1,0 +1,74 @@
+"""Our table beside the published one: outcomes, signs and ratios."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rths_engine import templates
+from rths_engine.table4.rows import Row
+from rths_engine.templates import PaperRow
+
+PAPER = {row.simulation: row for row in templates.PAPER.values()}
+FLOORS_PEAK_MM = (49.6, 94.6)  # of simulation 2
+DRIFTS_PERCENT = (1.1, 1.2)  # of simulation 2
+CALIBRATED = (3, 4)  # simulations that parameters were chosen on
+RATIOS = ("mte_mm", "rms_percent", "mti_mm2")
+SIGNED = ("mti_mm2", "mee_kNm")
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """`factors` are exp |ln(ours/paper)| of MTE, RMS and MTI of the simulations that were stable in the paper."""
+
+    outcomes_right: int
+    outcomes_wrong: tuple[int, ...]
+    signs_right: int
+    signs_wrong: tuple[str, ...]
+    factors: tuple[float, ...]
+
+    @property
+    def median(self) -> float:
+        return float(np.median(self.factors))
+
+    @property
+    def worst(self) -> float:
+        return max(self.factors)
+
+
+def comparison(rows: Iterable[Row]) -> Comparison:
+    outcomes_wrong, signs_right, signs_wrong, factors = [], 0, [], []
+    rows = list(rows)
+    for row in rows:
+        paper = PAPER[row.simulation]
+        if (row.status == "completed") != stable(paper):
+            outcomes_wrong.append(row.simulation)
+        if not stable(paper):
+            continue
+        for j, station in enumerate(row.stations):
+            factors += [factor(station[field], published(paper, field, j)) for field in RATIOS]
+            for field in SIGNED:
+                right = station[field] * published(paper, field, j) > 0
+                signs_right += right
+                if not right:
+                    signs_wrong.append(f"simulation {row.simulation}, station {j + 1}, {field[:3].upper()}")
+    return Comparison(len(rows) - len(outcomes_wrong), tuple(outcomes_wrong), signs_right, tuple(signs_wrong), tuple(factors))
+
+
+def stable(paper: PaperRow) -> bool:
+    return paper.mte_mm is not None
+
+
+def published(paper: PaperRow, field: str, station: int) -> float:
+    """A published measure of a simulation that was stable."""
+    pair: Any = getattr(paper, field)
+    return float(pair[station])
+
+
+def factor(ours: float, paper: float) -> float:
+    """exp |ln |ours/paper||, at least 1; infinite where ours is nothing."""
+    return math.exp(abs(math.log(abs(ours / paper)))) if ours else math.inf

@@ -1,0 +1,55 @@
+"""The ground motion's factor, from the published floors of simulation 2."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeVar
+
+from scipy.optimize import brentq
+
+from rths_engine.errors import Issue, MotionError
+from rths_engine.ground_motions import MotionLibrary
+from rths_engine.ground_motions.scaling import Factor
+from rths_engine.motion import FileMotion, RecordMotion
+from rths_engine.run import simulate
+from rths_engine.safety import Limits
+from rths_engine.table4.comparison import FLOORS_PEAK_MM
+from rths_engine.table4.laboratory import LABORATORY, Laboratory, PlannedRecord, plans
+from rths_engine.templates import VELOCITY_CAPACITY
+
+M = TypeVar("M", RecordMotion, FileMotion)
+LEAST, MOST = 0.01, 50.0
+CLOSE = 1e-3  # of a factor
+FAR = Limits(displacement=10.0, velocity=min(VELOCITY_CAPACITY))  # so that too strong a motion goes on
+
+
+def design_basis(motion: M, motions: MotionLibrary, laboratory: Laboratory = LABORATORY) -> M:
+    """`motion` with the factor at which the floors of simulation 2 peak, in the geometric mean, where the paper's did.
+
+    The paper's record was scaled to the design basis earthquake by a factor it does not give; its floors of simulation 2, 49.6
+    and 94.6 mm, are published. Raises MotionError where no factor does.
+    """
+
+    def excess(logarithm: float) -> float:
+        return _floors(_times(motion, math.exp(logarithm)), motions, laboratory)
+
+    low, high = math.log(LEAST), math.log(MOST)
+    if excess(low) > 0 or excess(high) < 0:
+        problem = f"no factor from {LEAST:g} to {MOST:g} lets the floors of simulation 2 peak at 49.6 and 94.6 mm"
+        raise MotionError(Issue("record", problem, motion.scale.kind, "give the factor, or another record or unit"))
+    return _times(motion, math.exp(float(brentq(excess, low, high, xtol=CLOSE))))
+
+
+def _times(motion: M, factor: float) -> M:
+    return motion.model_copy(update={"scale": Factor(factor=factor)})
+
+
+def _floors(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory) -> float:
+    """ln of the floors' peaks over the paper's; 1 where even these limits are exceeded."""
+    plan = plans(motion, laboratory)[2]
+    stations = tuple(station.model_copy(update={"limits": FAR}) for station in plan.stations)
+    result = simulate(plan.model_copy(update={"stations": stations}), motions)
+    if result.trip:
+        return 1.0
+    peaks = result.summary()["floors_peak_mm"]
+    return sum(math.log(ours / paper) for ours, paper in zip(peaks, FLOORS_PEAK_MM, strict=True)) / 2
