@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from rths_engine.arrays import Array
 from rths_engine.part import Value, quantity
 from rths_engine.shapes import Shape, Sine, Still
+
+Displacement = Annotated[float, Field(ge=-10, le=10)]
+Velocity = Annotated[float, Field(ge=-100, le=100)]
 
 
 class Drive(Value):
@@ -34,8 +39,12 @@ class FloorForce(Value):
 class Start(Value):
     """Displacements and velocities of the floors at the start; the other degrees of freedom follow them statically."""
 
-    displacement: tuple[float, ...] = quantity("Displacement of each floor", "m", "mm", default=(), max_length=2000)
-    velocity: tuple[float, ...] = quantity("Velocity of each floor", "m/s", "mm/s", default=(), max_length=2000)
+    displacement: tuple[Displacement, ...] = quantity(
+        "Displacement of each floor", "m", "mm", default=(), max_length=2000, help="empty: none"
+    )
+    velocity: tuple[Velocity, ...] = quantity(
+        "Velocity of each floor", "m/s", "mm/s", default=(), max_length=2000, help="empty: none"
+    )
 
     @property
     def at_rest(self) -> bool:

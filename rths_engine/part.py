@@ -5,7 +5,7 @@ Validation, the JSON schema, the web form's labels and the report read the same 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
@@ -18,11 +18,22 @@ T = TypeVar("T", bound=BaseModel)
 
 
 def quantity(
-    label: str, unit: str = "1", shown: str | None = None, *, default: Any = ..., help: str = "", **bounds: Any
+    label: str,
+    unit: str = "1",
+    shown: str | None = None,
+    *,
+    default: Any = ...,
+    help: str = "",
+    tests: Sequence[str] = (),
+    **bounds: Any,
 ) -> Any:
-    """Declare a field holding SI `unit`, shown to people in `shown`; `bounds` are pydantic's gt, ge, lt, le."""
+    """Declare a field holding SI `unit`, shown to people in `shown`; `bounds` are pydantic's gt, ge, lt, le.
+
+    `tests` are the kinds of test that use the field, where not every one does.
+    """
     shown = shown or unit
     extra: dict[str, Any] = {"unit": unit, "shown": shown, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
+    extra |= {"tests": list(tests)} if tests else {}
     return Field(default, title=label, description=help or None, json_schema_extra=extra, **bounds)
 
 

@@ -31,6 +31,11 @@ from rths_engine.structures import Structure
 from rths_engine.structures.modes import circular_frequencies
 from rths_engine.structures.no_structure import NoStructure
 
+COMPUTED: dict[str, Any] = {"tests": ["hybrid", "structure"]}
+TESTED: dict[str, Any] = {"tests": ["hybrid", *plan_checks.DRIVEN], "one_in": [*plan_checks.DRIVEN]}
+ONLY_DRIVEN: dict[str, Any] = {"tests": [*plan_checks.DRIVEN]}
+ONLY_HYBRID = ["hybrid"]
+
 
 class Noise(Value):
     """Standard deviation of white Gaussian sensor noise added every substep to what the loop measures."""
@@ -43,10 +48,14 @@ class Station(Value):
     """One experimental substructure: actuator, specimen and sensors; it stands for `dampers` equal ones in its storey."""
 
     name: str = Field("Station", title="Name", min_length=1, max_length=80)
-    storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground")
-    dampers: int = quantity("Dampers in the storey", ge=1, le=1000, default=1)
-    equivalent_stiffness: float = quantity("Equivalent stiffness of one damper", "N/m", "kN/m", ge=0, le=1e12, default=0.0)
-    equivalent_damping: float = quantity("Equivalent damping of one damper", "N*s/m", "kN*s/m", ge=0, le=1e12, default=0.0)
+    storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground", tests=ONLY_HYBRID)
+    dampers: int = quantity("Dampers in the storey", ge=1, le=1000, default=1, tests=ONLY_HYBRID)
+    equivalent_stiffness: float = quantity(
+        "Equivalent stiffness of one damper", "N/m", "kN/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
+    )
+    equivalent_damping: float = quantity(
+        "Equivalent damping of one damper", "N*s/m", "kN*s/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
+    )
     compensator: Compensator = Field(AdaptiveInverseCompensation(), title="Delay compensator")
     actuator: Actuator = Field(FirstOrderDelay(), title="Actuator")
     specimen: Specimen = Field(MrDamper(), title="Specimen")
@@ -76,7 +85,8 @@ class Plan(Value):
     """A test. `digest` names what decides its result; `Plan.read` checks everything that needs no ground motion.
 
     `test` says which half is computed and which is tested: `hybrid` both; `structure` nothing is tested; `specimen` and
-    `actuator` nothing is computed, and the one station follows `drive`.
+    `actuator` nothing is computed, and the one station follows `drive`. Fields name the kinds that use them; in a plan of
+    another kind they stay as they are by default.
     """
 
     model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
@@ -88,14 +98,14 @@ class Plan(Value):
     test: Literal["hybrid", "specimen", "actuator", "structure"] = Field(
         "hybrid", title="Kind of test", json_schema_extra={"titles": {**plan_checks.TESTS}}
     )
-    motion: PlannedMotion = Field(NoMotion(), title="Ground motion")
-    forces: tuple[FloorForce, ...] = Field((), title="Forces on floors", max_length=32)
-    start: Start = Field(Start(), title="Start")
-    drive: Drive = Field(Drive(), title="Drive")
-    structure: Structure = Field(NoStructure(), title="Structure")
-    integrator: Integrator = Field(CrIntegrator(), title="Integration")
+    motion: PlannedMotion = Field(NoMotion(), title="Ground motion", json_schema_extra=COMPUTED)
+    forces: tuple[FloorForce, ...] = Field((), title="Forces on floors", max_length=32, json_schema_extra=COMPUTED)
+    start: Start = Field(Start(), title="Start", json_schema_extra={"tests": ["structure"]})
+    drive: Drive = Field(Drive(), title="Drive", json_schema_extra=ONLY_DRIVEN)
+    structure: Structure = Field(NoStructure(), title="Structure", json_schema_extra=COMPUTED)
+    integrator: Integrator = Field(CrIntegrator(), title="Integration", json_schema_extra=COMPUTED)
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
-    stations: tuple[Station, ...] = Field((), title="Stations", max_length=32)
+    stations: tuple[Station, ...] = Field((), title="Stations", max_length=32, json_schema_extra=TESTED)
     seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
     duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: as long as what moves it")
     pace: Pace = Field(Fastest(), title="Pace")

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rths_engine.errors import Issue
+from rths_engine.excitation import Drive
 from rths_engine.structures.modes import circular_frequencies
 
 if TYPE_CHECKING:
     from rths_engine.plan import Plan
 
 DRIVEN = ("specimen", "actuator")
+LONGEST = 3600.0  # s, of a drive or a force
+MOST_MOMENTS = 100_000  # of a drive that are looked at
 TESTS = {
     "hybrid": "Hybrid: structure computed, specimens tested",
     "specimen": "Specimen: prescribed displacement",
@@ -25,9 +28,18 @@ TESTS = {
 
 def issues(plan: Plan) -> Iterator[Issue]:
     """Everything wrong between the fields, by what the plan's kind of test needs."""
-    yield from _driven(plan) if plan.test in DRIVEN else _computed(plan)
+    lasting = list(_too_long(plan))
+    yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(plan))
     yield from _names(plan)
     yield from _capacity(plan)
+
+
+def _too_long(plan: Plan) -> Iterator[Issue]:
+    shapes = {"drive.shape": plan.drive.shape} | {f"forces.{i}.shape": force.shape for i, force in enumerate(plan.forces)}
+    for where, shape in shapes.items():
+        if not shape.duration <= LONGEST:
+            problem = f"lasts {shape.duration:.4g} s; {LONGEST:g} s is the most"
+            yield Issue(where, problem, shape.kind, "take fewer cycles or a higher frequency")
 
 
 def _driven(plan: Plan) -> Iterator[Issue]:
@@ -42,6 +54,12 @@ def _driven(plan: Plan) -> Iterator[Issue]:
         yield Issue("start", "is not used in this kind of test", fix="leave it at rest")
     if len(plan.stations) != 1:
         yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one")
+    for station in plan.stations[:1]:
+        for name, field in type(station).model_fields.items():
+            extra: Any = field.json_schema_extra or {}
+            given = getattr(station, name)
+            if plan.test not in extra.get("tests", DRIVEN) and given != field.default:
+                yield Issue(f"stations.0.{name}", "is not used in this kind of test", given, "leave it out")
     if plan.drive.shape.kind == "still":
         yield Issue("drive.shape", "a test of one station needs a drive", "still", "choose the shape of its displacement")
     elif plan.stations:
@@ -50,17 +68,23 @@ def _driven(plan: Plan) -> Iterator[Issue]:
 
 def _within_limits(plan: Plan) -> Iterator[Issue]:
     """The whole drive is known, so that what would trip is told before the start."""
-    duration = plan.duration or plan.drive.shape.duration
-    drive = plan.drive.sample(np.arange(math.ceil(duration * plan.controller_rate) + 1) * plan.substep)
+    reached, fastest = peaks(plan.drive, plan.duration or plan.drive.shape.duration, plan.controller_rate)
     limits = plan.stations[0].limits
-    reached = float(np.max(np.abs(drive)))
     if reached > limits.displacement:
         problem = f"reaches {reached * 1e3:.4g} mm, beyond the station's limit of {limits.displacement * 1e3:g} mm"
         yield Issue("drive.amplitude", problem, plan.drive.amplitude, "lower the amplitude or raise the limit")
-    fastest = float(np.max(np.abs(np.diff(drive, prepend=0.0)))) / plan.substep
     if fastest > limits.velocity:
         problem = f"reaches {fastest * 1e3:.4g} mm/s, beyond the station's limit of {limits.velocity * 1e3:g} mm/s"
         yield Issue("drive.shape", problem, plan.drive.shape.kind, "go slower or lower the amplitude")
+
+
+def peaks(drive: Drive, duration: float, rate: float) -> tuple[float, float]:
+    """Largest displacement (m) and velocity (m/s) of the command in the controller's steps; of a long one at MOST_MOMENTS."""
+    steps = math.ceil(duration * rate)
+    step = np.arange(0, steps + 1, max(1, steps // MOST_MOMENTS))
+    now, before = np.split(drive.sample(np.concatenate([step, np.maximum(step - 1, 0)]) / rate), 2)
+    before[0] = 0.0  # every test starts from rest
+    return float(np.max(np.abs(now))), float(np.max(np.abs(now - before))) * rate
 
 
 def _computed(plan: Plan) -> Iterator[Issue]:

@@ -11,6 +11,7 @@ from rths_engine.arrays import Array
 from rths_engine.part import Value, quantity
 
 TONES = 400  # of band-limited noise
+Share = Annotated[float, Field(ge=-1e6, le=1e6)]  # of the amplitude
 
 
 class Still(Value):
@@ -67,7 +68,9 @@ class IncreasingCycles(Value):
 
     kind: Literal["increasing_cycles"] = "increasing_cycles"
     frequency: float = quantity("Frequency", "Hz", gt=0, le=200, default=0.25)
-    levels: tuple[float, ...] = quantity("Levels", default=(0.25, 0.5, 0.75, 1.0), min_length=1, max_length=1000)
+    levels: tuple[Share, ...] = quantity(
+        "Levels, shares of the amplitude", default=(0.25, 0.5, 0.75, 1.0), min_length=1, max_length=1000
+    )
     cycles_each: int = quantity("Cycles at each level", ge=1, le=1000, default=3)
     title: ClassVar[str] = "Cycles of increasing amplitude"
 
@@ -144,7 +147,7 @@ class Samples(Value):
 
     kind: Literal["samples"] = "samples"
     dt: float = quantity("Step of the samples", "s", gt=0, le=10)
-    values: tuple[float, ...] = quantity("Values", min_length=2, max_length=1_000_000)
+    values: tuple[Share, ...] = quantity("Values, shares of the amplitude", min_length=2, max_length=1_000_000)
     title: ClassVar[str] = "Written in the plan"
 
     @property

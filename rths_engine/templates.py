@@ -1,4 +1,4 @@
-"""Plans to start from: the twelve simulations of Table III of Chen and Ricles (2012), EESD 41, 549-569, and small examples.
+"""Plans to start from: the twelve simulations of Table III of Chen and Ricles (2012), EESD 41, 549-569, and the examples.
 
 A shear building with its storey stiffnesses, first period and 2 % damping stands for the paper's frame, first-order delays of
 30 and 45 controller steps for its actuators, and a bundled record of the same earthquake for its ground motion.
@@ -8,7 +8,6 @@ The record's factor was chosen once, for floors about as far displaced as the pa
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from rths_engine.actuators.first_order_delay import FirstOrderDelay
@@ -17,13 +16,13 @@ from rths_engine.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.compensators.inverse import InverseCompensation
 from rths_engine.compensators.none import NoCompensation
 from rths_engine.errors import Issue, PlanError
-from rths_engine.ground_motions.scaling import Factor, ToPga
+from rths_engine.examples import EXAMPLES
+from rths_engine.ground_motions.scaling import Factor
 from rths_engine.motion import RecordMotion
-from rths_engine.plan import Noise, Plan, RealTime, Station
-from rths_engine.specimens.linear import LinearSpecimen
+from rths_engine.plan import Noise, Plan, Station
+from rths_engine.plan_checks import TESTS
 from rths_engine.specimens.mr_damper import MrDamper
 from rths_engine.structures.shear_building import ShearBuilding, Storey
-from rths_engine.units import STANDARD_GRAVITY
 
 STOREY_STIFFNESS = (36_007e3, 23_894e3)  # N/m
 FIRST_PERIOD = 1.48  # s
@@ -31,6 +30,7 @@ ACTUATOR_ALPHA = (30.0, 45.0)
 FORCE_CAPACITY = (2.3e6, 1.7e6)  # N
 VELOCITY_CAPACITY = (0.56, 0.76)  # m/s
 DAMPERS = (6, 4)
+TABLE3 = "Chen and Ricles (2012), Table III"
 BRACE_STIFFNESS = 4e8  # N/m, lateral, of all braces of a storey
 NORTHRIDGE = RecordMotion(record="northridge-1994-beverly-hills-009", scale=Factor(factor=0.6))
 
@@ -67,15 +67,20 @@ PAPER = {f"table3-{row.simulation:02d}": row for row in _ROWS}
 
 def names() -> list[str]:
     """Names of all templates."""
-    return [*PAPER, *_OTHERS]
+    return [*PAPER, *EXAMPLES]
+
+
+def group(name: str) -> str:
+    """Under what heading people find a template."""
+    return TABLE3 if name in PAPER else TESTS[template(name).test].partition(":")[0] + " tests"
 
 
 def template(name: str) -> Plan:
     """The plan named `name`. Raises PlanError naming the templates there are."""
     if name in PAPER:
         return _table3(name, PAPER[name])
-    if name in _OTHERS:
-        return _OTHERS[name](name)
+    if name in EXAMPLES:
+        return EXAMPLES[name](name)
     raise PlanError(Issue("", f"there is no template '{name}'", fix="choose one of " + ", ".join(names())))
 
 
@@ -127,27 +132,3 @@ def _building() -> ShearBuilding:
     heights = (4.57, 3.96)
     storeys = tuple(Storey(mass=mass, stiffness=k, height=h) for k, h in zip(STOREY_STIFFNESS, heights, strict=True))
     return ShearBuilding(storeys=storeys, damping_ratio=0.02)
-
-
-def _linear_example(name: str) -> Plan:
-    return Plan(
-        name="Linear viscous damper in a one-storey building",
-        notes="A first test: one station, one linear specimen, inverse compensation that matches the actuator.",
-        template=name,
-        motion=RecordMotion(record="imperial-valley-1940-el-centro-ns", scale=ToPga(pga=0.15 * STANDARD_GRAVITY)),
-        structure=ShearBuilding(storeys=(Storey(mass=2.0e5, stiffness=8.0e6, height=3.5),), damping_ratio=0.02),
-        stations=(
-            Station(
-                name="Damper",
-                storey=1,
-                compensator=InverseCompensation(alpha_es=20.0),
-                actuator=FirstOrderDelay(alpha=20.0),
-                specimen=LinearSpecimen(stiffness=0.0, damping=3.0e5),
-                equivalent_damping=3.0e5,
-            ),
-        ),
-        pace=RealTime(factor=4.0),
-    )
-
-
-_OTHERS: dict[str, Callable[[str], Plan]] = {"linear-damper": _linear_example}

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import lru_cache
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import Field, ValidationInfo, field_validator
 
 from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError
@@ -17,7 +16,10 @@ from rths_engine.structures.modes import circular_frequencies, rayleigh
 
 MOST_DOF = 2000
 EQUAL = 1e-9  # of the largest entry: closer entries are the same number written twice
-Rows = tuple[tuple[float, ...], ...]
+SYMBOLS = {"mass": "M", "stiffness": "K", "damping": "C"}
+Entry = Annotated[float, Field(ge=-1e18, le=1e18)]
+Row = Annotated[tuple[Entry, ...], Field(max_length=MOST_DOF)]
+Rows = tuple[Row, ...]
 
 
 class MatricesStructure(Value):
@@ -30,48 +32,66 @@ class MatricesStructure(Value):
     """
 
     kind: Literal["matrices"] = "matrices"
-    mass: Rows = quantity("Mass matrix M", "kg", min_length=1, max_length=MOST_DOF)
-    stiffness: Rows = quantity("Stiffness matrix K", "N/m", min_length=1, max_length=MOST_DOF)
-    damping: Rows = quantity("Damping matrix C", "N*s/m", max_length=MOST_DOF, default=(), help="empty: Rayleigh damping")
+    mass: Rows = quantity("Mass matrix M", "kg", "t", min_length=1, max_length=MOST_DOF)
+    stiffness: Rows = quantity("Stiffness matrix K", "N/m", "kN/m", min_length=1, max_length=MOST_DOF)
+    damping: Rows = quantity(
+        "Damping matrix C", "N*s/m", "kN*s/m", max_length=MOST_DOF, default=(), help="empty: Rayleigh damping"
+    )
     damping_ratio: float = quantity("Damping ratio of modes 1 and 2, without C", shown="%", ge=0, lt=1, default=0.02)
-    floors: tuple[int, ...] = quantity("Floors", default=(), help="degrees of freedom counted from 1; empty: every one")
-    influence: tuple[float, ...] = quantity("Influence of the ground ι", default=(), help="empty: 1 at floors, else 0")
-    drifts: Rows = quantity("Strokes of dampers L, a row a storey", default=(), help="empty: between neighbouring floors")
+    floors: tuple[int, ...] = quantity(
+        "Floors", max_length=MOST_DOF, default=(), help="degrees of freedom counted from 1; empty: every one"
+    )
+    influence: Row = quantity("Influence of the ground ι", default=(), help="empty: 1 at floors, else 0")
+    drifts: Rows = quantity(
+        "Strokes of dampers L, a row a storey", max_length=MOST_DOF, default=(), help="empty: between neighbouring floors"
+    )
     title: ClassVar[str] = "Given matrices M, C, K"
 
-    @model_validator(mode="after")
-    def _consistent(self) -> MatricesStructure:
-        problems = list(self._problems())
-        if problems:
-            raise ValueError("; ".join(problems))
-        return self
+    @field_validator("mass", "stiffness", "damping")
+    @classmethod
+    def _square(cls, rows: Rows, info: ValidationInfo) -> Rows:
+        name, count = SYMBOLS[str(info.field_name)], len(info.data.get("mass", rows))
+        if rows and (len(rows) != count or any(len(row) != count for row in rows)):
+            raise ValueError(f"matrix {name} needs {count} rows of {count} numbers, as many as M has rows")
+        if rows:
+            _check_symmetry(name, np.array(rows))
+        return rows
+
+    @field_validator("floors")
+    @classmethod
+    def _different(cls, floors: tuple[int, ...], info: ValidationInfo) -> tuple[int, ...]:
+        count = len(info.data.get("mass", ()))
+        if count and (len(set(floors)) < len(floors) or any(not 1 <= floor <= count for floor in floors)):
+            raise ValueError(f"give different degrees of freedom from 1 to {count}")
+        return floors
+
+    @field_validator("influence")
+    @classmethod
+    def _as_many(cls, influence: Row, info: ValidationInfo) -> Row:
+        count = len(info.data.get("mass", ()))
+        if count and len(influence) not in (0, count):
+            raise ValueError(f"the influence of the ground needs {count} numbers and has {len(influence)}")
+        return influence
+
+    @field_validator("drifts")
+    @classmethod
+    def _wide(cls, drifts: Rows, info: ValidationInfo) -> Rows:
+        count = len(info.data.get("mass", ()))
+        if count and any(len(row) != count for row in drifts):
+            raise ValueError(f"each row of L needs {count} numbers")
+        return drifts
 
     def assemble(self) -> Assembled:
         """The matrices as the loop takes them. Raises PlanError when it is a mechanism or mass is missing or negative."""
         return _assembled(self)
 
-    def _problems(self) -> Iterator[str]:
-        count = len(self.stiffness)
-        for name, rows in (("M", self.mass), ("K", self.stiffness), ("C", self.damping)):
-            if (rows or name != "C") and (len(rows) != count or any(len(row) != count for row in rows)):
-                yield f"matrix {name} needs {count} rows of {count} numbers, as many as K has rows"
-            elif rows:
-                yield from _asymmetry(name, np.array(rows))
-        wrong = [floor for floor in self.floors if not 1 <= floor <= count]
-        if wrong or len(set(self.floors)) < len(self.floors):
-            yield f"floors {list(self.floors)}: give different degrees of freedom from 1 to {count}"
-        if self.influence and len(self.influence) != count:
-            yield f"the influence of the ground needs {count} numbers and has {len(self.influence)}"
-        if any(len(row) != count for row in self.drifts):
-            yield f"each row of L needs {count} numbers"
 
-
-def _asymmetry(name: str, matrix: Array) -> Iterator[str]:
+def _check_symmetry(name: str, matrix: Array) -> None:
     apart = np.abs(matrix - matrix.T)
     i, j = np.unravel_index(int(np.argmax(apart)), apart.shape)
     if apart[i, j] > EQUAL * np.abs(matrix).max():
         there, back = f"{name}[{i + 1}, {j + 1}]", f"{name}[{j + 1}, {i + 1}]"
-        yield f"matrix {name} is not symmetric: {there} = {matrix[i, j]:g}, {back} = {matrix[j, i]:g}"
+        raise ValueError(f"matrix {name} is not symmetric: {there} = {matrix[i, j]:g}, {back} = {matrix[j, i]:g} (SI)")
 
 
 @lru_cache(maxsize=8)

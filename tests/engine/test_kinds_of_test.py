@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rths_engine import plan_checks
 from rths_engine.errors import PlanError
+from rths_engine.excitation import Drive
 from rths_engine.plan import Plan
 from rths_engine.shapes import SHAPES, BandNoise, Chirp, IncreasingCycles, Samples, Sine, Step, Still, Triangle
 from tests.engine.plans import NO_LIMITS, building, completed, make
@@ -155,3 +157,57 @@ def test_band_noise_has_no_power_outside_its_band() -> None:
     frequency = np.fft.rfftfreq(len(time), 1 / 128)
     outside = (frequency < 0.5) | (frequency > 4.5)
     assert power[outside].sum() < 1e-4 * power.sum()  # the taper of 1 s widens each tone
+
+
+USED = {name: (field.json_schema_extra or {}).get("tests") for name, field in Plan.model_fields.items()}
+OTHERWISE = {
+    "motion": {"kind": "inline", "dt": 0.1, "acceleration": [0.0, 1.0]},
+    "forces": [{"floor": 1}],
+    "start": {"displacement": [0.1]},
+    "drive": {"shape": SINE},
+    "structure": building([1e5], [1e7]),
+    "stations": [{}],
+}
+
+
+@pytest.mark.parametrize("test", ["hybrid", "specimen", "actuator", "structure"])
+@pytest.mark.parametrize("field", OTHERWISE)
+def test_a_field_declared_for_other_kinds_of_test_is_refused_and_one_for_this_kind_is_not(test: str, field: str) -> None:
+    hybrid = {"structure": building([1e5], [1e7]), "duration": 1.0, "stations": [{}]}
+    plain = driven(test) if test in ("specimen", "actuator") else {"test": test, **hybrid}
+    if test == "structure":
+        plain.pop("stations")
+    Plan.read(plain)
+    changed = {**plain, field: OTHERWISE[field]}
+    if test in USED[field]:
+        Plan.read(changed)
+    else:
+        with pytest.raises(PlanError, match=rf"^{field}\b"):
+            Plan.read(changed)
+
+
+@pytest.mark.parametrize(("field", "value"), [("storey", 2), ("dampers", 6), ("equivalent_damping", 1e5)])
+def test_what_a_station_stands_for_in_a_building_is_refused_in_a_test_without_one(field: str, value: float) -> None:
+    with pytest.raises(PlanError, match=rf"stations\.0\.{field}.*not used in this kind of test"):
+        Plan.read(driven("specimen", station={field: value}))
+
+
+@pytest.mark.parametrize("frequency", [1e-300, 1e-4])
+def test_a_drive_without_end_is_refused_before_it_is_sampled(frequency: float) -> None:
+    with pytest.raises(PlanError, match=r"drive\.shape.*: lasts .* s; 3600 s is the most"):
+        Plan.read(driven("specimen", drive={"shape": {**SINE, "frequency": frequency}}))
+
+
+def test_a_long_drive_is_checked_against_its_limits_at_some_moments() -> None:
+    sine = {"kind": "sine", "frequency": 1.0, "cycles": 3600, "ramps": 0}
+    drive = Drive(amplitude=0.02, shape=Sine(**sine))
+    displacement, velocity = plan_checks.peaks(drive, 3600.0, 100_000.0)
+    # 28 moments of every cycle: within half of 1/28 of a cycle from the peak, 1 - cos(pi / 28) = 0.6 % below it at most
+    assert displacement == pytest.approx(0.02, rel=0.0063)
+    assert velocity == pytest.approx(0.02 * 2 * np.pi, rel=0.0063)
+
+
+def test_a_drive_that_starts_beside_zero_jumps() -> None:
+    samples = {"kind": "samples", "dt": 1.0, "values": [1.0, 1.0]}
+    with pytest.raises(PlanError, match=r"drive\.shape.*: reaches 2\.048e\+04 mm/s"):
+        Plan.read(driven("specimen", drive={"amplitude": 0.02, "shape": samples}))

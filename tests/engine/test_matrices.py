@@ -49,11 +49,11 @@ def test_floors_influence_and_strokes_can_be_given() -> None:
     [
         ({"stiffness": [[5.0e7, -2.0e7], [-1.0e7, 2.0e7]]}, r"K is not symmetric: K\[1, 2\] = -2e\+07, K\[2, 1\] = -1e\+07"),
         ({"mass": [[2e5, 1e3], [0.0, 1e5]]}, r"M is not symmetric"),
-        ({"mass": [[2e5]]}, "M needs 2 rows of 2 numbers"),
+        ({"stiffness": [[2e7]]}, r"structure\.stiffness: matrix K needs 2 rows of 2 numbers"),
         ({"mass": [[0.0, 0.0], [0.0, 0.0]]}, "all zero.*give at least one degree of freedom mass"),
         ({"mass": [[2e5, 0.0], [0.0, -1e5]]}, r"negative eigenvalue -1e\+05 kg"),
         ({"stiffness": [[2.0e7, -2.0e7], [-2.0e7, 2.0e7]]}, "mechanism"),
-        ({"floors": [1, 3]}, r"floors \[1, 3\]: give different degrees of freedom from 1 to 2"),
+        ({"floors": [1, 3]}, r"structure\.floors: give different degrees of freedom from 1 to 2"),
         ({"influence": [1.0]}, "influence of the ground needs 2 numbers and has 1"),
         ({"drifts": [[1.0]]}, "each row of L needs 2 numbers"),
         ({"damping": [[1.0, 2.0], [3.0, 4.0]]}, "C is not symmetric"),
