@@ -14,7 +14,7 @@ def plan(given: Namespace) -> None:
         print(templates.template(given.name).to_yaml(), end="")
         return
     for name in templates.names():
-        print(f"{name:14} {templates.template(name).name}")
+        print(f"{name:24} {templates.template(name).name}")
 
 
 def motions(given: Namespace) -> None:

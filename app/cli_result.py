@@ -41,8 +41,9 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
             if paper:
                 yield _row("  paper", paper, width)
         yield ""
-    peaks = ", ".join(f"floor {number} {peak:.1f}" for number, peak in enumerate(summary["floors_peak_mm"], start=1))
-    yield f"Peak displacement, mm: {peaks}"
+    if summary["floors_peak_mm"]:
+        peaks = ", ".join(f"floor {number} {peak:.1f}" for number, peak in enumerate(summary["floors_peak_mm"], start=1))
+        yield f"Peak displacement, mm: {peaks}"
     if out:
         yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
 

@@ -29,6 +29,8 @@ def _plan(path: str) -> Plan:
 
 
 def _text(found: dict[str, Any]) -> str:
+    if found["radius"] is None:
+        return "\n".join(found["notes"])
     verdict = "stable" if found["stable"] else "UNSTABLE"
     lines = [f"The closed loop is {verdict} about rest: spectral radius {found['radius']:.6f} a step."]
     if mode := found["least_damped"]:

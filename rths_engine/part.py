@@ -5,10 +5,13 @@ Validation, the JSON schema, the web form's labels and the report read the same 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
+from annotated_types import MaxLen
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic.fields import FieldInfo
 
 from rths_engine import units
 from rths_engine.arrays import Array
@@ -56,7 +59,7 @@ class Value(BaseModel):
         read = dict(data)
         for name, field in cls.model_fields.items():
             extra = field.json_schema_extra
-            if name in read and isinstance(extra, dict) and "unit" in extra:
+            if name in read and isinstance(extra, dict) and "unit" in extra and not _too_long(read[name], field):
                 read[name] = _in_si(read[name], str(extra["unit"]))
         return read
 
@@ -88,6 +91,12 @@ def _follows(detail: Any, details: list[Any]) -> bool:
     return detail["type"] == "too_short" and any(
         other is not detail and other["loc"][: len(inside)] == inside for other in details
     )
+
+
+def _too_long(value: Any, field: FieldInfo) -> bool:
+    """Whether a list will be refused for its length, so that its items need not be looked at."""
+    most = min((bound.max_length for bound in field.metadata if isinstance(bound, MaxLen)), default=math.inf)
+    return isinstance(value, list | tuple) and len(value) > most
 
 
 def _in_si(value: Any, unit: str) -> Any:

@@ -35,11 +35,15 @@ def issues(plan: Plan) -> Iterator[Issue]:
 
 
 def _too_long(plan: Plan) -> Iterator[Issue]:
-    shapes = {"drive.shape": plan.drive.shape} | {f"forces.{i}.shape": force.shape for i, force in enumerate(plan.forces)}
-    for where, shape in shapes.items():
-        if not shape.duration <= LONGEST:
-            problem = f"lasts {shape.duration:.4g} s; {LONGEST:g} s is the most"
-            yield Issue(where, problem, shape.kind, "take fewer cycles or a higher frequency")
+    yield from too_long("drive.shape", plan.drive.shape)
+    for index, force in enumerate(plan.forces):
+        yield from too_long(f"forces.{index}.shape", force.shape)
+
+
+def too_long(where: str, shape: Any) -> Iterator[Issue]:
+    if not shape.duration <= LONGEST:
+        problem = f"lasts {shape.duration:.4g} s; {LONGEST:g} s is the most"
+        yield Issue(where, problem, shape.kind, "take fewer cycles or a higher frequency")
 
 
 def _driven(plan: Plan) -> Iterator[Issue]:

@@ -29,7 +29,7 @@ class Still(Value):
 
 
 class Sine(Value):
-    """y(t) = g(t) sin(2 pi f t); g rises and falls as half a cosine over `ramps` cycles at both ends."""
+    """y(t) = g(t) sin(2 pi f t); g rises and falls as half a cosine at both ends."""
 
     kind: Literal["sine"] = "sine"
     frequency: float = quantity("Frequency", "Hz", gt=0, le=200, default=0.5)
@@ -64,7 +64,7 @@ class Triangle(Value):
 
 
 class IncreasingCycles(Value):
-    """Sines of rising amplitude, `cycles_each` at each of `levels` (shares of the amplitude)."""
+    """Sines, some cycles at each level, one level after the other."""
 
     kind: Literal["increasing_cycles"] = "increasing_cycles"
     frequency: float = quantity("Frequency", "Hz", gt=0, le=200, default=0.25)
@@ -130,7 +130,7 @@ class BandNoise(Value):
 
 
 class Step(Value):
-    """From 0 to 1 as half a cosine over `rise`, after `delay`."""
+    """From 0 to 1 as half a cosine."""
 
     kind: Literal["step"] = "step"
     delay: float = quantity("Time of the step", "s", ge=0, le=3600, default=1.0)
@@ -143,7 +143,7 @@ class Step(Value):
 
 
 class Samples(Value):
-    """Given values every `dt`, linear in between, at rest after the last."""
+    """Given values, linear in between, at rest after the last."""
 
     kind: Literal["samples"] = "samples"
     dt: float = quantity("Step of the samples", "s", gt=0, le=10)

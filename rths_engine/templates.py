@@ -20,7 +20,6 @@ from rths_engine.examples import EXAMPLES
 from rths_engine.ground_motions.scaling import Factor
 from rths_engine.motion import RecordMotion
 from rths_engine.plan import Noise, Plan, Station
-from rths_engine.plan_checks import TESTS
 from rths_engine.specimens.mr_damper import MrDamper
 from rths_engine.structures.shear_building import ShearBuilding, Storey
 
@@ -31,6 +30,12 @@ FORCE_CAPACITY = (2.3e6, 1.7e6)  # N
 VELOCITY_CAPACITY = (0.56, 0.76)  # m/s
 DAMPERS = (6, 4)
 TABLE3 = "Chen and Ricles (2012), Table III"
+GROUPS = {
+    "hybrid": "Hybrid tests",
+    "specimen": "Tests of a specimen",
+    "actuator": "Tests of an actuator",
+    "structure": "Tests of a structure alone",
+}
 BRACE_STIFFNESS = 4e8  # N/m, lateral, of all braces of a storey
 NORTHRIDGE = RecordMotion(record="northridge-1994-beverly-hills-009", scale=Factor(factor=0.6))
 
@@ -72,7 +77,7 @@ def names() -> list[str]:
 
 def group(name: str) -> str:
     """Under what heading people find a template."""
-    return TABLE3 if name in PAPER else TESTS[template(name).test].partition(":")[0] + " tests"
+    return TABLE3 if name in PAPER else GROUPS[template(name).test]
 
 
 def template(name: str) -> Plan:

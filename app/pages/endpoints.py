@@ -46,8 +46,12 @@ def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilt
         found, total = runs.list(wanted.filter(), wanted.part())
     except RthsError as error:
         problem = str(error)
-    names = [template["name"] for template in plans.templates()]
-    context = {"wanted": wanted, "states": list(State), "template_names": names, "first": LIMIT * (wanted.number - 1) + 1}
+    context = {
+        "wanted": wanted,
+        "states": list(State),
+        "templates": plans.templates(),
+        "first": LIMIT * (wanted.number - 1) + 1,
+    }
     return page(request, "runs.html", 422 if problem else 200, runs=found, total=total, problem=problem, **context)
 
 

@@ -35,6 +35,12 @@ def check(plan: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, An
     return plans.check(plan)
 
 
+@router.post("/plans/drive")
+def drive(data: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, Any]:
+    """The displacement of `{drive, controller_rate, duration}` against time, its peak and its largest velocity."""
+    return plans.drive(data)
+
+
 @router.post("/plans/read")
 async def read(request: Request, plans: Plans) -> dict[str, Any]:
     """Plan YAML as JSON."""

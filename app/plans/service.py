@@ -6,6 +6,7 @@ from dataclasses import asdict
 from typing import Any
 
 from app.checking import Checked, checked
+from app.plans.drive import preview
 from app.problems import NotFound
 from app.text import refuse_unstorable
 from rths_engine import plan_yaml, stability, templates
@@ -21,7 +22,10 @@ class PlanService:
         self.motions = motions
 
     def templates(self) -> list[dict[str, str]]:
-        return [{"name": name, "title": templates.template(name).name} for name in templates.names()]
+        """Name, title and the heading under which people find it."""
+        return [
+            {"name": name, "title": templates.template(name).name, "group": templates.group(name)} for name in templates.names()
+        ]
 
     def template(self, name: str) -> dict[str, Any]:
         """The plan of a template, and the paper's row where it is one of Table III."""
@@ -36,15 +40,19 @@ class PlanService:
     def check(self, data: Any) -> dict[str, Any]:
         """The plan as understood, with its digest and what it amounts to. Raises PlanError or MotionError."""
         found = checked(data, self.motions)
+        plan, shaken = found.plan, found.plan.motion.kind != "none"
         summary = {
             "periods_s": found.periods.tolist(),
             "steps": found.steps,
             "duration_s": found.duration_s,
-            "pga": found.pga,
-            "scale_factor": found.scale_factor,
+            "pga": found.pga if shaken else None,
+            "scale_factor": found.scale_factor if shaken else None,
         }
-        plan = found.plan
         return {"plan": plan.as_dict(), "digest": plan.digest, "warnings": _warnings(found), "summary": summary}
+
+    def drive(self, data: Any) -> dict[str, Any]:
+        """What the drive of a plan amounts to. Raises PlanError."""
+        return preview(data)
 
     def read(self, raw: bytes) -> dict[str, Any]:
         """Plan YAML as JSON. Raises PlanError."""
@@ -66,7 +74,8 @@ class PlanService:
 def _warnings(checked: Checked) -> list[str]:
     plan, found = checked.plan, []
     if plan.duration and plan.duration < checked.moved_s:
-        found.append(f"The test ends at {plan.duration:g} s, before its record does at {checked.moved_s:g} s.")
+        what = "its drive" if plan.driven else "its record" if plan.motion.kind != "none" else "its force"
+        found.append(f"The test ends at {plan.duration:g} s, before {what} does at {checked.moved_s:g} s.")
     for station in plan.stations:
         if station.limits.force > station.actuator.force_limit:
             found.append(f"{station.name}: the force limit is above the actuator's force capacity and can't trip.")

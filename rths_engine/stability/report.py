@@ -4,13 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
+from rths_engine.errors import PlanError
 from rths_engine.plan import Plan
 from rths_engine.stability.closed_loop import ClosedLoop, Mode, stable
 from rths_engine.stability.margins import Map, delay_map, margin
 
+ARTICLE = {"specimen": "a", "actuator": "an"}
+NO_LOOP: dict[str, Any] = {"radius": None, "stable": None, "least_damped": None, "modes": [], "stations": []}
+ALONE = "No station: these are the modes of the structure under its integrator, with the damping that the integrator adds."
+
 
 def summary(plan: Plan) -> dict[str, Any]:
-    """Radius, verdict, modes and delay margins as one JSON object (SI)."""
+    """Radius, verdict, modes and delay margins as one JSON object (SI); without radius and verdict where there is no loop."""
+    if plan.driven:
+        return {
+            **NO_LOOP,
+            "notes": [f"A test of {ARTICLE[plan.test]} {plan.test} follows its drive: no loop that could be unstable."],
+        }
     loop = ClosedLoop(plan)
     radius, modes = loop.radius(), loop.modes()
     return {
@@ -19,13 +29,13 @@ def summary(plan: Plan) -> dict[str, Any]:
         "least_damped": _mode(modes[0]) if modes else None,
         "modes": [_mode(mode) for mode in modes],
         "stations": [_station(loop, j) for j in range(len(plan.stations))],
-        "notes": loop.notes(),
+        "notes": loop.notes() if plan.stations else [ALONE],
     }
 
 
 def mapped(plan: Plan, points: int) -> dict[str, Any] | None:
     """The radius over the delays of the first two stations; None for fewer."""
-    if len(plan.stations) < 2:
+    if plan.driven or len(plan.stations) < 2:
         return None
     found: Map = delay_map(ClosedLoop(plan), points=points)
     axes = [
@@ -36,8 +46,13 @@ def mapped(plan: Plan, points: int) -> dict[str, Any] | None:
 
 
 def warning(plan: Plan) -> str | None:
-    """Sentences for a plan whose closed loop is predicted unstable about rest; None for any other."""
-    loop = ClosedLoop(plan)
+    """Sentences for a plan whose closed loop is predicted unstable about rest or can't be; None for any other."""
+    if not plan.stations or plan.driven:
+        return None
+    try:
+        loop = ClosedLoop(plan)
+    except PlanError as error:
+        return f"Stability is not predicted: the {error.issues[0].where} {error.issues[0].problem}."
     radius = loop.radius()
     if stable(radius):
         return None

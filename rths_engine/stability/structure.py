@@ -10,8 +10,10 @@ import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from rths_engine.arrays import Array
+from rths_engine.errors import Issue, PlanError
 from rths_engine.plan import Plan
 
+MOST = 300  # numbers that the structure may be reduced to: the eigenvalues of the loop are computed some hundred times
 REACHED = 1e-9  # a direction shorter than this beside its own length is rounding
 
 
@@ -31,7 +33,7 @@ class LinearStructure:
 
 
 def linear(plan: Plan) -> LinearStructure:
-    """The plan's structure under its integrator. Raises PlanError when it is a mechanism."""
+    """The plan's structure under its integrator. Raises PlanError when it is a mechanism or has too many motions."""
     built, drifts, dt, scheme = plan.structure.assemble(), plan.drifts(), plan.step, plan.scheme()
     factor = lu_factor(scheme.effective)
     dof, weight = len(built.mass), scheme.weight
@@ -66,6 +68,9 @@ def _reached(step: Callable[[Array], Array], starts: Array) -> tuple[Array, Arra
     waiting = deque(starts.T)
     while waiting and basis.shape[1] < len(starts):
         one = waiting.popleft()
+        if basis.shape[1] == MOST:
+            problem = f"has more than {MOST} independent motions, for which stability is not predicted"
+            raise PlanError(Issue("structure", problem, fix="reduce it to fewer degrees of freedom"))
         length = np.linalg.norm(one)
         for _ in range(2):  # once more: a single projection leaves rounding
             one = one - basis @ (basis.T @ one)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
 from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError
@@ -18,8 +18,17 @@ MOST_DOF = 2000
 EQUAL = 1e-9  # of the largest entry: closer entries are the same number written twice
 SYMBOLS = {"mass": "M", "stiffness": "K", "damping": "C"}
 Entry = Annotated[float, Field(ge=-1e18, le=1e18)]
-Row = Annotated[tuple[Entry, ...], Field(max_length=MOST_DOF)]
-Rows = tuple[Row, ...]
+Row = tuple[Entry, ...]
+
+
+def _of_possible_size(rows: Any) -> Any:
+    """Refuses what is too large before each of its numbers is looked at."""
+    if isinstance(rows, list | tuple) and any(len(part) > MOST_DOF for part in (rows, *rows) if isinstance(part, list | tuple)):
+        raise ValueError(f"takes at most {MOST_DOF} rows of {MOST_DOF} numbers")
+    return rows
+
+
+Rows = Annotated[tuple[Row, ...], BeforeValidator(_of_possible_size)]
 
 
 class MatricesStructure(Value):
@@ -41,7 +50,7 @@ class MatricesStructure(Value):
     floors: tuple[int, ...] = quantity(
         "Floors", max_length=MOST_DOF, default=(), help="degrees of freedom counted from 1; empty: every one"
     )
-    influence: Row = quantity("Influence of the ground ι", default=(), help="empty: 1 at floors, else 0")
+    influence: Row = quantity("Influence of the ground ι", max_length=MOST_DOF, default=(), help="empty: 1 at floors, else 0")
     drifts: Rows = quantity(
         "Strokes of dampers L, a row a storey", max_length=MOST_DOF, default=(), help="empty: between neighbouring floors"
     )

@@ -5,7 +5,8 @@ import { hintOf } from "./schema.js";
 
 /**
  * Part of the form: `read` gives its value in SI, `problems` what it finds wrong by itself.
- * @typedef {{element: HTMLElement, read: () => any, problems: () => {where: string, problem: string}[]}} Part
+ * `refresh` follows a change of the kind of test.
+ * @typedef {{element: HTMLElement, read: () => any, problems: () => {where: string, problem: string}[], refresh?: () => void}} Part
  * @typedef {Record<string, any>} Node
  */
 
@@ -50,18 +51,32 @@ export function switchField(node, path, value) {
 }
 
 /** One of some choices. @param {string} path @param {string} label @param {Map<string, string>} choices @param {string} value */
-export function choiceField(path, label, choices, value, hint = "") {
+export function choiceField(path, label, choices, value, hint = "", wide = false) {
   const options = [...choices].map(([key, text]) => el("option", { value: key, selected: key === value }, text));
   const control = el("select", {}, ...options);
-  return { element: labelled(path, label, control, hint), control, read: () => control.value, problems: () => [] };
+  return { element: labelled(path, label, control, hint, "", wide), control, read: () => control.value, problems: () => [] };
 }
 
-/** Some numbers in one field. @param {Node} node @param {string} path @param {number[] | undefined} values @returns {Part} */
+const MANY = 2000; // numbers that are not written into their field
+
+/** Some numbers in one field; very many are kept, and others can be pasted over them. @param {Node} node @param {string} path @param {number[] | undefined} values @returns {Part} */
 export function numbersField(node, path, values = []) {
-  const text = values.map((value) => shown(value, node)).join(", ");
-  const control = el("input", { type: "text", autocomplete: "off", value: text });
+  const many = node.maxItems > MANY;
+  const text = values.length > MANY ? "" : values.map((value) => shown(value, node)).join(many ? " " : ", ");
+  const control = many ? el("textarea", { rows: 3, spellcheck: "false" }, text) : el("input", { type: "text", autocomplete: "off", value: text });
   const read = () => (control.value === text ? values : control.value.split(/[,;\s]+/).filter(Boolean).map((one) => toSi(one, node)));
-  return { element: labelled(path, node.title, control, "values with commas between", node.shown_label), read, problems: () => [] };
+  const problems = () => {
+    const found = read();
+    const bounds = { ...node.items, factor: node.factor, shown_label: node.shown_label };
+    if (found.length < (node.minItems ?? 0)) return [{ where: path, problem: `needs at least ${node.minItems} ${node.minItems === 1 ? "number" : "numbers"}` }];
+    const wrong = found.findIndex((one) => typeof one !== "number" || outOfBounds(one, bounds));
+    if (wrong < 0) return [];
+    const problem = typeof found[wrong] === "number" ? outOfBounds(found[wrong], bounds) : `is no number: ${found[wrong]}`;
+    return [{ where: path, problem: `number ${wrong + 1} ${problem}` }];
+  };
+  const how = values.length > MANY ? `${values.length} numbers are kept; paste others to replace them` : "numbers with spaces or commas between";
+  const hint = [hintOf(node), how].filter(Boolean).join("; ");
+  return { element: labelled(path, node.title, control, hint, node.shown_label, many), read, problems };
 }
 
 /** A value that the form keeps as it is. @param {Node} node @param {any} value @returns {Part} */

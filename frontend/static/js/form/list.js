@@ -5,7 +5,7 @@ import { kindLabel } from "./schema.js";
 /** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
 
 /**
- * A list whose items can be added, duplicated and removed (stations, storeys).
+ * A list whose items can be added, duplicated and removed (stations, storeys); in some kinds of test only its first is used.
  * @param {Schema} schema @param {Node} node @param {string} path @param {any[]} values
  * @param {(schema: Schema, node: Node, path: string, value: any) => Part} part
  * @returns {Part}
@@ -51,9 +51,17 @@ export function listPart(schema, node, path, values, part) {
     return element;
   };
 
+  const single = () => node.one_in?.includes(schema.test);
+  const refresh = () => {
+    if (single() && !parts.length) build([schema.initial(node.items)]);
+    element.classList.toggle("single", Boolean(single()));
+  };
+  const used = () => (single() ? parts.slice(0, 1) : parts);
+
   build(values ?? []);
   const element = el("div", { class: "list", "data-path": path, tabindex: "-1" }, items, add, el("small", { id: `e-${path}`, class: "error" }));
-  return { element, read: () => parts.map((one) => one.read()), problems: () => parts.flatMap((one) => one.problems()) };
+  refresh();
+  return { element, refresh, read: () => used().map((one) => one.read()), problems: () => used().flatMap((one) => one.problems()) };
 }
 
 /** A new item whose name no other bears. @param {any} value @param {any[]} others */

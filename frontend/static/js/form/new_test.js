@@ -36,7 +36,8 @@ function told(checked, refused) {
     origin.digest ??= checked.digest;
     const changed = origin.template && origin.digest !== checked.digest;
     form.kept.template = changed ? null : origin.template;
-    const note = changed && el("p", { class: "muted" }, `Changed from ${origin.template}: its result is not the paper's row.`);
+    const paper = origin.template?.startsWith("table3-") ? ": its result is not the paper's row" : "";
+    const note = changed && el("p", { class: "muted" }, `Changed from ${origin.template}${paper}.`);
     verdict.replaceChildren(el("p", { class: "good" }, "Ready to queue"), ...summaryOf(checked), note || "");
   }
   return problems;
@@ -89,10 +90,18 @@ function focusFirst(problems) {
   (controls[0] ?? verdict).focus();
 }
 
+/** @param {{name: string, title: string, group: string}[]} offered */
+function templateGroups(offered) {
+  return [...new Set(offered.map((one) => one.group))].map((group) => {
+    const own = offered.filter((one) => one.group === group);
+    return el("optgroup", { label: group }, ...own.map((one) => el("option", { value: one.name }, one.title)));
+  });
+}
+
 async function start() {
   const [schema, motions, offered] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates")]);
   form = new PlanForm(byId("plan"), new Schema(schema), motions.motions);
-  templates.append(...offered.templates.map((/** @type {any} */ one) => el("option", { value: one.name }, one.title)));
+  templates.append(...templateGroups(offered.templates));
   const asked = new URLSearchParams(location.search);
   if (asked.get("from")) {
     const { plan } = await api.get(`/runs/${encodeURIComponent(asked.get("from") ?? "")}`);

@@ -2,6 +2,7 @@
 import { el } from "../dom.js";
 import { choiceField, numbersField, scalarField, switchField } from "./field.js";
 import { listPart } from "./list.js";
+import { matrixField } from "./matrix.js";
 import { hintOf, kindLabel } from "./schema.js";
 
 /** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
@@ -12,25 +13,45 @@ export function part(schema, unresolved, path, value) {
   if (node.oneOf) return unionPart(schema, node, path, value);
   if (node.type === "object") return groupPart(schema, node, path, value, node.title);
   if (node.type === "array") {
-    return node.items.$ref ? listPart(schema, node, path, value, part) : numbersField(node, path, value);
+    if (node.items.$ref) return listPart(schema, node, path, value, part);
+    return node.items.type === "array" ? matrixField(node, path, value) : numbersField(node, path, value);
   }
   if (node.type === "boolean") return switchField(node, path, value);
   if (node.enum) {
-    const choices = new Map(node.enum.map((/** @type {string} */ one) => [one, one]));
-    return choiceField(path, node.title, choices, value, hintOf(node));
+    const choices = new Map(node.enum.map((/** @type {string} */ one) => [one, node.titles?.[one] ?? one]));
+    return choiceField(path, node.title, choices, value, hintOf(node), Boolean(node.titles));
   }
   return scalarField(node, path, value);
 }
 
-/** The fields of an object, without `kind`, which is read back as it stands. @param {Schema} schema @param {Node} node @param {string} path @param {any} value */
+/**
+ * The fields of an object, without `kind`, which is read back as it stands. Fields that other kinds of test use are hidden and
+ * read back as they are by default; what was typed in them stays.
+ * @param {Schema} schema @param {Node} node @param {string} path @param {any} value
+ */
 export function fieldsOf(schema, node, path, value) {
   const names = Object.keys(node.properties).filter((name) => name !== "kind");
-  const parts = names.map((name) => part(schema, node.properties[name], path ? `${path}.${name}` : name, value?.[name]));
+  const fields = names.map((name) => {
+    const property = node.properties[name];
+    return usedIn(schema, property, part(schema, property, path ? `${path}.${name}` : name, value?.[name]));
+  });
   const kind = node.properties.kind ? { kind: node.properties.kind.const } : {};
   return {
-    elements: parts.map((one) => one.element),
-    read: () => ({ ...kind, ...Object.fromEntries(names.map((name, i) => [name, parts[i].read()])) }),
-    problems: () => parts.flatMap((one) => one.problems()),
+    elements: fields.map((one) => one.element),
+    read: () => ({ ...kind, ...Object.fromEntries(names.map((name, i) => [name, fields[i].read()])) }),
+    problems: () => fields.flatMap((one) => one.problems()),
+  };
+}
+
+/** A part that is shown and read while the kind of test chosen uses it. @param {Schema} schema @param {Node} node @param {Part} one @returns {Part} */
+export function usedIn(schema, node, one) {
+  if (!node.tests) return one;
+  one.element.dataset.tests = node.tests.join(" ");
+  one.element.hidden = !schema.applies(node);
+  return {
+    ...one,
+    read: () => (schema.applies(node) ? one.read() : schema.initial(node)),
+    problems: () => (schema.applies(node) ? one.problems() : []),
   };
 }
 

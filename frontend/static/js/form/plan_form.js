@@ -1,15 +1,19 @@
 // @ts-check
 import { el } from "../dom.js";
+import { drivePart } from "./drive.js";
 import { motionPart } from "./motion.js";
-import { part } from "./parts.js";
+import { part, usedIn } from "./parts.js";
 
 /** @typedef {import("./field.js").Part} Part @typedef {import("./schema.js").Schema} Schema @typedef {{where: string, problem: string, fix?: string | null}} Problem */
 
 const SECTIONS = [
-  { title: "Test", names: ["name", "notes"] },
-  { title: "Motion", names: ["motion"] },
+  { title: "Test", names: ["test", "name", "notes"] },
+  { title: "Drive", names: ["drive"] },
+  { title: "Ground motion", names: ["motion"] },
+  { title: "Forces on floors", names: ["forces"] },
+  { title: "Start", names: ["start"] },
   { title: "Structure", names: ["structure"] },
-  { title: "Integration", names: ["integrator", "controller_rate"] },
+  { title: "Integration and controller", names: ["integrator", "controller_rate"] },
   { title: "Stations: actuator, specimen, compensator, limits", names: ["stations"] },
   { title: "Duration, pace and seed", names: ["duration", "pace", "seed"] },
 ];
@@ -26,6 +30,7 @@ export class PlanForm {
     this.parts = new Map();
     /** @type {any} */
     this.kept = {};
+    for (const event of ["input", "change"]) host.addEventListener(event, () => this.#refresh());
   }
 
   /** Show a plan. @param {any} plan */
@@ -33,18 +38,31 @@ export class PlanForm {
     const properties = this.schema.root.properties;
     this.kept = Object.fromEntries(KEPT.map((name) => [name, plan[name] ?? null]));
     this.parts.clear();
+    this.schema.test = plan.test ?? this.schema.initial(properties.test);
     const sections = SECTIONS.map(({ title, names }) => {
-      for (const name of names) this.parts.set(name, this.#part(properties[name], name, plan[name]));
+      for (const name of names) this.parts.set(name, usedIn(this.schema, properties[name], this.#part(properties[name], name, plan[name])));
       const id = `section-${names[0]}`;
       const elements = names.map((name) => /** @type {Part} */ (this.parts.get(name)).element);
       return el("section", { "aria-labelledby": id }, el("h2", { id }, title), el("div", { class: "fields" }, ...elements));
     });
     this.host.replaceChildren(...sections);
+    this.#refresh();
+  }
+
+  /** Show what the kind of test chosen uses. */
+  #refresh() {
+    this.schema.test = this.parts.get("test")?.read();
+    for (const one of this.host.querySelectorAll("[data-tests]")) one.hidden = !one.dataset.tests.split(" ").includes(this.schema.test);
+    for (const one of this.parts.values()) one.refresh?.();
+    for (const section of this.host.children) {
+      section.hidden = [...section.querySelector(".fields").children].every((one) => one.hidden);
+    }
   }
 
   /** @param {any} node @param {string} name @param {any} value */
   #part(node, name, value) {
     if (name === "motion") return motionPart(this.schema, node, value, this.records);
+    if (name === "drive") return drivePart(this.schema, node, value ?? this.schema.initial(node), () => this.read());
     return part(this.schema, node, name, value ?? this.schema.initial(node));
   }
 

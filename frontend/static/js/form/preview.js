@@ -42,7 +42,7 @@ export function previewOf(preview) {
 }
 
 /** @param {string} title @param {string} said @param {string} xLabel @param {number[]} x @param {number[]} y @param {string} line */
-function chart(title, said, xLabel, x, y, line) {
+export function chart(title, said, xLabel, x, y, line) {
   const box = el("div", { class: "plot", role: "img", tabindex: "0", "aria-label": `${title}: ${said}` });
   const value = el("output", { class: "at muted", "aria-live": "off" });
   /** @type {any} */
@@ -65,7 +65,8 @@ function chart(title, said, xLabel, x, y, line) {
       [x, y],
       box,
     );
-    document.addEventListener("themechange", () => plot.redraw(false));
+    const follow = () => (box.isConnected ? plot.redraw(false) : document.removeEventListener("themechange", follow));
+    document.addEventListener("themechange", follow);
   });
   return el("figure", { class: "chart" }, el("figcaption", {}, el("strong", {}, title), value), box);
 }

@@ -9,6 +9,12 @@ export class Schema {
   /** @param {Node} root */
   constructor(root) {
     this.root = root;
+    this.test = root.properties.test.default;
+  }
+
+  /** Whether a field is used in the kind of test chosen. @param {Node} node */
+  applies(node) {
+    return !node.tests || node.tests.includes(this.test);
   }
 
   /** The node itself with what its reference and its nullable form hold; `nullable` tells whether null is allowed. @param {Node} node @returns {Node} */

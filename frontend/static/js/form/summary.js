@@ -9,8 +9,7 @@ export function summaryOf({ digest, summary, warnings }) {
     ...periods,
     ["Steps", summary.steps],
     ["Duration", `${number(summary.duration_s)} s`],
-    ["Scale factor", number(summary.scale_factor)],
-    ["PGA as scaled", `${number(summary.pga / 9.80665, 3)} g`],
+    ...(summary.pga == null ? [] : [["Scale factor", number(summary.scale_factor)], ["PGA as scaled", `${number(summary.pga / 9.80665, 3)} g`]]),
     ["Digest", digest],
   ];
   const facts = rows

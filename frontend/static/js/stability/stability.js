@@ -19,6 +19,12 @@ async function load() {
     byId("verdict").textContent = explain(error);
     return;
   }
+  byId("tables").hidden = found.radius == null;
+  byId("margins-part").hidden = !found.stations.length;
+  if (found.radius == null) {
+    byId("verdict").textContent = `${found.name}: ${found.notes.join(" ")}`;
+    return;
+  }
   showVerdict();
   byId("notes").replaceChildren(...found.notes.map((/** @type {string} */ note) => el("li", {}, note)));
   byId("margins").replaceChildren(...margins());

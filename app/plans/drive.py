@@ -1,0 +1,44 @@
+"""A drive before it is run: its displacement against time, for people to look at."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from app.reports.decimate import extremes
+from rths_engine.errors import PlanError
+from rths_engine.excitation import Drive
+from rths_engine.part import Value, quantity, validated
+from rths_engine.plan_checks import peaks, too_long
+
+SAMPLES, BUCKETS = 40_000, 500
+
+
+class Asked(Value):
+    """The part of a plan that decides the command."""
+
+    drive: Drive = Field(title="Drive")
+    controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000)
+    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None)
+
+
+def preview(data: Any) -> dict[str, Any]:
+    """Time (s) and displacement (m) with every extreme, peak (m), largest velocity (m/s). Raises PlanError."""
+    asked = validated(Asked, data)
+    issues = tuple(too_long("drive.shape", asked.drive.shape))
+    if issues:
+        raise PlanError(issues)
+    duration = asked.duration or asked.drive.shape.duration
+    time = np.linspace(0.0, duration, min(SAMPLES, round(duration * asked.controller_rate) + 2))
+    displacement = asked.drive.sample(time)
+    kept = extremes(displacement[:, None], BUCKETS)
+    peak, velocity = peaks(asked.drive, duration, asked.controller_rate)
+    return {
+        "time": time[kept].tolist(),
+        "displacement": displacement[kept].tolist(),
+        "peak": peak,
+        "velocity": velocity,
+        "duration": duration,
+    }

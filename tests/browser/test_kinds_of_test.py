@@ -1,0 +1,78 @@
+"""Kinds of test in the form: what does not apply is hidden and neutral, what was typed stays, the drive and matrices are seen."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import Opener
+from tests.browser.service import Service
+
+SPREADSHEET = "50\t0\t0\r\n0\t50\t0\r\n0\t0\t40\r\n"
+
+
+@pytest.fixture
+def form(idle: Service, opened: Opener) -> Page:
+    page = opened("/new?template=table3-04", allow=("422",))
+    expect(page.locator(".good")).to_be_visible()
+    return page
+
+
+def test_another_kind_of_test_hides_what_it_does_not_use_and_brings_it_back(form: Page) -> None:
+    kind = form.get_by_label("Kind of test")
+    form.get_by_label("Dampers in the storey").first.fill("5")
+    kind.select_option("specimen")
+    for heading in ("Ground motion", "Structure", "Start"):
+        expect(form.get_by_role("heading", name=heading, exact=True)).to_be_hidden()
+    expect(form.locator("fieldset[data-path='stations.1']")).to_be_hidden()
+    expect(form.get_by_label("Dampers in the storey").first).to_be_hidden()
+    with form.expect_response("**/plans/check") as answer:
+        form.get_by_label("Shape", exact=True).select_option("sine")
+    plan = answer.value.json()["plan"]
+    assert (plan["motion"]["kind"], plan["structure"]["kind"], plan["start"]["displacement"]) == ("none", "none", [])
+    assert [station["dampers"] for station in plan["stations"]] == [1]
+    expect(form.locator(".good")).to_be_visible()
+    with form.expect_response("**/plans/check") as answer:
+        kind.select_option("hybrid")
+    plan = answer.value.json()["plan"]
+    assert [station["dampers"] for station in plan["stations"]] == [5, 4]
+    assert (plan["motion"]["kind"], plan["drive"]["shape"]["kind"]) == ("record", "still")
+
+
+def test_a_drive_is_drawn_with_its_peaks_beside_the_limits(form: Page) -> None:
+    form.get_by_label("Start from a template").select_option("specimen-mr-damper")
+    shown = form.locator(".preview .facts-line")
+    expect(shown).to_have_text(
+        "Peak displacement 50.00 mm of 80.00 mm allowed · largest velocity 78.54 mm/s of 200.0 mm/s allowed · 60.00 s".replace(
+            " · ", ""
+        )
+    )
+    expect(form.get_by_role("img", name=re.compile("^Prescribed displacement, mm: 50"))).to_be_visible()
+    form.get_by_label("Amplitude, mm").fill("90")
+    expect(form.locator(".beyond")).to_have_text("Peak displacement 90.00 mm of 80.00 mm allowed")
+    expect(form.locator("[id='e-drive.amplitude']")).to_contain_text("beyond the station's limit of 80 mm")
+
+
+def test_matrices_are_pasted_from_a_spreadsheet_and_mistakes_told_beside_them(form: Page) -> None:
+    form.get_by_label("Start from a template").select_option("structure-matrices")
+    mass = form.get_by_label("Mass matrix M, t")
+    expect(mass).to_have_value("50  0  0\n0  50  0\n0  0  40")
+    with form.expect_response("**/plans/check") as answer:
+        mass.fill(SPREADSHEET.replace("40", "45"))
+    assert answer.value.json()["plan"]["structure"]["mass"][2] == [0.0, 0.0, 45e3]
+    mass.fill("50 0 0\n0 50\n0 0 40")
+    expect(form.locator("[id='e-structure.mass']")).to_have_text("row 2 has 2 numbers, row 1 has 3")
+    mass.fill("50 1 0\n0 50 0\n0 0 40")
+    expect(form.locator("[id='e-structure.mass']")).to_contain_text("matrix M is not symmetric: M[1, 2]")
+
+
+def test_samples_of_a_shape_are_pasted(form: Page) -> None:
+    form.get_by_label("Kind of test").select_option("actuator")
+    form.get_by_label("Shape", exact=True).select_option("samples")
+    expect(form.locator("[id='e-drive.shape.values']")).to_have_text("needs at least 2 numbers")
+    form.get_by_label("Step of the samples, s").fill("0.5")
+    form.get_by_label("Values, shares of the amplitude").fill("0\n0.5\n1\n0.5\n0")
+    expect(form.locator(".good")).to_be_visible()
+    expect(form.locator(".preview .facts-line")).to_contain_text("Peak displacement 20.00 mm")
