@@ -46,13 +46,9 @@ def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilt
         found, total = runs.list(wanted.filter(), wanted.part())
     except RthsError as error:
         problem = str(error)
-    context = {
-        "wanted": wanted,
-        "states": list(State),
-        "templates": plans.templates(),
-        "first": LIMIT * (wanted.number - 1) + 1,
-    }
-    return page(request, "runs.html", 422 if problem else 200, runs=found, total=total, problem=problem, **context)
+    offered = {"states": list(State), "templates": plans.templates()}
+    shown = {"runs": found, "total": total, "first": LIMIT * (wanted.number - 1) + 1, "problem": problem}
+    return page(request, "runs.html", 422 if problem else 200, wanted=wanted, **offered, **shown)
 
 
 @router.get("/runs/{run_id}")
