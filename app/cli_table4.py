@@ -16,6 +16,8 @@ from rths_engine.ground_motions import MotionLibrary
 from rths_engine.ground_motions.scaling import Factor
 from rths_engine.motion import FileMotion
 from rths_engine.part import validated
+from rths_engine.table4 import running
+from rths_engine.table4.scale import design_basis
 
 UNIT, DT = "g", 0.02  # of a bare file: see docs/table4.md
 
@@ -27,10 +29,10 @@ def table4(given: Namespace) -> None:
     motions = MotionLibrary(None)
     motion = _scaled(given, motions)
     start = time.perf_counter()
-    results = engine.run_all(engine.plans(motion), motions)
+    results = running.run_all(engine.plans(motion), motions)
     elapsed_s = time.perf_counter() - start
-    rows = [engine.Row.of(simulation, result) for simulation, result in results.items()]
-    floors, drifts = results[2].summary()["floors_peak_mm"], engine.drifts_percent(results[2])
+    rows = running.rows(results)
+    floors, drifts = results[2].summary()["floors_peak_mm"], running.drifts_percent(results[2])
     print(text(motion, results[2].motion, rows, floors, drifts, elapsed_s))
     if given.json:
         _write(given.json, {"rows": [asdict(row) for row in rows], "floors_peak_mm": floors, "drifts_percent": drifts})
@@ -46,7 +48,7 @@ def _scaled(given: Namespace, motions: MotionLibrary) -> engine.PlannedRecord:
     else:
         motion = _read(given, motions)
     if given.factor is None:
-        return engine.design_basis(motion, motions)
+        return design_basis(motion, motions)
     return motion.model_copy(update={"scale": validated(Factor, {"factor": given.factor})})
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rths_engine import table4 as engine
 from rths_engine.ground_motions import Motion
-from rths_engine.table4.comparison import CALIBRATED, DRIFTS_PERCENT, published, stable
+from rths_engine.table4.comparison import CALIBRATED, published, stable
 from rths_engine.units import STANDARD_GRAVITY
 
 # field -> heading, decimals
@@ -52,7 +52,7 @@ def _foot(rows: Sequence[engine.Row], floors: Sequence[float], drifts: Sequence[
     found = engine.comparison(rows)
     yield ""
     yield f"Floors of simulation 2 peak at {_pair(floors, 1)} mm (paper {_pair(engine.FLOORS_PEAK_MM, 1)})"
-    yield f"Storey drifts of simulation 2: {_pair(drifts, 2)} % (paper {_pair(DRIFTS_PERCENT, 1)})"
+    yield f"Storey drifts of simulation 2: {_pair(drifts, 2)} % (paper {_pair(engine.DRIFTS_PERCENT, 1)})"
     wrong = f"; other than the paper: {', '.join(map(str, found.outcomes_wrong))}" if found.outcomes_wrong else ""
     yield f"Outcomes as in the paper: {found.outcomes_right} of {len(rows)}{wrong}"
     signs = f"; wrong: {'; '.join(found.signs_wrong)}" if found.signs_wrong else ""

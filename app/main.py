@@ -21,9 +21,11 @@ from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.motions.endpoints import router as motions
 from app.pages.stability import router as stability_page
+from app.pages.table4 import router as table4_page
 from app.plans.endpoints import router as plans
 from app.runs.endpoints import router as runs
 from app.stability.endpoints import router as stability
+from app.table4.endpoints import router as table4
 from app.worker.embedded import EmbeddedWorker
 from rths_engine import __version__
 
@@ -44,11 +46,12 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = configured
     app.state.hub = Hub()
     problems.install(app)
-    for router in (runs, motions, plans, stability, health, live):
+    for router in (runs, motions, plans, stability, table4, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(stability_page)
+    app.include_router(table4_page)
     app.include_router(pages.router)
     app.add_middleware(Guard, settings=configured)
     return app

@@ -22,6 +22,7 @@ CONTENT = {
     "/runs/{run}": "#metrics tbody tr",
     "/stability/table3-04": "#map .plot-container",
     "/stability/{run}": "#map .plot-container",
+    "/table4": ".table4 tbody tr",
 }
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -13,29 +11,23 @@ from rths_engine.ground_motions import MotionLibrary
 from rths_engine.plan import Plan
 from rths_engine.result import Result
 from rths_engine.run import simulate
+from rths_engine.table4.comparison import Row
 from rths_engine.table4.laboratory import HEIGHTS
 
 CORES = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One simulation of the table: how it ended, when it tripped (s), and its stations' measures as in a run's summary."""
-
-    simulation: int
-    status: str
-    trip_s: float | None
-    stations: list[dict[str, Any]]
-
-    @classmethod
-    def of(cls, simulation: int, result: Result) -> Row:
-        return cls(simulation, result.status, result.trip.time_s if result.trip else None, result.summary()["stations"])
 
 
 def run_all(plans: Mapping[int, Plan], motions: MotionLibrary) -> dict[int, Result]:
     """Each simulation's result, run on two cores: the compiled loop lets go of Python's lock."""
     with ThreadPoolExecutor(CORES) as threads:
         return dict(zip(plans, threads.map(lambda plan: simulate(plan, motions), plans.values()), strict=True))
+
+
+def rows(results: Mapping[int, Result]) -> list[Row]:
+    return [
+        Row(simulation, result.status, result.trip.time_s if result.trip else None, result.summary()["stations"])
+        for simulation, result in results.items()
+    ]
 
 
 def drifts_percent(result: Result) -> list[float]:

@@ -1,0 +1,40 @@
+"""The page of the comparison with Table IV."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter, Request
+from fastapi.responses import HTMLResponse
+
+from app.pages.errors import PageRoute
+from app.pages.rendering import page
+from app.pages.table4_chart import chart
+from app.table4.dependency import Table4
+from rths_engine import table4 as engine
+
+# measure -> heading with unit, decimals
+MEASURES = {
+    "mte_mm": ("MTE, mm", 1),
+    "rms_percent": ("RMS, %", 1),
+    "mti_mm2": ("MTI, mm²", 1),
+    "mee_kNm": ("MEE, kN·m", 1),
+}
+
+router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
+
+
+@router.get("/table4")
+def whole(request: Request, table4: Table4) -> HTMLResponse:
+    return page(request, "table4.html", record=engine.BUNDLED, **_now(table4))
+
+
+@router.get("/table4/now")
+def now(request: Request, table4: Table4) -> HTMLResponse:
+    """The changing part of the page."""
+    return page(request, "table4_now.html", **_now(table4))
+
+
+def _now(table4: Table4) -> dict[str, Any]:
+    table = table4.table()
+    return {"table": table, "measures": MEASURES, "chart": chart(table.simulations)}

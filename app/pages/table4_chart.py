@@ -1,0 +1,65 @@
+"""Ours over the paper's, measure by measure, as marks on a logarithmic axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from app.table4.schemas import SimulationOut
+
+SHAPES = {"mte_mm": "circle", "rms_percent": "square", "mti_mm2": "diamond"}
+WIDTH, HEIGHT = 720, 260
+LEFT, RIGHT, TOP, BOTTOM = 50, 12, 12, 30
+LARGEST = 4.0  # factor at the edge; marks beyond lie on it
+TICKS = (1 / 3, 1 / 1.5, 1.0, 1.5, 3.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    x: float
+    y: float
+    shape: str
+    station: int
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """Drawn by the template: marks, ticks of the ratio (y, label), simulations (x, label)."""
+
+    marks: list[Mark]
+    ticks: list[tuple[float, str]]
+    simulations: list[tuple[float, str]]
+    width: int = WIDTH
+    height: int = HEIGHT
+    left: int = LEFT
+    right: int = WIDTH - RIGHT
+
+
+def chart(simulations: Sequence[SimulationOut]) -> Chart | None:
+    """None while there is nothing to show."""
+    shown = [one for one in simulations if one.paper]
+    slot = (WIDTH - LEFT - RIGHT) / len(shown)
+    marks, labels = [], []
+    for place, one in enumerate(shown):
+        labels.append((LEFT + slot * (place + 0.5), str(one.simulation)))
+        if one.run is None:
+            continue
+        for j, station in enumerate(one.run.stations):
+            for k, (field, shape) in enumerate(SHAPES.items()):
+                ours, paper = getattr(station, field), getattr(one.paper, field)[j]
+                if not ours:
+                    continue
+                x = LEFT + slot * (place + (1 + k + 3.5 * j) / 7.5)
+                words = (
+                    f"Simulation {one.simulation}, station {j + 1}, {field[:3].upper()}: {abs(ours / paper):.2f} of the paper's"
+                )
+                marks.append(Mark(x, _height(abs(ours / paper)), shape, j + 1, words))
+    return Chart(marks, [(_height(tick), f"{tick:.2g}") for tick in TICKS], labels) if marks else None
+
+
+def _height(ratio: float) -> float:
+    share = math.log(min(max(ratio, 1 / LARGEST), LARGEST)) / math.log(LARGEST)
+    middle = (TOP + HEIGHT - BOTTOM) / 2
+    return middle - share * (middle - TOP)

@@ -1,0 +1,26 @@
+"""REST of the comparison with Table IV."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body
+
+from app.runs.schemas import Person, RunOut, Submitted
+from app.table4.dependency import Table4
+from app.table4.schemas import TableOut
+
+router = APIRouter(prefix="/api/v1/table4", tags=["runs"])
+NOBODY = Person()
+
+
+@router.get("")
+def table(table4: Table4) -> TableOut:
+    """The newest run of each of the paper's twelve simulations beside its Table IV."""
+    return table4.table()
+
+
+@router.post("", status_code=201)
+def submit(table4: Table4, person: Annotated[Person, Body()] = NOBODY) -> Submitted:
+    """Queue the twelve simulations on the emulated laboratory, under the bundled record."""
+    return Submitted(runs=[RunOut.of(run) for run in table4.submit(person.by)])
