@@ -44,30 +44,31 @@ class Result:
         return column
 
     def summary(self) -> dict[str, Any]:
-        """JSON form: how the run ended, and the measures of each station in the units of the paper's Table IV."""
-        floors = [channel.key for channel in self.channels if channel.group == "floors"]
+        """JSON form: how the run ended, the measures of each station, floor peaks and the largest input energy."""
+        largest_input = self._largest_input()
         return {
             "status": self.status,
             "trip": self.trip.as_dict() if self.trip else None,
             "elapsed_s": self.elapsed_s,
             "simulated_s": self.simulated_s,
-            "stations": list(self._stations()),
-            "floors_peak_mm": [_peak(self.signal(key)) * 1e3 for key in floors],
+            "stations": list(self._stations(largest_input)),
+            "floors_peak_mm": [float(np.max(np.abs(x), initial=0.0)) * 1e3 for x in self._group("floors").T],
+            "input_energy_kNm": None if largest_input is None else largest_input * 1e-3,
         }
 
-    def _stations(self) -> Iterator[dict[str, Any]]:
+    def _stations(self, largest_input: float | None) -> Iterator[dict[str, Any]]:
         for number, station in enumerate(self.plan.stations, start=1):
             x_cmd, x_meas, f_meas = (self.signal(f"s{number}.{key}") for key in ("x_cmd", "x_meas", "f_meas"))
-            yield {
-                "name": station.name,
-                "mte_mm": metrics.maximum_tracking_error(x_cmd, x_meas) * 1e3,
-                "rms_percent": metrics.rms_tracking_error(x_cmd, x_meas) * 1e2,
-                "mti_mm2": metrics.signed_peak(metrics.tracking_indicator(x_cmd, x_meas)) * 1e6,
-                "mee_kNm": metrics.signed_peak(metrics.energy_error(x_cmd, x_meas, f_meas)) * 1e-3,
-                "peak_stroke_mm": _peak(x_meas) * 1e3,
-                "peak_force_kN": _peak(f_meas) * 1e-3,
-            }
+            measures = metrics.station_measures(x_cmd, x_meas, f_meas, self.dt)
+            yield measures.shown(station.name, metrics.energy_error_ratio(measures.mee, station.dampers, largest_input))
 
+    def _largest_input(self) -> float | None:
+        """The largest input energy (J); None where it is not known."""
+        loads = metrics.floor_loads(self.plan)
+        if loads is None:
+            return None
+        energy = metrics.input_energy(loads, self._group("input"), self._group("floors"), self.history[0, 0])
+        return float(np.max(energy, initial=0.0))
 
-def _peak(signal: Array) -> float:
-    return float(np.max(np.abs(signal), initial=0.0))
+    def _group(self, group: str) -> Array:
+        return self.signals[:, [number for number, channel in enumerate(self.channels) if channel.group == group]]

@@ -17,11 +17,11 @@ from rths_engine.channels import Channel, channels
 from rths_engine.errors import Issue, PlanError
 from rths_engine.factor import factorised
 from rths_engine.ground_motions import Motion, MotionLibrary
+from rths_engine.loads import loads
 from rths_engine.plan import Plan
 from rths_engine.restoring import rows
 from rths_engine.result import Result
 from rths_engine.safety import LIMITS, Trip
-from rths_engine.structures.assembled import Assembled
 
 LARGEST_RECORDING = 2_000_000_000  # bytes
 
@@ -66,7 +66,7 @@ class Run:
             damping=rows(built.damping),
             elastic=rows(built.elastic),
             members=built.members,
-            loads=_loads(plan, built),
+            loads=loads(plan, built),
             inputs=_inputs(plan, self.motion, times),
             floors=np.array(built.floors, dtype=np.int64),
             drifts=plan.drifts(),
@@ -181,17 +181,6 @@ def _limits(station: Any) -> tuple[float, ...]:
 
 def _steps(duration: float, dt: float) -> int:
     return max(1, math.ceil(duration / dt - 1e-9))
-
-
-def _loads(plan: Plan, built: Assembled) -> Array:
-    """(inputs, DOF): what a unit of the ground acceleration (m/s^2) and of each floor force (N) does to the equations."""
-    if plan.driven:
-        return np.zeros((0, 0))
-    loads: Array = np.zeros((1 + len(plan.forces), len(built.mass)))
-    loads[0] = -built.mass @ built.influence
-    for number, force in enumerate(plan.forces, start=1):
-        loads[number, built.floors[force.floor - 1]] = 1.0
-    return loads
 
 
 def _inputs(plan: Plan, record: Motion, time: Array) -> Array:

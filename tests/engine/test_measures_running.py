@@ -1,0 +1,73 @@
+"""The measures of a test under way come out as those of its whole record."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rths_engine import metrics, templates
+from rths_engine.metrics.frequency import RunningFrequency
+from rths_engine.plan import Plan
+from rths_engine.run import Run
+from tests.engine.plans import LIBRARY
+
+# |running - whole|: rounding of sums in another order; the index's segments as metrics.running promises
+ROUNDING, INDEX = 1e-7, {"fei_amplitude": 0.01, "fei_delay_ms": 0.3}
+
+
+def told(plan: Plan, chunk: int) -> tuple[Run, list[dict[str, Any]]]:
+    """The run, and what was told of it after each chunk."""
+    run = Run(plan, LIBRARY)
+    running = metrics.RunningMeasures(plan, run.channels, run.history[0, 0])
+    messages = []
+    while not run.finished:
+        running.take(run.signals[run.advance(chunk)])
+        messages.append(running.shown())
+    return run, messages
+
+
+def agree(run: Run, last: dict[str, Any]) -> None:
+    whole = run.result("completed", 0.0).summary()
+    assert last["input_energy_kNm"] == pytest.approx(whole["input_energy_kNm"], rel=ROUNDING)
+    for ours, theirs in zip(last["stations"], whole["stations"], strict=True):
+        assert ours.keys() == theirs.keys()
+        for name in ours.keys() - {"name"}:
+            assert ours[name] == pytest.approx(theirs[name], rel=ROUNDING, abs=INDEX.get(name, ROUNDING)), name
+
+
+@pytest.mark.parametrize(("template", "chunk"), [("table3-02", 97), ("table3-01", 5), ("linear-damper", 10**6)])
+def test_running_measures_end_as_those_of_the_whole_record(template: str, chunk: int) -> None:
+    run, messages = told(templates.template(template), chunk)
+    agree(run, messages[-1])
+
+
+def test_running_measures_at_any_moment_are_those_of_the_record_until_then() -> None:
+    plan = templates.template("table3-12")
+    run = Run(plan, LIBRARY)
+    running = metrics.RunningMeasures(plan, run.channels, run.history[0, 0])
+    for _ in range(3):
+        running.take(run.signals[run.advance(700)])
+        agree(run, running.shown())
+
+
+def test_what_is_told_before_anything_moved_is_plain_json() -> None:
+    plan = templates.template("table3-02")
+    run = Run(plan, LIBRARY)
+    running = metrics.RunningMeasures(plan, run.channels, run.history[0, 0])
+    shown = json.loads(json.dumps(running.shown(), allow_nan=False))
+    assert shown["stations"][0]["fei_delay_ms"] is None and shown["stations"][0]["mte_mm"] == 0.0
+
+
+def test_samples_far_finer_than_the_motion_are_averaged_and_give_the_same_index() -> None:
+    dt = 1e-4
+    time = np.arange(0, 40, dt)
+    x_cmd, x_meas = (np.sin(9.0 * t) * np.exp(-(((t - 17.0) / 7.0) ** 2)) for t in (time, time - 0.02))
+    running = RunningFrequency(dt)
+    assert running.group == 10
+    for part in np.array_split(np.arange(len(time)), 333):
+        running.take(x_cmd[part], 0.9 * x_meas[part])
+    # the burst's own width, 1 / 7 rad/s about 9 rad/s, takes (0.02 / 7)^2 off; the averages take as much off either signal
+    assert running.value() == pytest.approx((0.9, 0.02), rel=1e-4)
