@@ -18,6 +18,14 @@ COLUMNS = {
     "peak_stroke_mm": ("Stroke mm", 1),
     "peak_force_kN": ("Force kN", 1),
 }
+BEYOND = {
+    "fei_delay_ms": ("FEI delay ms", 2),
+    "fei_amplitude": ("FEI amplitude", 4),
+    "delay_ms": ("Delay ms", 2),
+    "nrms_percent": ("NRMSE %", 2),
+    "peak_error_percent": ("Peak error %", 2),
+    "energy_error_percent": ("HSEE %", 2),
+}
 LEAST_NAME = 8
 
 
@@ -36,20 +44,30 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
         width = max(LEAST_NAME, *(len(station["name"]) for station in stations))
         yield _row("Station", [heading for heading, _ in COLUMNS.values()], width)
         for number, station in enumerate(stations):
-            yield _row(station["name"], [f"{station[field]:.{digits}f}" for field, (_, digits) in COLUMNS.items()], width)
+            yield _row(station["name"], _cells(station, COLUMNS), width)
             paper = _paper(plan, number)
             if paper:
                 yield _row("  paper", paper, width)
         yield ""
+        yield _row("Station", [heading for heading, _ in BEYOND.values()], width)
+        for station in stations:
+            yield _row(station["name"], _cells(station, BEYOND), width)
+        yield ""
     if summary["floors_peak_mm"]:
         peaks = ", ".join(f"floor {number} {peak:.1f}" for number, peak in enumerate(summary["floors_peak_mm"], start=1))
         yield f"Peak displacement, mm: {peaks}"
+    if summary["input_energy_kNm"]:
+        yield f"Input energy, kN·m: {summary['input_energy_kNm']:.1f}"
     if out:
         yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
 
 
 def _row(name: str, cells: list[str], width: int) -> str:
-    return f"{name:{width}}" + "".join(f"{cell:>11}" for cell in cells)
+    return f"{name:{width}}" + "".join(f"{cell:>14}" for cell in cells)
+
+
+def _cells(station: dict[str, Any], columns: dict[str, tuple[str, int]]) -> list[str]:
+    return ["–" if station[field] is None else f"{station[field]:.{digits}f}" for field, (_, digits) in columns.items()]
 
 
 def _paper(plan: Plan, station: int) -> list[str]:

@@ -55,6 +55,7 @@ class Run(Base):
     elapsed_s: Mapped[float | None]
     simulated_s: Mapped[float | None]
     floors_peak_mm: Mapped[list[float | None] | None] = mapped_column(sa.JSON)
+    input_energy_kNm: Mapped[float | None]
     recording_sha256: Mapped[str | None] = mapped_column(sa.String(64))
     recording_size: Mapped[int | None] = mapped_column(sa.BigInteger)
     stations: Mapped[list[RunStation]] = relationship(
@@ -63,7 +64,7 @@ class Run(Base):
 
 
 class RunStation(Base):
-    """Measures of one station of a run, as in the paper's Table IV; null where one came out as no finite number."""
+    """Measures of one station of a run (docs/measures.md); null where one is not defined or came out as no finite number."""
 
     __tablename__ = "run_station"
 
@@ -76,6 +77,12 @@ class RunStation(Base):
     mee_kNm: Mapped[float | None]
     peak_stroke_mm: Mapped[float | None]
     peak_force_kN: Mapped[float | None]
+    fei_delay_ms: Mapped[float | None]
+    fei_amplitude: Mapped[float | None]
+    nrms_percent: Mapped[float | None]
+    peak_error_percent: Mapped[float | None]
+    delay_ms: Mapped[float | None]
+    energy_error_percent: Mapped[float | None]
     run: Mapped[Run] = relationship(back_populates="stations")
 
 

@@ -23,7 +23,7 @@ SORTS = {
     "simulated_s": Run.simulated_s,
     "template": Run.template,
 }
-MEASURES = ("mte_mm", "rms_percent", "mti_mm2", "mee_kNm", "peak_stroke_mm", "peak_force_kN")
+MEASURES = tuple(column.name for column in RunStation.__table__.columns if isinstance(column.type, sa.Float))
 
 
 @dataclass(frozen=True, slots=True)

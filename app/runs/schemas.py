@@ -31,6 +31,8 @@ class Person(BaseModel):
 
 
 class StationOut(BaseModel):
+    """Measures of one station, docs/measures.md."""
+
     model_config = ConfigDict(from_attributes=True)
 
     name: str
@@ -40,6 +42,12 @@ class StationOut(BaseModel):
     mee_kNm: float | None
     peak_stroke_mm: float | None
     peak_force_kN: float | None
+    fei_delay_ms: float | None
+    fei_amplitude: float | None
+    nrms_percent: float | None
+    peak_error_percent: float | None
+    delay_ms: float | None
+    energy_error_percent: float | None
 
 
 class RecordingOut(BaseModel):
@@ -72,6 +80,7 @@ class RunOut(BaseModel):
     duration_s: float
     stations: list[StationOut]
     floors_peak_mm: list[float | None] | None
+    input_energy_kNm: float | None
     recording: RecordingOut | None = None
 
     @classmethod

@@ -158,6 +158,7 @@ class RunService:
         run.trip = summary["trip"]
         run.elapsed_s, run.simulated_s = summary["elapsed_s"], summary["simulated_s"]
         run.floors_peak_mm = summary["floors_peak_mm"]
+        run.input_energy_kNm = summary["input_energy_kNm"]
         run.recording_sha256, run.recording_size = outcome.recording_sha256, outcome.recording_size
         run.stations = [RunStation(number=number, **station) for number, station in enumerate(summary["stations"], start=1)]
         state = State(summary["status"])

@@ -20,8 +20,11 @@ from rths_engine.plan import Plan
 from rths_engine.recording import load
 from rths_engine.run import simulate
 
-STATION = {"name", "mte_mm", "rms_percent", "mti_mm2", "mee_kNm", "peak_stroke_mm", "peak_force_kN"}
-SUMMARY = {"status", "trip", "elapsed_s", "simulated_s", "stations", "floors_peak_mm"}
+STATION = {
+    *("name", "mte_mm", "rms_percent", "mti_mm2", "mee_kNm", "peak_stroke_mm", "peak_force_kN"),
+    *("fei_delay_ms", "fei_amplitude", "nrms_percent", "peak_error_percent", "delay_ms", "energy_error_percent"),
+}
+SUMMARY = {"status", "trip", "elapsed_s", "simulated_s", "stations", "floors_peak_mm", "input_energy_kNm"}
 Write = Callable[..., Path]
 
 

@@ -54,6 +54,26 @@ def test_the_migration_goes_down_and_up_again_from_any_folder(
     assert differences(url) == []
 
 
+def test_runs_measured_before_a_migration_keep_what_was_measured(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'old.sqlite'}"
+    command.upgrade(db.alembic_config(url), "0001")
+    engine = db.connect(url)
+    text = dict.fromkeys(("id", "name", "digest", "code_version", "submitted_by"), "old")
+    numbers = {"number": 7, "plan": {}, "seed": 0, "attempt": 1, "duration_s": 1.0}
+    tables = sa.MetaData()
+    tables.reflect(engine)
+    with engine.begin() as connection:
+        run = {**text, **numbers, "state": "completed", "submitted_at": datetime.now(UTC)}
+        connection.execute(sa.insert(tables.tables["run"]).values(run))
+        station = {"run_number": 7, "number": 1, "name": "damper", "mte_mm": 2.5}
+        connection.execute(sa.insert(tables.tables["run_station"]).values(station))
+    db.migrate(url)
+    with db.unit_of_work(db.sessions(engine)) as session:
+        station = session.scalars(sa.select(RunStation)).one()
+        assert (station.name, station.mte_mm, station.fei_delay_ms) == ("damper", 2.5, None)
+    engine.dispose()
+
+
 def test_a_database_migrated_already_keeps_its_rows(url: str) -> None:
     engine = db.connect(url)
     with db.unit_of_work(db.sessions(engine)) as session:

@@ -29,6 +29,7 @@ SUMMARY = {
     "elapsed_s": 1.0,
     "simulated_s": 2.0,
     "floors_peak_mm": [10.0, 20.0],
+    "input_energy_kNm": 30.0,
     "stations": [
         {"name": "one", "mte_mm": 1, "rms_percent": 2, "mti_mm2": 3, "mee_kNm": 4, "peak_stroke_mm": 5, "peak_force_kN": 6},
     ],

@@ -141,6 +141,7 @@ def test_a_finished_run_gives_measures_recording_csv_report_and_plan(client: Tes
     assert run["state"] == "completed"
     assert run["stations"] == summary["stations"]
     assert run["floors_peak_mm"] == summary["floors_peak_mm"]
+    assert run["input_energy_kNm"] == summary["input_energy_kNm"] > 0
     hdf5 = client.get(f"{RUNS}/{run_id}/recording.h5")
     assert len(hdf5.content) == run["recording"]["size"]
     assert hdf5.headers["etag"] == f'"{run["recording"]["sha256"]}"'
@@ -187,7 +188,7 @@ def test_runs_without_a_measure_come_after_those_with_one(client: TestClient, se
     done, waiting = submit(client), submit(client)
     execute(client, settings, done)
     for order in ("asc", "desc"):
-        for sort in ("mte_mm:1", "finished_at"):
+        for sort in ("mte_mm:1", "fei_delay_ms:2", "finished_at"):
             found = client.get(RUNS, params={"sort": sort, "order": order}).json()["runs"]
             assert [run["id"] for run in found] == [done, waiting]
 

@@ -22,7 +22,8 @@ from rths_engine.ground_motions import MotionLibrary
 from tests.app.conftest import plan
 
 SUMMARY: dict[str, Any] = {
-    "status": "completed", "trip": None, "elapsed_s": 0.1, "simulated_s": 2.0, "floors_peak_mm": [1.0, 2.0], "stations": []
+    "status": "completed", "trip": None, "elapsed_s": 0.1, "simulated_s": 2.0, "floors_peak_mm": [1.0, 2.0],
+    "input_energy_kNm": 3.0, "stations": []
 }  # fmt: skip
 Script = Callable[[Job], Done | Failed]
 
