@@ -21,11 +21,11 @@ MASSLESS = 1e-9  # of the largest load: rounding of a condensation
 
 
 def floor_loads(plan: Plan) -> Array | None:
-    """`loads` of a plan; None where the ground also moves mass off the floors, whose displacements are not recorded."""
+    """`loads` of a plan; None without a structure, and where the ground moves mass off the floors, which is not recorded."""
+    if plan.driven:
+        return None
     built = plan.structure.assemble()
     every = loads(plan, built)
-    if not every.size:
-        return np.zeros((0, 0))
     floors = list(built.floors)
     elsewhere = np.delete(every, floors, axis=1)
     return every[:, floors] if np.max(np.abs(elsewhere), initial=0.0) <= MASSLESS * np.max(np.abs(every)) else None

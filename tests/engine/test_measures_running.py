@@ -29,16 +29,29 @@ def told(plan: Plan, chunk: int) -> tuple[Run, list[dict[str, Any]]]:
     return run, messages
 
 
+def close(ours: float | None, theirs: float | None, within: float) -> bool:
+    return ours is theirs if ours is None or theirs is None else ours == pytest.approx(theirs, rel=ROUNDING, abs=within)
+
+
 def agree(run: Run, last: dict[str, Any]) -> None:
     whole = run.result("completed", 0.0).summary()
-    assert last["input_energy_kNm"] == pytest.approx(whole["input_energy_kNm"], rel=ROUNDING)
+    assert close(last["input_energy_kNm"], whole["input_energy_kNm"], ROUNDING)
     for ours, theirs in zip(last["stations"], whole["stations"], strict=True):
         assert ours.keys() == theirs.keys()
         for name in ours.keys() - {"name"}:
-            assert ours[name] == pytest.approx(theirs[name], rel=ROUNDING, abs=INDEX.get(name, ROUNDING)), name
+            assert close(ours[name], theirs[name], INDEX.get(name, ROUNDING)), name
 
 
-@pytest.mark.parametrize(("template", "chunk"), [("table3-02", 97), ("table3-01", 5), ("linear-damper", 10**6)])
+@pytest.mark.parametrize(
+    ("template", "chunk"),
+    [
+        ("table3-02", 97),
+        ("table3-01", 5),
+        ("linear-damper", 10**6),
+        ("specimen-mr-damper", 640),
+        ("structure-free-vibration", 64),
+    ],
+)
 def test_running_measures_end_as_those_of_the_whole_record(template: str, chunk: int) -> None:
     run, messages = told(templates.template(template), chunk)
     agree(run, messages[-1])
