@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from app.shown import SILENT
 from rths_engine.plan import Plan
 from rths_engine.templates import PAPER
 
@@ -39,19 +40,20 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
         yield summary["trip"]["sentence"]
     yield f"{summary['simulated_s']:.2f} s simulated in {summary['elapsed_s']:.2f} s"
     stations = summary["stations"]
+    columns, beyond = (_telling(plan, table) for table in (COLUMNS, BEYOND))
     if stations:
         yield ""
         width = max(LEAST_NAME, *(len(station["name"]) for station in stations))
-        yield _row("Station", [heading for heading, _ in COLUMNS.values()], width)
+        yield _row("Station", [heading for heading, _ in columns.values()], width)
         for number, station in enumerate(stations):
-            yield _row(station["name"], _cells(station, COLUMNS), width)
+            yield _row(station["name"], _cells(station, columns), width)
             paper = _paper(plan, number)
             if paper:
                 yield _row("  paper", paper, width)
         yield ""
-        yield _row("Station", [heading for heading, _ in BEYOND.values()], width)
+        yield _row("Station", [heading for heading, _ in beyond.values()], width)
         for station in stations:
-            yield _row(station["name"], _cells(station, BEYOND), width)
+            yield _row(station["name"], _cells(station, beyond), width)
         yield ""
     if summary["floors_peak_mm"]:
         peaks = ", ".join(f"floor {number} {peak:.1f}" for number, peak in enumerate(summary["floors_peak_mm"], start=1))
@@ -60,6 +62,10 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
         yield f"Input energy, kN·m: {summary['input_energy_kNm']:.1f}"
     if out:
         yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
+
+
+def _telling(plan: Plan, table: dict[str, tuple[str, int]]) -> dict[str, tuple[str, int]]:
+    return {field: column for field, column in table.items() if field not in SILENT.get(plan.test, ())}
 
 
 def _row(name: str, cells: list[str], width: int) -> str:

@@ -62,6 +62,11 @@ class Run(Base):
         back_populates="run", order_by="RunStation.number", cascade="all, delete-orphan", lazy="selectin"
     )
 
+    @property
+    def test(self) -> str:
+        """Kind of test; plans of earlier versions know only the hybrid."""
+        return str(self.plan.get("test", "hybrid"))
+
 
 class RunStation(Base):
     """Measures of one station of a run (docs/measures.md); null where one is not defined or came out as no finite number."""

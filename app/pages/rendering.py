@@ -48,6 +48,11 @@ def clock(moment: datetime | None) -> str:
     return "–" if moment is None else moment.astimezone(UTC).strftime("%Y-%m-%d %H:%M")
 
 
+def kind(test: str) -> str:
+    """A kind of test in a word or two."""
+    return {"structure": "structure alone"}.get(test, test)
+
+
 def pace(plan: dict[str, Any]) -> str:
     """The planned pace in words."""
     planned = plan.get("pace", {})
@@ -57,7 +62,7 @@ def pace(plan: dict[str, Any]) -> str:
 
 
 templates = Jinja2Templates(directory=FRONTEND / "templates")
-templates.env.filters |= {"fixed": fixed, "ago": ago, "clock": clock, "pace": pace}
+templates.env.filters |= {"fixed": fixed, "ago": ago, "clock": clock, "kind": kind, "pace": pace}
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:

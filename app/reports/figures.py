@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from app.reports.decimate import Samples, extremes, packed
+from rths_engine.plan import Station
 
 POINTS = 130_000  # of all traces together: 2 x 4 bytes a point in base64 make 1.4 MB
 MOST_BUCKETS = 1200
@@ -23,6 +24,7 @@ class Panel:
     alt: str
     spec: dict[str, Any]
     wide: bool = False
+    tall: bool = False
 
 
 class Figures:
@@ -68,7 +70,16 @@ class Figures:
         spec = {"traces": traces, "x": "Time, s", "y": _labelled(quantity, unit), "from_zero": "" if part else "x"}
         return Panel(title, _sentence(title, of, time, signals, unit), spec, wide)
 
-    def against(self, title: str, x: tuple[str, str], y: tuple[str, str], of: str) -> Panel:
+    def work(self, title: str, group: str, of: str) -> Panel:
+        """Energy that a station's specimen took up, integral of f dx (kN m), against time."""
+        x, force = self.shown(f"{group}.x_meas") * 1e-3, self.shown(f"{group}.f_meas")
+        energy = np.cumsum(0.5 * (force + np.append(0.0, force[:-1])) * np.diff(x, prepend=0.0))
+        kept = extremes(energy[:, None], self.buckets)
+        trace = {"name": of, "x": packed(self.time[kept]), "y": packed(energy[kept]), "colour": 0}
+        spec = {"traces": [trace], "x": "Time, s", "y": "Energy, kN·m", "from_zero": "x"}
+        return Panel(title, _sentence(title, of, self.time, energy, "kN·m"), spec)
+
+    def against(self, title: str, x: tuple[str, str], y: tuple[str, str], of: str, large: bool = False) -> Panel:
         """One channel over another, each with its quantity: a hysteresis loop."""
         pair = np.column_stack([self.shown(x[0]), self.shown(y[0])])
         kept = extremes(pair, self.buckets)
@@ -80,27 +91,30 @@ class Figures:
             "from_zero": "",
         }
         alt = f"{title}, {of}: {_range(pair[:, 1], self.unit(y[0]))} over {_range(pair[:, 0], self.unit(x[0]))}."
-        return Panel(title, alt, spec)
+        return Panel(title, alt, spec, large, large)
 
 
-def station_panels(figures: Figures, group: str, name: str) -> list[Panel]:
-    """What Figures 8 and 9 of the paper show of one actuator, and a detail of its displacements."""
+def station_panels(figures: Figures, group: str, station: Station, test: str) -> list[Panel]:
+    """What is looked at in a kind of test; of a hybrid one what Figures 8 and 9 of the paper show of an actuator."""
+    name = station.name
+
+    def alone(title: str, key: str, quantity: str = "") -> Panel:
+        return figures.against_time(title, quantity or title, [(f"{group}.{key}", title)], name)
+
     pair = [(f"{group}.x_cmd", "Command"), (f"{group}.x_meas", "Measured")]
-    at = _detail(figures, group)
-    return [
-        figures.against_time("Command and measured displacement", "Displacement", pair, name, wide=True),
-        figures.against_time("Detail around the largest command", "Displacement", pair, name, at),
-        figures.against(
-            "Damper force against displacement",
-            (f"{group}.x_meas", "Measured displacement"),
-            (f"{group}.f_meas", "Damper force"),
-            name,
-        ),
-        figures.against_time("Tracking error", "Tracking error", [(f"{group}.error", "Tracking error")], name),
-        figures.against_time("Tracking indicator", "Tracking indicator", [(f"{group}.ti", "Tracking indicator")], name),
-        figures.against_time("Energy error", "Energy error", [(f"{group}.energy_error", "Energy error")], name),
-        figures.against_time("Adaptation Δα of the compensator", "Δα", [(f"{group}.d_alpha", "Δα")], name),
-    ]
+    moved = figures.against_time("Command and measured displacement", "Displacement", pair, name, wide=True)
+    detail = figures.against_time("Detail around the largest command", "Displacement", pair, name, _detail(figures, group))
+    measured = (f"{group}.x_meas", "Measured displacement")
+    force = (f"{group}.f_meas", "Damper force")
+    loop = figures.against("Damper force against displacement", measured, force, name, large=test == "specimen")
+    error, indicator = alone("Tracking error", "error"), alone("Tracking indicator", "ti")
+    adapted = [alone("Adaptation Δα of the compensator", "d_alpha", "Δα")] if station.compensator.kind != "none" else []
+    if test == "specimen":
+        return [loop, moved, alone("Measured force", "f_meas"), figures.work("Energy dissipated", group, name), error]
+    if test == "actuator":
+        pairs = figures.against("Measured against commanded displacement", pair[0], measured, name)
+        return [moved, detail, pairs, error, indicator, alone("Measured force", "f_meas"), *adapted]
+    return [moved, detail, loop, error, indicator, alone("Energy error", "energy_error"), *adapted]
 
 
 def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, damping: float) -> Panel:

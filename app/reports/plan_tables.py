@@ -38,11 +38,11 @@ class Group:
     grids: list[Grid] = field(default_factory=list)
 
 
-def groups(title: str, part: BaseModel, leave_out: Sequence[str] = ()) -> list[Group]:
-    """`part` as a group, followed by one group for each part nested in it."""
+def groups(title: str, part: BaseModel, test: str = "", leave_out: Sequence[str] = ()) -> list[Group]:
+    """`part` as a group, followed by one group for each part nested in it; without what the kind of `test` does not use."""
     own = Group(title)
     nested: list[Group] = []
-    for info, value in _fields(part, leave_out):
+    for info, value in _fields(part, test, leave_out):
         label = info.title or ""
         if isinstance(value, BaseModel):
             if any(True for _ in _fields(value)):
@@ -51,7 +51,9 @@ def groups(title: str, part: BaseModel, leave_out: Sequence[str] = ()) -> list[G
                 own.rows.append(Row(label, _name(value)))
         elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
             own.grids.append(_grid(label, value))
-        elif value is not None:
+        elif isinstance(value, tuple) and value and isinstance(value[0], tuple) and len(value[0]) <= _LISTED:
+            own.grids.append(_matrix(label, value, info))
+        elif value is not None and value != ():
             own.rows.append(Row(label, written(value, info), _extra(info).get("shown_label", "")))
         elif info.description:
             own.rows.append(Row(label, info.description.removeprefix("empty: ")))
@@ -66,7 +68,13 @@ def written(value: Any, info: FieldInfo) -> str:
         return ", ".join(written(item, info) for item in value) if len(value) <= _LISTED else f"{len(value)} values"
     if isinstance(value, float):
         return f"{value / _extra(info).get('factor', 1.0):.6g}".replace("-", "−")
-    return str(value)
+    return str(_extra(info).get("titles", {}).get(value, value))
+
+
+def _matrix(title: str, rows: Sequence[Sequence[float]], info: FieldInfo) -> Grid:
+    unit = _extra(info).get("shown_label", "")
+    columns = [str(number) for number in range(1, len(rows[0]) + 1)]
+    return Grid(f"{title}, {unit}" if unit else title, columns, [[written(value, info) for value in row] for row in rows])
 
 
 def _grid(title: str, parts: Sequence[BaseModel]) -> Grid:
@@ -77,9 +85,10 @@ def _grid(title: str, parts: Sequence[BaseModel]) -> Grid:
     return Grid(title, columns, rows)
 
 
-def _fields(part: BaseModel, leave_out: Sequence[str] = ()) -> Iterator[tuple[FieldInfo, Any]]:
+def _fields(part: BaseModel, test: str = "", leave_out: Sequence[str] = ()) -> Iterator[tuple[FieldInfo, Any]]:
     for name, info in type(part).model_fields.items():
-        if name not in _HIDDEN and name not in leave_out:
+        used = not test or test in _extra(info).get("tests", [test])
+        if used and name not in _HIDDEN and name not in leave_out:
             yield info, getattr(part, name)
 
 

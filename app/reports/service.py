@@ -8,16 +8,16 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from app.reports.figures import Figures, Panel, spectrum_panel, station_panels
+from app.reports.excitation import excitation
+from app.reports.figures import Figures, Panel, station_panels
 from app.reports.plan_tables import Group, groups
-from rths_engine.errors import MotionError
-from rths_engine.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
+from app.shown import KINDS, SILENT
+from rths_engine.ground_motions import MotionLibrary
+from rths_engine.metrics.decay import free_decay
 from rths_engine.recording import Recording
 from rths_engine.templates import PAPER
-from rths_engine.units import STANDARD_GRAVITY
 
 _TEMPLATES = Path(__file__).parents[2] / "frontend" / "templates"
 _MEASURES = (
@@ -28,29 +28,27 @@ _MEASURES = (
     ("peak_stroke_mm", "Peak stroke, mm", "largest measured displacement", 1),
     ("peak_force_kN", "Peak force, kN", "largest measured force of one damper", 1),
 )
-_PERIODS = np.concatenate([[0.0], np.geomspace(0.02, 4.0, 160)])  # s
-_DAMPING = 0.05
 
 
 def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrary | None = None) -> str:
     """The report of `run` (a RunOut as JSON) with its `recording`; `motions` finds the stored records besides the bundled."""
     figures = Figures(recording)
     stations = [
-        (number, station.name, station_panels(figures, f"s{number}", station.name))
+        (number, station.name, station_panels(figures, f"s{number}", station, recording.plan.test))
         for number, station in enumerate(recording.plan.stations, start=1)
     ]
-    motion = _motion(recording, motions or MotionLibrary(None), figures)
-    floors = _floors(recording, figures)
     return _template().render(
         plan=recording.plan,
         verdict=_verdict(run, recording),
         facts=_facts(run, recording),
-        measures=_MEASURES,
+        kind=KINDS[recording.plan.test],
+        measures=[measure for measure in _MEASURES if measure[0] not in SILENT.get(recording.plan.test, ())],
         results=_results(recording),
         floors_peak=recording.summary["floors_peak_mm"],
-        motion=motion,
+        excitation=excitation(recording, motions or MotionLibrary(None), figures),
         stations=stations,
-        floors=floors,
+        floors=_floors(recording, figures),
+        decay=_decay(recording),
         parts=_parts(recording),
         origin=_origin(run, recording),
         plotly=_plotly(),
@@ -62,7 +60,8 @@ def _verdict(run: dict[str, Any], recording: Recording) -> tuple[str, str]:
     """State and how the sentence that begins with it goes on."""
     simulated, trip = recording.summary["simulated_s"], recording.summary["trip"]
     if recording.status == "completed":
-        return "completed", f": all {simulated:.2f} s were simulated; no safety limit was exceeded."
+        limits = "; no safety limit was exceeded" if recording.plan.stations else ""
+        return "completed", f": all {simulated:.2f} s were simulated{limits}."
     if trip:
         return "tripped", trip["sentence"].removeprefix("Tripped").replace(" -", " −")
     return recording.status, f": {run.get('reason') or f'stopped at {simulated:.2f} s.'}"
@@ -96,54 +95,6 @@ def _results(recording: Recording) -> list[tuple[str, dict[str, float], Any]]:
     return rows
 
 
-def _motion(recording: Recording, motions: MotionLibrary, figures: Figures) -> dict[str, Any]:
-    plan = recording.plan
-    period = float(plan.periods()[0])
-    panels = [figures.against_time("Ground acceleration", "Ground acceleration", [("ag", "Ground acceleration")])]
-    try:
-        unscaled = plan.motion.unscaled(motions)
-        factor = plan.motion.scale.factor_for(unscaled, period)
-    except MotionError:
-        applied, facts = _recorded_motion(recording), _recorded_facts(recording)
-    else:
-        applied = unscaled.scaled(factor)
-        facts = [
-            ("Record", unscaled.title),
-            ("Event", unscaled.event),
-            ("Station", unscaled.station),
-            ("Component", unscaled.component),
-            ("Step and length", f"{unscaled.dt:g} s, {len(unscaled.acceleration)} samples, {unscaled.duration:.2f} s"),
-            ("PGA of the record", f"{unscaled.pga / STANDARD_GRAVITY:.3f} g"),
-            ("Scaling", f"{type(plan.motion.scale).title.lower()}, record × {factor:.4g}"),
-        ]
-    if applied is None:
-        return {"facts": facts, "panels": panels}
-    sa_t1 = spectral_acceleration(applied, period, _DAMPING) / STANDARD_GRAVITY
-    spectrum = response_spectrum(applied.acceleration, applied.dt, _PERIODS, _DAMPING) / STANDARD_GRAVITY
-    facts += [
-        ("PGA as applied", f"{applied.pga / STANDARD_GRAVITY:.3f} g"),
-        ("First period T₁", f"{period:.3f} s (analytical substructure, undamped)"),
-        ("Sa(T₁) as applied", f"{sa_t1:.3f} g at {_DAMPING * 100:g} % damping"),
-    ]
-    if applied.provenance:
-        facts.append(("Provenance", applied.provenance))
-    panels.append(spectrum_panel(_PERIODS, spectrum, period, sa_t1, _DAMPING))
-    return {"facts": [(label, text) for label, text in facts if text], "panels": panels}
-
-
-def _recorded_motion(recording: Recording) -> Motion | None:
-    """The ground acceleration at integration steps as recorded, where the record itself is out of reach."""
-    substeps = recording.plan.substeps
-    samples = recording.signal("ag")[substeps - 1 :: substeps]
-    return Motion("recorded", "recorded", recording.dt * substeps, samples) if len(samples) > 1 else None
-
-
-def _recorded_facts(recording: Recording) -> list[tuple[str, str]]:
-    name = getattr(recording.plan.motion, "record", recording.plan.motion.kind)
-    scale = type(recording.plan.motion.scale).title.lower()
-    return [("Record", name), ("Scaling", scale), ("Spectrum of", "the ground acceleration in this recording")]
-
-
 def _floors(recording: Recording, figures: Figures) -> list[Panel]:
     keys = [channel.key for channel in recording.channels if channel.group == "floors"]
     named = [(key, f"Floor {number}") for number, key in enumerate(keys, start=1)]
@@ -153,14 +104,38 @@ def _floors(recording: Recording, figures: Figures) -> list[Panel]:
     ]
 
 
+def _decay(recording: Recording) -> list[tuple[str, str]]:
+    """Period and damping of the highest floor where it swings freely."""
+    plan = recording.plan
+    if plan.start.at_rest or plan.forces or plan.motion.kind != "none":
+        return []
+    floors = [channel for channel in recording.channels if channel.group == "floors"]
+    found = free_decay(recording.signal(floors[-1].key), recording.dt)
+    if found is None:
+        return [("Free decay", "too few cycles for period and damping")]
+    cycles = f"{found.cycles} cycles of floor {len(floors)}"
+    return [
+        ("Period of the free decay", f"{found.period:.4g} s, {cycles}"),
+        ("Damping ratio", f"{found.ratio * 100:.3g} %, logarithmic decrement of the same cycles"),
+    ]
+
+
 def _parts(recording: Recording) -> list[tuple[str, list[Group]]]:
     plan = recording.plan
-    found = [
-        ("Ground motion", groups(type(plan.motion).title, plan.motion)),
-        ("Structure", groups(type(plan.structure).title, plan.structure)),
-        ("Test", groups("Time and pace", plan, leave_out=("motion", "structure", "stations"))),
-    ]
-    found += [(f"Station {j}: {station.name}", groups("Station", station)) for j, station in enumerate(plan.stations, start=1)]
+    found = []
+    if plan.driven:
+        found.append(("Drive", groups("Drive", plan.drive)))
+    if plan.motion.kind != "none":
+        found.append(("Ground motion", groups(type(plan.motion).title, plan.motion)))
+    found += [(f"Force on floor {force.floor}", groups("Force", force)) for force in plan.forces]
+    if not plan.start.at_rest:
+        found.append(("Start", groups("Start", plan.start)))
+    if plan.structure.kind != "none":
+        found.append(("Structure", groups(type(plan.structure).title, plan.structure)))
+    moved = ("motion", "forces", "start", "drive", "structure", "stations")
+    found.append(("Test", groups("Time and pace", plan, plan.test, leave_out=moved)))
+    for number, station in enumerate(plan.stations, start=1):
+        found.append((f"Station {number}: {station.name}", groups("Station", station, plan.test)))
     return found
 
 

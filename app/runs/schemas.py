@@ -63,6 +63,7 @@ class RunOut(BaseModel):
     id: str
     number: int
     name: str
+    test: str
     state: State
     digest: str
     code_version: str

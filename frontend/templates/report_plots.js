@@ -40,7 +40,7 @@
 
   function draw(theme, width) {
     for (const { box, spec } of plots) {
-      const size = width ? { width: width(box), height: 200 } : {};
+      const size = width ? { width: width(box), height: box.parentElement.classList.contains("tall") ? 400 : 200 } : {};
       Plotly.react(box, traces(spec, theme), layout(spec, theme, size), { displayModeBar: false, responsive: true });
     }
   }

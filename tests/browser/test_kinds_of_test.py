@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import re
+from collections.abc import Callable
+from typing import Any
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
+from tests.browser.test_pages import LOOKS
 
 SPREADSHEET = "50\t0\t0\r\n0\t50\t0\r\n0\t0\t40\r\n"
 
@@ -28,13 +33,13 @@ def test_another_kind_of_test_hides_what_it_does_not_use_and_brings_it_back(form
         expect(form.get_by_role("heading", name=heading, exact=True)).to_be_hidden()
     expect(form.locator("fieldset[data-path='stations.1']")).to_be_hidden()
     expect(form.get_by_label("Dampers in the storey").first).to_be_hidden()
-    with form.expect_response("**/plans/check") as answer:
+    with _checked(form, lambda plan: plan["drive"]["shape"]["kind"] == "sine") as answer:
         form.get_by_label("Shape", exact=True).select_option("sine")
     plan = answer.value.json()["plan"]
     assert (plan["motion"]["kind"], plan["structure"]["kind"], plan["start"]["displacement"]) == ("none", "none", [])
     assert [station["dampers"] for station in plan["stations"]] == [1]
     expect(form.locator(".good")).to_be_visible()
-    with form.expect_response("**/plans/check") as answer:
+    with _checked(form, lambda plan: plan["test"] == "hybrid") as answer:
         kind.select_option("hybrid")
     plan = answer.value.json()["plan"]
     assert [station["dampers"] for station in plan["stations"]] == [5, 4]
@@ -56,9 +61,9 @@ def test_matrices_are_pasted_from_a_spreadsheet_and_mistakes_told_beside_them(fo
     form.get_by_label("Start from a template").select_option("structure-matrices")
     mass = form.get_by_label("Mass matrix M, t")
     expect(mass).to_have_value("50  0  0\n0  50  0\n0  0  40")
-    with form.expect_response("**/plans/check") as answer:
+    with _checked(form, lambda plan: plan["structure"]["mass"][2][2] == 45e3) as answer:
         mass.fill(SPREADSHEET.replace("40", "45"))
-    assert answer.value.json()["plan"]["structure"]["mass"][2] == [0.0, 0.0, 45e3]
+    assert answer.value.json()["plan"]["structure"]["mass"] == [[50e3, 0.0, 0.0], [0.0, 50e3, 0.0], [0.0, 0.0, 45e3]]
     mass.fill("50 0 0\n0 50\n0 0 40")
     expect(form.locator("[id='e-structure.mass']")).to_have_text("row 2 has 2 numbers, row 1 has 3")
     mass.fill("50 1 0\n0 50 0\n0 0 40")
@@ -73,3 +78,64 @@ def test_samples_of_a_shape_are_pasted(form: Page) -> None:
     form.get_by_label("Values, shares of the amplitude").fill("0\n0.5\n1\n0.5\n0")
     expect(form.locator(".good")).to_be_visible()
     expect(form.locator("[data-path=drive] .facts-line")).to_contain_text("Peak displacement 20.00 mm")
+
+
+RUNS = {
+    "specimen-mr-damper": ("light", ["Damper force against displacement", "Displacement", "Measured force", "Tracking error"]),
+    "actuator-sweep": (
+        "dark",
+        [
+            "Displacement",
+            "Measured against commanded displacement",
+            "Tracking error",
+            "Measured force",
+            "Tracking indicator TI",
+        ],
+    ),
+    "structure-free-vibration": ("phone", ["Floor displacement relative to the ground"]),
+    "structure-matrices": ("light", ["Floor displacement relative to the ground", "Force on floor 3"]),
+    "structure-earthquake": ("dark", ["Floor displacement relative to the ground", "Ground acceleration"]),
+}
+
+
+@pytest.mark.parametrize("template", RUNS)
+def test_a_run_shows_the_charts_of_its_kind_of_test_and_none_that_is_empty(
+    template: str, idle: Service, opened: Opener
+) -> None:
+    look, charts = RUNS[template]
+    page = opened(f"/runs/{idle.completed(template=template, duration=3.0)}", **LOOKS[look])
+    expect(page.locator("#metrics tbody tr").first).to_be_visible()
+    expect(page.locator(".chart canvas").first).to_be_visible()
+    titles = [title.split(", ")[0] for title in page.locator(".chart figcaption strong").all_text_contents()]
+    assert titles == charts
+    stability = page.locator("#actions").get_by_role("link", name="Stability")
+    expect(stability).to_have_count(1 if template.startswith("structure") else 0)
+    _expect_whole(page)
+
+
+@pytest.mark.parametrize(("template", "look"), [("specimen-mr-damper", "dark"), ("structure-matrices", "phone")])
+def test_the_form_of_other_kinds_of_test_is_whole_and_accessible(
+    template: str, look: str, idle: Service, opened: Opener
+) -> None:
+    page = opened(f"/new?template={template}", **LOOKS[look])
+    expect(page.locator(".good")).to_be_visible()
+    _expect_whole(page)
+
+
+def test_a_test_without_a_loop_has_no_stability_and_says_so(opened: Opener) -> None:
+    page = opened("/stability/specimen-mr-damper")
+    expect(page.locator("#verdict")).to_contain_text("follows its drive: no loop that could be unstable")
+    expect(page.locator("table").first).to_be_hidden()
+
+
+def _checked(form: Page, holds: Callable[[Any], bool]) -> Any:
+    """The answer to the first check of a plan of which something holds."""
+    return form.expect_response(
+        lambda answer: answer.url.endswith("/plans/check") and holds(json.loads(answer.request.post_data or "{}"))
+    )
+
+
+def _expect_whole(page: Page) -> None:
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"

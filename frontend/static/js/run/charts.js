@@ -7,54 +7,80 @@ import { View } from "./view.js";
 /** @typedef {import("./store.js").Store} Store @typedef {import("./store.js").Channel} Channel */
 
 const COLOURS = ["--line-1", "--line-2", "--line-3", "--line-4"];
+const MOST_FLOORS = 8;
 
-const STATION_CHARTS = [
-  { title: "Displacement", keys: ["x_cmd", "x_meas"], labels: ["command", "measured"] },
-  { title: "Tracking error", keys: ["error"], labels: [""] },
-  { title: "Tracking indicator TI", keys: ["ti"], labels: [""] },
-  { title: "Adaptation Δα", keys: ["d_alpha"], labels: [""] },
-  { title: "Energy error", keys: ["energy_error"], labels: [""] },
-];
+/** Charts of a station: signals against time by `keys`, or one signal (y) against another (x). */
+const CHARTS = {
+  displacement: { title: "Displacement", keys: ["x_cmd", "x_meas"], labels: ["command", "measured"] },
+  force: { title: "Measured force", keys: ["f_meas"], labels: [""] },
+  error: { title: "Tracking error", keys: ["error"], labels: [""] },
+  ti: { title: "Tracking indicator TI", keys: ["ti"], labels: [""] },
+  d_alpha: { title: "Adaptation Δα", keys: ["d_alpha"], labels: [""] },
+  energy_error: { title: "Energy error", keys: ["energy_error"], labels: [""] },
+  hysteresis: { title: "Damper force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
+  tracking: { title: "Measured against commanded displacement", x: ["x_cmd", "command"], y: ["x_meas", "measured"] },
+};
 
-/** Build the charts of all groups into `host` and return the view that draws them. @param {HTMLElement} host @param {Store} store @param {string[]} stations */
-export function buildCharts(host, store, stations) {
+/** What a station shows in each kind of test, and what of it is large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], wide?: string, square?: string}>} */
+const SHOWN = {
+  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "ti", "d_alpha", "energy_error"] },
+  specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "error"], square: "hysteresis" },
+  actuator: { head: "Actuator", charts: ["displacement", "tracking", "error", "force", "ti", "d_alpha"], wide: "displacement" },
+};
+
+/** Build the charts of a plan's test into `host` and return the view that draws them. @param {HTMLElement} host @param {Store} store @param {any} plan */
+export function buildCharts(host, store, plan) {
   const view = new View(store);
   const series = (/** @type {string} */ key, /** @type {string} */ label, /** @type {number} */ i) => {
     const index = store.index(key);
     return { index, label, unit: store.channels[index].unit, colour: COLOURS[i % COLOURS.length] };
   };
-  const sections = stations.map((name, i) => {
-    const group = `s${i + 1}`;
-    const charts = STATION_CHARTS.map(({ title, keys, labels }) => {
-      const lines = keys.map((key, j) => series(`${group}.${key}`, labels[j], j));
-      if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // seen behind the measured line
-      return new TimeChart(view, title, lines[0].unit, lines);
+  const shown = SHOWN[plan.test] ?? SHOWN.hybrid;
+  const sections = plan.stations.map((/** @type {any} */ station, /** @type {number} */ i) => {
+    const wanted = shown.charts.filter((name) => name !== "d_alpha" || station.compensator.kind !== "none");
+    const charts = wanted.map((name) => {
+      const chart = stationChart(view, CHARTS[name], `s${i + 1}`, series);
+      if (name === shown.wide) chart.figure.element.classList.add("wide");
+      if (name === shown.square) chart.figure.element.classList.add("square");
+      return chart;
     });
-    const loop = new LoopChart(
-      view,
-      "Damper force against displacement",
-      series(`${group}.x_meas`, "displacement", 0),
-      series(`${group}.f_meas`, "force", 0),
-    );
-    return section(`Station ${i + 1}: ${name}`, [charts[0], loop, ...charts.slice(1)]);
+    return section(plan.stations.length > 1 ? `${shown.head} ${i + 1}: ${station.name}` : `${shown.head}: ${station.name}`, charts);
   });
-  host.replaceChildren(...sections, section("Structure", structureCharts(view, store, series)));
+  const alone = plan.test === "structure";
+  host.replaceChildren(...sections, ...[structure(view, store, series, alone), inputs(view, store, series, plan)].filter((one) => one !== null));
   return view;
 }
 
-/** @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series */
-function structureCharts(view, store, series) {
-  const charts = [];
+/** @param {View} view @param {any} chart @param {string} group @param {(key: string, label: string, i: number) => any} series */
+function stationChart(view, { title, keys, labels, x, y }, group, series) {
+  if (x) return new LoopChart(view, title, series(`${group}.${x[0]}`, x[1], 0), series(`${group}.${y[0]}`, y[1], 0));
+  const lines = keys.map((/** @type {string} */ key, /** @type {number} */ j) => series(`${group}.${key}`, labels[j], j));
+  if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // seen behind the measured line
+  return new TimeChart(view, title, lines[0].unit, lines);
+}
+
+/** Floor displacements, of a tall structure some; large where nothing else is measured. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {boolean} alone */
+function structure(view, store, series, alone) {
   const floors = store.channels.filter((channel) => channel.group === "floors");
-  if (floors.length) {
-    const lines = floors.map((channel, i) => series(channel.key, `floor ${i + 1}`, i));
-    charts.push(new TimeChart(view, "Floor displacement relative to the ground", lines[0].unit, lines));
-  }
-  if (store.index("ag") >= 0) {
-    const line = series("ag", "", 0);
-    charts.push(new TimeChart(view, "Ground acceleration", line.unit, [line]));
-  }
-  return charts;
+  if (!floors.length) return null;
+  const count = Math.min(floors.length, MOST_FLOORS);
+  const some = Array.from({ length: count }, (_, i) => Math.round(((i + 1) * floors.length) / count) - 1);
+  const lines = some.map((floor, i) => series(floors[floor].key, `floor ${floor + 1}`, i));
+  const title = "Floor displacement relative to the ground";
+  const chart = new TimeChart(view, count < floors.length ? `${title}, ${count} of ${floors.length}` : title, lines[0].unit, lines);
+  if (alone) chart.figure.element.classList.add("wide");
+  return section("Structure", [chart]);
+}
+
+/** What moves the structure: the ground, and forces on floors. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {any} plan */
+function inputs(view, store, series, plan) {
+  const still = plan.motion.kind === "none";
+  const channels = store.channels.filter((channel) => channel.group === "input" && !(still && channel.key === "ag"));
+  if (!channels.length) return null;
+  return section("Excitation", channels.map((channel) => {
+    const line = series(channel.key, "", 0);
+    return new TimeChart(view, channel.label, line.unit, [line]);
+  }));
 }
 
 /** @param {string} title @param {{figure: {element: HTMLElement}}[]} charts */

@@ -2,6 +2,7 @@
 import { el } from "../dom.js";
 import { fixed, number, size, when } from "../format.js";
 
+const KINDS = { hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone" };
 const ENDED = ["completed", "tripped", "cancelled", "failed"];
 
 /** @param {string} state */
@@ -13,13 +14,14 @@ export function facts(run) {
     ["Submitted", `${when(run.submitted_at)} by ${run.submitted_by || "unknown"}`],
     ["Started", when(run.started_at)],
     ["Ended", when(run.finished_at)],
-    ["Record", motion(run.plan?.motion)],
+    ["Kind of test", KINDS[/** @type {keyof typeof KINDS} */ (run.test)]],
+    ...(run.plan ? excitation(run.plan) : []),
     ["Template", run.template],
     ["Seed", run.seed],
     ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker of the one before died)` : null],
     ["Digest of the plan", run.digest],
     ["Code version", run.code_version],
-    ["Floor peaks", run.floors_peak_mm?.length ? `${run.floors_peak_mm.map((/** @type {number} */ x) => fixed(x)).join(", ")} mm` : null],
+    ["Floor peaks", run.stations?.length && run.floors_peak_mm?.length ? `${run.floors_peak_mm.map((/** @type {number} */ x) => fixed(x)).join(", ")} mm` : null],
     ["Recording", run.recording && `${size(run.recording.size)}, SHA-256 ${run.recording.sha256}`],
   ];
   return rows
@@ -27,9 +29,23 @@ export function facts(run) {
     .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
 }
 
+/** What moves the test. @param {any} plan @returns {[string, string | null][]} */
+function excitation({ motion, drive, forces = [], start }) {
+  const drawn = (/** @type {any} */ { amplitude, shape }, /** @type {number} */ factor, /** @type {string} */ unit) =>
+    `${number(amplitude / factor)} ${unit}, ${shape.kind.replaceAll("_", " ")}`;
+  const mm = (/** @type {number[] | undefined} */ values, /** @type {string} */ unit) =>
+    values?.some(Boolean) ? `${values.map((value) => number(1000 * value, 3)).join(", ")} ${unit}` : null;
+  return [
+    ["Drive", drive && drive.shape.kind !== "still" ? drawn(drive, 1e-3, "mm") : null],
+    ["Record", motion.kind === "none" ? null : record(motion)],
+    ...forces.map((/** @type {any} */ force) => [`Force on floor ${force.floor}`, drawn(force, 1e3, "kN")]),
+    ["Floors displaced", mm(start?.displacement, "mm")],
+    ["Floors moving", mm(start?.velocity, "mm/s")],
+  ];
+}
+
 /** @param {any} planned */
-function motion(planned) {
-  if (!planned) return null;
+function record(planned) {
   const { scale } = planned;
   const how = { factor: `× ${scale?.factor}`, pga: `scaled to PGA ${fixed(scale?.pga / 9.80665, 3)} g`, sa_t1: `scaled to Sa(T1) ${fixed(scale?.sa / 9.80665, 3)} g` };
   return `${planned.record ?? "written in the plan"} ${how[/** @type {keyof typeof how} */ (scale?.kind)] ?? ""}`;

@@ -14,7 +14,7 @@ export class LoopChart {
     this.view = view;
     this.x = x;
     this.y = y;
-    this.figure = new Figure(`${title}, ${y.unit} and ${x.unit}`, "", [x, y], false);
+    this.figure = new Figure(x.unit === y.unit ? `${title}, ${x.unit}` : `${title}, ${y.unit} and ${x.unit}`, "", [x, y], false);
     this.box = this.figure.plot;
     this.plot = null;
     view.add(this.figure.element, this);

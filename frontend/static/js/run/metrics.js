@@ -19,26 +19,36 @@ const LONG = {
   MEE: "extreme energy error",
 };
 
+/** What says nothing in a kind of test: without a structure there is no energy to be fed into it. @type {Record<string, string[]>} */
+const SILENT = { specimen: ["mti_mm2", "mee_kNm", "energy_error_percent"], actuator: ["mee_kNm", "energy_error_percent"] };
+
 /**
- * The measures of each station; beneath each the paper's, when the plan is one of its simulations.
+ * The measures of each station that say something in the kind of test; beneath each the paper's, when the plan is one of its simulations.
  * `paper` holds a pair of values a measure, or null where the paper's test was unstable.
- * @param {any[]} stations @param {Record<string, any> | null} paper
+ * @param {any[]} stations @param {Record<string, any> | null} paper @param {string} test
  */
-export function metricsTable(stations, paper) {
-  const head = MEASURES.map(([, name, unit]) => el("th", { class: "number", scope: "col", title: LONG[/** @type {keyof typeof LONG} */ (name)] }, `${name}, ${unit}`));
+export function metricsTable(stations, paper, test) {
+  const measures = MEASURES.filter(([key]) => !SILENT[test]?.includes(key));
+  const head = measures.map(([, name, unit]) => el("th", { class: "number", scope: "col", title: LONG[/** @type {keyof typeof LONG} */ (name)] }, `${name}, ${unit}`));
   const rows = stations.flatMap((station, i) => [
-    row("measured", station.name, MEASURES.map(([key, , , decimals]) => fixed(station[key], decimals))),
-    paper && row("paper", `Table IV, simulation ${paper.simulation}`, MEASURES.map(([key, , , decimals]) => ofPaper(paper, key, i, decimals))),
+    row("measured", station.name, measures.map(([key, , , decimals]) => fixed(station[key], decimals))),
+    paper && row("paper", `Table IV, simulation ${paper.simulation}`, measures.map(([key, , , decimals]) => ofPaper(paper, key, i, decimals))),
   ]);
+  return table("Measures of each station", [el("th", { scope: "col" }, "Station"), ...head], rows);
+}
+
+/** Largest floor displacements, where nothing else is measured. @param {number[]} peaks */
+export function floorsTable(peaks) {
+  const head = [el("th", { scope: "col" }, "Floor"), el("th", { class: "number", scope: "col" }, "Peak displacement, mm")];
+  return table("Peak displacement of each floor", head, peaks.map((peak, i) => row("measured", `Floor ${i + 1}`, [fixed(peak, 1)])));
+}
+
+/** @param {string} label @param {HTMLElement[]} head @param {any[]} rows */
+function table(label, head, rows) {
   return el(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": "Measures of each station" },
-    el(
-      "table",
-      {},
-      el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Station"), ...head)),
-      el("tbody", {}, ...rows),
-    ),
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
+    el("table", {}, el("thead", {}, el("tr", {}, ...head)), el("tbody", {}, ...rows)),
   );
 }
 

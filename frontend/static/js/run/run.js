@@ -5,7 +5,7 @@ import { person } from "../person.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
-import { metricsTable } from "./metrics.js";
+import { floorsTable, metricsTable } from "./metrics.js";
 import { Store } from "./store.js";
 
 const POLL_MS = 2000;
@@ -40,9 +40,9 @@ function show() {
   byId("facts").replaceChildren(...facts(run));
   showProgress(run);
   showActions();
-  const measured = ended(run.state) && run.stations?.length > 0 && run.recording;
+  const measured = ended(run.state) && run.recording && (run.stations?.length || run.floors_peak_mm?.length);
   byId("metrics").hidden = !measured;
-  if (measured) byId("metrics").replaceChildren(metricsTable(run.stations, paper));
+  if (measured) byId("metrics").replaceChildren(run.stations.length ? metricsTable(run.stations, paper, run.test) : floorsTable(run.floors_peak_mm));
 }
 
 /** @param {any} at */
@@ -62,7 +62,7 @@ function showActions() {
       ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("report.html", "Report")]
       : []),
     download("plan.yaml", "Plan, YAML"),
-    el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability"),
+    ...(run.test === "specimen" || run.test === "actuator" ? [] : [el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability")]),
     el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Run again or edit as a new test"),
   );
 }
@@ -91,7 +91,7 @@ const viewer = {
       attempt = schema.attempt;
       store = new Store(schema);
       view?.close();
-      view = buildCharts(byId("charts"), store, run.plan.stations.map((/** @type {any} */ station) => station.name));
+      view = buildCharts(byId("charts"), store, run.plan);
       byId("chart-controls").hidden = false;
       showWindow();
     }

@@ -1,0 +1,102 @@
+"""Reports, exports and text of each kind of test: what it measured, and nothing empty."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from app.runs.exports import csv_parts
+from rths_engine import templates
+from rths_engine.examples import EXAMPLES
+from rths_engine.recording import Recording
+from tests.app.test_reports import RUN, Page, recorded, report_html
+
+WANTED = {
+    "specimen-mr-damper": ["Drive", "Station 1: MR damper"],
+    "actuator-sweep": ["Drive", "Station 1: Servo-hydraulic actuator"],
+    "structure-earthquake": ["Ground motion", "Structure"],
+    "structure-free-vibration": ["Start", "Structure"],
+    "structure-matrices": ["Forces", "Structure"],
+}
+
+
+@pytest.fixture(scope="module")
+def reports(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Recording, Page]]:
+    folder = tmp_path_factory.mktemp("reports")
+    found = {}
+    for name in WANTED:
+        recording = recorded(folder, templates.template(name))
+        found[name] = recording, Page(report_html(RUN, recording))
+    return found
+
+
+def headings(page: Page) -> list[str]:
+    return [text for tag, text in page.texts if tag == "h2"]
+
+
+@pytest.mark.parametrize("name", WANTED)
+def test_a_report_has_the_sections_of_its_kind_of_test_and_no_empty_plot(
+    name: str, reports: dict[str, tuple[Recording, Page]]
+) -> None:
+    _, page = reports[name]
+    assert headings(page) == ["Results", *WANTED[name], "Test plan", "To run it again"]
+    assert page.specs
+    assert all(trace["x"]["bdata"] for spec in page.specs for trace in spec["traces"])
+
+
+def test_a_specimens_report_shows_its_loop_and_the_energy_it_dissipated(
+    reports: dict[str, tuple[Recording, Page]],
+) -> None:
+    _, page = reports["specimen-mr-damper"]
+    assert page.specs[0]["x"] == "Measured displacement, mm" and page.specs[0]["y"] == "Damper force, kN"
+    assert any(spec["y"] == "Energy, kN·m" for spec in page.specs)
+    assert "MTI" not in page.text and "Storey" not in page.text
+    assert "50 mm of 80 mm allowed" in page.text
+
+
+def test_the_energy_of_a_specimen_is_the_area_of_its_loops(reports: dict[str, tuple[Recording, Page]]) -> None:
+    recording, page = reports["specimen-mr-damper"]
+    x, force = recording.signal("s1.x_meas"), recording.signal("s1.f_meas")
+    area = np.trapezoid(force, x) * 1e-3
+    (said,) = [attrs["aria-label"] for _, attrs in page.tags if (attrs.get("aria-label") or "").startswith("Energy dissipated")]
+    assert said is not None and float(said.split(" to ")[-1].split()[0]) == pytest.approx(area, rel=0.01)  # three digits
+
+
+def test_an_actuators_report_shows_measured_against_commanded(reports: dict[str, tuple[Recording, Page]]) -> None:
+    _, page = reports["actuator-sweep"]
+    assert any(spec["x"] == "Command, mm" and spec["y"] == "Measured displacement, mm" for spec in page.specs)
+    assert "MTI" in page.text and "MEE" not in page.text
+
+
+def test_a_free_vibration_tells_period_and_damping(reports: dict[str, tuple[Recording, Page]]) -> None:
+    recording, page = reports["structure-free-vibration"]
+    said = page.text.split("Period of the free decay ")[1]
+    assert float(said.split()[0]) == pytest.approx(recording.plan.periods()[0], rel=0.005)  # dt = T1 / 55: omega dt^2 / 24
+    assert float(page.text.split("Damping ratio ")[1].split()[0]) == pytest.approx(2.0, rel=0.05)
+
+
+def test_given_matrices_are_printed_with_their_unit(reports: dict[str, tuple[Recording, Page]]) -> None:
+    _, page = reports["structure-matrices"]
+    assert "Stiffness matrix K, kN/m" in page.text
+    assert "72000 −32000 0" in page.text
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_command_line_runs_and_prints_every_kind(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, out = tmp_path / "plan.yaml", tmp_path / "rec.h5"
+    plan: Any = templates.template(name).as_dict() | {"pace": {"kind": "fastest"}}
+    path.write_text(json.dumps(plan))
+    assert main(["run", str(path), "--out", str(out)]) == 0
+    text = capsys.readouterr().out
+    assert ("Stroke mm" in text) == bool(plan["stations"])
+    assert ("Peak displacement, mm: floor 1" in text) == (plan["test"] in {"hybrid", "structure"})
+    assert ("MEE" in text) == (plan["test"] == "hybrid")
+    heading = next(csv_parts(out)).decode()
+    assert ("ag (g)" in heading) == (plan["test"] in {"hybrid", "structure"})
+    assert main(["stability", str(path)]) == 0
+    assert ("no loop" in capsys.readouterr().out) == (plan["test"] in {"specimen", "actuator"})
