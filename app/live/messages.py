@@ -13,5 +13,9 @@ def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Cha
     return {"type": "schema", "attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
 
 
-def progress(state: str, simulated_s: float, elapsed_s: float, duration_s: float) -> dict[str, Any]:
-    return {"type": "progress", "state": state, "simulated_s": simulated_s, "elapsed_s": elapsed_s, "duration_s": duration_s}
+def progress(
+    state: str, simulated_s: float, elapsed_s: float, duration_s: float, measures: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    """How far a run is; `measures` are those of a running test so far, `RunningMeasures.shown()`."""
+    told = {"type": "progress", "state": state, "simulated_s": simulated_s, "elapsed_s": elapsed_s, "duration_s": duration_s}
+    return told | ({"measures": measures} if measures else {})

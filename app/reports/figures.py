@@ -79,13 +79,19 @@ class Figures:
         spec = {"traces": [trace], "x": "Time, s", "y": "Energy, kN·m", "from_zero": "x"}
         return Panel(title, _sentence(title, of, self.time, energy, "kN·m"), spec)
 
-    def against(self, title: str, x: tuple[str, str], y: tuple[str, str], of: str, large: bool = False) -> Panel:
-        """One channel over another, each with its quantity: a hysteresis loop."""
+    def against(
+        self, title: str, x: tuple[str, str], y: tuple[str, str], of: str, large: bool = False, equal: bool = False
+    ) -> Panel:
+        """One channel over another, each with its quantity: a hysteresis loop; `equal` also draws where both are equal."""
         pair = np.column_stack([self.shown(x[0]), self.shown(y[0])])
         kept = extremes(pair, self.buckets)
-        trace = {"name": of, "x": packed(pair[kept, 0]), "y": packed(pair[kept, 1]), "colour": 0, "thin": True}
+        traces = [{"name": "Measured" if equal else of, **_line(pair[kept]), "colour": 0, "thin": True}]
+        if equal and len(pair):
+            known = np.nan_to_num(pair)
+            ends = np.array([known.min(), known.max()])
+            traces.append({"name": "Equal", **_line(np.column_stack([ends, ends])), "colour": 1, "thin": True})
         spec = {
-            "traces": [trace],
+            "traces": traces,
             "x": _labelled(x[1], self.unit(x[0])),
             "y": _labelled(y[1], self.unit(y[0])),
             "from_zero": "",
@@ -104,17 +110,17 @@ def station_panels(figures: Figures, group: str, station: Station, test: str) ->
     pair = [(f"{group}.x_cmd", "Command"), (f"{group}.x_meas", "Measured")]
     moved = figures.against_time("Command and measured displacement", "Displacement", pair, name, wide=True)
     detail = figures.against_time("Detail around the largest command", "Displacement", pair, name, _detail(figures, group))
-    measured = (f"{group}.x_meas", "Measured displacement")
+    command, measured = (f"{group}.x_cmd", "Command displacement"), (f"{group}.x_meas", "Measured displacement")
     force = (f"{group}.f_meas", "Damper force")
     loop = figures.against("Damper force against displacement", measured, force, name, large=test == "specimen")
+    subspace = figures.against("Synchronisation subspace", command, measured, name, equal=True)
     error, indicator = alone("Tracking error", "error"), alone("Tracking indicator", "ti")
     adapted = [alone("Adaptation Δα of the compensator", "d_alpha", "Δα")] if station.compensator.kind != "none" else []
     if test == "specimen":
         return [loop, moved, alone("Measured force", "f_meas"), figures.work("Energy dissipated", group, name), error]
     if test == "actuator":
-        pairs = figures.against("Measured against commanded displacement", pair[0], measured, name)
-        return [moved, detail, pairs, error, indicator, alone("Measured force", "f_meas"), *adapted]
-    return [moved, detail, loop, error, indicator, alone("Energy error", "energy_error"), *adapted]
+        return [moved, detail, subspace, error, indicator, alone("Measured force", "f_meas"), *adapted]
+    return [moved, detail, loop, subspace, error, indicator, alone("Energy error", "energy_error"), *adapted]
 
 
 def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, damping: float) -> Panel:
@@ -136,6 +142,10 @@ def _detail(figures: Figures, group: str) -> slice:
     start = max(float(time[0]), min(centre - DETAIL, float(time[-1]) - 2 * DETAIL))
     first, last = np.searchsorted(time, [start, start + 2 * DETAIL])
     return slice(int(first), int(last) + 1)
+
+
+def _line(points: Samples) -> dict[str, Any]:
+    return {"x": packed(points[:, 0]), "y": packed(points[:, 1])}
 
 
 def _labelled(quantity: str, unit: str) -> str:

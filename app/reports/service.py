@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from datetime import datetime
 from functools import cache
 from importlib.resources import files
@@ -16,10 +17,12 @@ from app.reports.plan_tables import Group, groups
 from app.shown import KINDS, SILENT
 from rths_engine.ground_motions import MotionLibrary
 from rths_engine.metrics.decay import free_decay
+from rths_engine.plan import Plan
 from rths_engine.recording import Recording
 from rths_engine.templates import PAPER
 
 _TEMPLATES = Path(__file__).parents[2] / "frontend" / "templates"
+Measure = tuple[str, str, str, int]  # field of the summary, heading, what it is, decimals
 _MEASURES = (
     ("mte_mm", "MTE, mm", "maximum tracking error", 2),
     ("rms_percent", "RMS, %", "root mean square tracking error", 2),
@@ -27,6 +30,14 @@ _MEASURES = (
     ("mee_kNm", "MEE, kN·m", "maximum energy error", 2),
     ("peak_stroke_mm", "Peak stroke, mm", "largest measured displacement", 1),
     ("peak_force_kN", "Peak force, kN", "largest measured force of one damper", 1),
+)
+_BEYOND = (
+    ("fei_delay_ms", "FEI delay, ms", "generalised delay by the frequency evaluation index", 2),
+    ("fei_amplitude", "FEI amplitude", "generalised amplitude by the frequency evaluation index", 4),
+    ("delay_ms", "Delay, ms", "lag of the largest cross-correlation of command and measured displacement", 2),
+    ("nrms_percent", "NRMSE, %", "root mean square tracking error over the range of the command", 2),
+    ("peak_error_percent", "Peak error, %", "largest tracking error over the largest command", 2),
+    ("energy_error_percent", "HSEE, %", "energy error of the station's dampers over the input energy", 2),
 )
 
 
@@ -42,9 +53,11 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
         verdict=_verdict(run, recording),
         facts=_facts(run, recording),
         kind=KINDS[recording.plan.test],
-        measures=[measure for measure in _MEASURES if measure[0] not in SILENT.get(recording.plan.test, ())],
+        measures=_telling(_MEASURES, recording.plan),
+        beyond=_telling(_BEYOND, recording.plan),
         results=_results(recording),
         floors_peak=recording.summary["floors_peak_mm"],
+        input_energy=recording.summary.get("input_energy_kNm"),
         excitation=excitation(recording, motions or MotionLibrary(None), figures),
         stations=stations,
         floors=_floors(recording, figures),
@@ -54,6 +67,11 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
         plotly=_plotly(),
         fixed=_fixed,
     )
+
+
+def _telling(measures: Sequence[Measure], plan: Plan) -> list[Measure]:
+    """Those that say something in the plan's kind of test."""
+    return [measure for measure in measures if measure[0] not in SILENT.get(plan.test, ())]
 
 
 def _verdict(run: dict[str, Any], recording: Recording) -> tuple[str, str]:
@@ -152,7 +170,10 @@ def _origin(run: dict[str, Any], recording: Recording) -> list[tuple[str, str]]:
     ]
 
 
-def _fixed(value: float, digits: int) -> str:
+def _fixed(value: float | None, digits: int) -> str:
+    """With fixed decimals and a real minus; a dash where there is none."""
+    if value is None:
+        return "–"
     text = f"{value:.{digits}f}"
     return text.replace("-", "−") if float(text) else text.removeprefix("-")
 

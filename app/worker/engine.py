@@ -106,8 +106,11 @@ class _Telling:
     """Advances a run in chunks at its pace, sends frames and progress, and looks for a cancel between chunks."""
 
     def __init__(self, run: Any, job: Job, pipe: Connection):
+        from rths_engine.metrics import RunningMeasures
+
         self.run, self.job, self.pipe = run, job, pipe
-        self.elapsed = 0.0
+        self.elapsed, self.measured = 0.0, 0
+        self.measures = RunningMeasures(run.plan, run.channels, run.history[0, 0])
         bucket = bucket_size(run.total)
         self.decimator = Decimator(run.channels, bucket)
         pipe.send(schema(job.attempt, run.dt, bucket, run.total, run.channels))
@@ -146,8 +149,10 @@ class _Telling:
     def _tell(self, elapsed: float, ended: bool) -> None:
         self.elapsed = elapsed
         self._frame(ended)
-        simulated, duration = self.run.done * self.run.dt, self.run.total * self.run.dt
-        self.pipe.send(progress("running", simulated, elapsed, duration))
+        done, dt = self.run.done, self.run.dt
+        self.measures.take(self.run.signals[self.measured : done])
+        self.measured = done
+        self.pipe.send(progress("running", done * dt, elapsed, self.run.total * dt, self.measures.shown()))
 
     def _frame(self, ended: bool) -> None:
         frame = self.decimator.frame(self.run.signals, self.run.done, ended)

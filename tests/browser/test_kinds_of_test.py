@@ -86,7 +86,7 @@ RUNS = {
         "dark",
         [
             "Displacement",
-            "Measured against commanded displacement",
+            "Synchronisation subspace",
             "Tracking error",
             "Measured force",
             "Tracking indicator TI",

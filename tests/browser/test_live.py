@@ -24,6 +24,20 @@ def test_a_reload_mid_run_shows_the_whole_history(idle: Service, opened: Opener)
     expect(page.locator("#state")).to_have_text("running")
 
 
+def test_measures_show_while_the_test_runs_and_end_as_those_stored(idle: Service, opened: Opener) -> None:
+    run = idle.submit(duration=6.0, pace=REAL_TIME)
+    page = opened(f"/runs/{run}")
+    stroke = page.locator(".tiles").first.get_by_text("Peak stroke").locator("xpath=following-sibling::dd")
+    expect(stroke).to_have_text(re.compile(r"^\d+\.\d mm$"))
+    expect(page.locator("#state")).to_have_text("running")
+    expect(page.get_by_role("img", name=re.compile("^Synchronisation subspace"))).to_have_count(2)
+    stored = idle.wait(run, "completed")
+    for station, tiles in zip(stored["stations"], page.locator(".tiles").all(), strict=False):
+        delay = tiles.get_by_text("FEI delay").locator("xpath=following-sibling::dd")
+        expect(delay).to_have_text(f"{station['fei_delay_ms']:.2f} ms")
+    expect(page.locator(".tiles").last).to_contain_text(f"{stored['input_energy_kNm']:.1f} kN·m")
+
+
 def test_a_lost_connection_is_told_and_mended(idle: Service, opened: Opener) -> None:
     run = idle.submit(duration=20.0, pace=REAL_TIME)
     page = opened("/runs")

@@ -1,6 +1,7 @@
 // @ts-check
 import { el } from "../dom.js";
 import { LoopChart } from "./loop_chart.js";
+import { Tiles } from "./tiles.js";
 import { TimeChart } from "./time_chart.js";
 import { View } from "./view.js";
 
@@ -18,19 +19,20 @@ const CHARTS = {
   d_alpha: { title: "Adaptation Δα", keys: ["d_alpha"], labels: [""] },
   energy_error: { title: "Energy error", keys: ["energy_error"], labels: [""] },
   hysteresis: { title: "Damper force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
-  tracking: { title: "Measured against commanded displacement", x: ["x_cmd", "command"], y: ["x_meas", "measured"] },
+  subspace: { title: "Synchronisation subspace", x: ["x_cmd", "command"], y: ["x_meas", "measured"], alike: true },
 };
 
 /** What a station shows in each kind of test, and what of it is large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], wide?: string, square?: string}>} */
 const SHOWN = {
-  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "ti", "d_alpha", "energy_error"] },
+  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "subspace", "ti", "d_alpha", "energy_error"] },
   specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "error"], square: "hysteresis" },
-  actuator: { head: "Actuator", charts: ["displacement", "tracking", "error", "force", "ti", "d_alpha"], wide: "displacement" },
+  actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "ti", "d_alpha"], wide: "displacement" },
 };
 
-/** Build the charts of a plan's test into `host` and return the view that draws them. @param {HTMLElement} host @param {Store} store @param {any} plan */
+/** Build the charts of a plan's test into `host`; the view draws them, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan */
 export function buildCharts(host, store, plan) {
   const view = new View(store);
+  const tiles = new Tiles(plan);
   const series = (/** @type {string} */ key, /** @type {string} */ label, /** @type {number} */ i) => {
     const index = store.index(key);
     return { index, label, unit: store.channels[index].unit, colour: COLOURS[i % COLOURS.length] };
@@ -44,23 +46,25 @@ export function buildCharts(host, store, plan) {
       if (name === shown.square) chart.figure.element.classList.add("square");
       return chart;
     });
-    return section(plan.stations.length > 1 ? `${shown.head} ${i + 1}: ${station.name}` : `${shown.head}: ${station.name}`, charts);
+    const title = plan.stations.length > 1 ? `${shown.head} ${i + 1}: ${station.name}` : `${shown.head}: ${station.name}`;
+    return section(title, tiles.stations[i].element, charts);
   });
   const alone = plan.test === "structure";
-  host.replaceChildren(...sections, ...[structure(view, store, series, alone), inputs(view, store, series, plan)].filter((one) => one !== null));
-  return view;
+  const rest = [structure(view, store, series, tiles.structure.element, alone), inputs(view, store, series, plan)];
+  host.replaceChildren(...sections, ...rest.filter((one) => one !== null));
+  return { view, tiles };
 }
 
 /** @param {View} view @param {any} chart @param {string} group @param {(key: string, label: string, i: number) => any} series */
-function stationChart(view, { title, keys, labels, x, y }, group, series) {
-  if (x) return new LoopChart(view, title, series(`${group}.${x[0]}`, x[1], 0), series(`${group}.${y[0]}`, y[1], 0));
+function stationChart(view, { title, keys, labels, x, y, alike }, group, series) {
+  if (x) return new LoopChart(view, title, series(`${group}.${x[0]}`, x[1], 0), series(`${group}.${y[0]}`, y[1], 0), alike);
   const lines = keys.map((/** @type {string} */ key, /** @type {number} */ j) => series(`${group}.${key}`, labels[j], j));
   if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // seen behind the measured line
   return new TimeChart(view, title, lines[0].unit, lines);
 }
 
-/** Floor displacements, of a tall structure some; large where nothing else is measured. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {boolean} alone */
-function structure(view, store, series, alone) {
+/** Floor displacements, of a tall structure some; large where nothing else is measured. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {HTMLElement} tiles @param {boolean} alone */
+function structure(view, store, series, tiles, alone) {
   const floors = store.channels.filter((channel) => channel.group === "floors");
   if (!floors.length) return null;
   const count = Math.min(floors.length, MOST_FLOORS);
@@ -69,7 +73,7 @@ function structure(view, store, series, alone) {
   const title = "Floor displacement relative to the ground";
   const chart = new TimeChart(view, count < floors.length ? `${title}, ${count} of ${floors.length}` : title, lines[0].unit, lines);
   if (alone) chart.figure.element.classList.add("wide");
-  return section("Structure", [chart]);
+  return section("Structure", tiles, [chart]);
 }
 
 /** What moves the structure: the ground, and forces on floors. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {any} plan */
@@ -77,13 +81,13 @@ function inputs(view, store, series, plan) {
   const still = plan.motion.kind === "none";
   const channels = store.channels.filter((channel) => channel.group === "input" && !(still && channel.key === "ag"));
   if (!channels.length) return null;
-  return section("Excitation", channels.map((channel) => {
+  return section("Excitation", null, channels.map((channel) => {
     const line = series(channel.key, "", 0);
     return new TimeChart(view, channel.label, line.unit, [line]);
   }));
 }
 
-/** @param {string} title @param {{figure: {element: HTMLElement}}[]} charts */
-function section(title, charts) {
-  return el("section", {}, el("h2", {}, title), el("div", { class: "charts" }, ...charts.map((chart) => chart.figure.element)));
+/** @param {string} title @param {HTMLElement | null} tiles @param {{figure: {element: HTMLElement}}[]} charts */
+function section(title, tiles, charts) {
+  return el("section", {}, el("h2", {}, title), tiles, el("div", { class: "charts" }, ...charts.map((chart) => chart.figure.element)));
 }

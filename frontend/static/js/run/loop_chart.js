@@ -5,13 +5,14 @@ import { axis, fit, padded, themed } from "./plot_style.js";
 
 /** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
 
-/** Force against displacement, from the last sample of each bucket in the range of time shown. */
+/** One signal against another, from the last sample of each bucket in the range of time shown. */
 export class LoopChart {
   visible = false;
 
-  /** @param {View} view @param {string} title @param {Series} x @param {Series} y */
-  constructor(view, title, x, y) {
+  /** @param {View} view @param {string} title @param {Series} x @param {Series} y @param {boolean} [alike] equal axes, and a line where both are equal */
+  constructor(view, title, x, y, alike = false) {
     this.view = view;
+    this.alike = alike;
     this.x = x;
     this.y = y;
     this.figure = new Figure(x.unit === y.unit ? `${title}, ${x.unit}` : `${title}, ${y.unit} and ${x.unit}`, "", [x, y], false);
@@ -37,12 +38,19 @@ export class LoopChart {
     const [from, to] = this.view.range();
     const first = Math.max(0, Math.floor(from / store.step));
     const end = Math.max(first, Math.min(store.count, Math.ceil(to / store.step)));
-    return [null, [store.last[this.x.index].subarray(first, end), store.last[this.y.index].subarray(first, end)]];
+    const points = [store.last[this.x.index].subarray(first, end), store.last[this.y.index].subarray(first, end)];
+    return this.alike ? [null, [this.#range(), this.#range()], points] : [null, points];
+  }
+
+  /** The range of one channel, or of both where the axes are equal. @param {number} [channel] @returns {[number, number]} */
+  #range(channel) {
+    const { lowest, highest } = this.view.store;
+    const shown = this.alike || channel === undefined ? [this.x.index, this.y.index] : [channel];
+    return padded(Math.min(...shown.map((k) => lowest[k])), Math.max(...shown.map((k) => highest[k])));
   }
 
   #create() {
-    const { store } = this.view;
-    const around = (/** @type {number} */ channel) => () => padded(store.lowest[channel], store.highest[channel]);
+    const around = (/** @type {number} */ channel) => () => this.#range(channel);
     const named = (/** @type {Series} */ one) => (one.unit ? `${one.label}, ${one.unit}` : one.label);
     const plot = new uPlot(
       {
@@ -53,7 +61,7 @@ export class LoopChart {
         cursor: { show: false },
         scales: { x: { time: false, range: around(this.x.index) }, y: { range: around(this.y.index) } },
         axes: [axis(named(this.x), 34), axis(undefined, 52)],
-        series: [null, { label: this.y.label, stroke: () => themed(this.y.colour), width: 1, facets: facets(), paths: loop }],
+        series: [null, ...(this.alike ? [line("equal", "--line-wide", 2)] : []), line(this.y.label, this.y.colour, 1)],
       },
       this.#points(),
       this.box,
@@ -66,10 +74,17 @@ export class LoopChart {
   }
 }
 
-const facets = () => [
-  { scale: "x", auto: true },
-  { scale: "y", auto: true },
-];
+/** @param {string} label @param {string} colour @param {number} width */
+const line = (label, colour, width) => ({
+  label,
+  stroke: () => themed(colour),
+  width,
+  facets: [
+    { scale: "x", auto: true },
+    { scale: "y", auto: true },
+  ],
+  paths: loop,
+});
 
 /** A path through all points in their order, leaving out those that fall on the pixel before. @param {any} u @param {number} series */
 function loop(u, series) {

@@ -5,7 +5,7 @@ import { person } from "../person.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
-import { floorsTable, metricsTable } from "./metrics.js";
+import { floorsTable, metricsTables } from "./metrics.js";
 import { Store } from "./store.js";
 
 const POLL_MS = 2000;
@@ -19,6 +19,8 @@ let paper = null;
 let store = null;
 /** @type {import("./view.js").View | null} */
 let view = null;
+/** @type {import("./tiles.js").Tiles | null} */
+let tiles = null;
 let attempt = 0;
 
 async function load() {
@@ -42,7 +44,10 @@ function show() {
   showActions();
   const measured = ended(run.state) && run.recording && (run.stations?.length || run.floors_peak_mm?.length);
   byId("metrics").hidden = !measured;
-  if (measured) byId("metrics").replaceChildren(run.stations.length ? metricsTable(run.stations, paper, run.test) : floorsTable(run.floors_peak_mm));
+  if (measured) {
+    tiles?.show(run);
+    byId("metrics").replaceChildren(...(run.stations.length ? metricsTables(run.stations, paper, run.test) : [floorsTable(run.floors_peak_mm)]));
+  }
 }
 
 /** @param {any} at */
@@ -91,8 +96,9 @@ const viewer = {
       attempt = schema.attempt;
       store = new Store(schema);
       view?.close();
-      view = buildCharts(byId("charts"), store, run.plan);
+      ({ view, tiles } = buildCharts(byId("charts"), store, run.plan));
       byId("chart-controls").hidden = false;
+      if (ended(run.state)) tiles.show(run);
       showWindow();
     }
     if (run.state !== states) show();
@@ -109,6 +115,7 @@ const viewer = {
     }
     Object.assign(run, progress);
     showProgress(progress);
+    if (progress.measures) tiles?.show(progress.measures);
   },
   end(last) {
     run = { ...run, ...last };
