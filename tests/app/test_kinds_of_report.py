@@ -69,7 +69,7 @@ def test_the_energy_of_a_specimen_is_the_area_of_its_loops(reports: dict[str, tu
 
 def test_an_actuators_report_shows_measured_against_commanded(reports: dict[str, tuple[Recording, Page]]) -> None:
     _, page = reports["actuator-sweep"]
-    assert any(spec["x"] == "Command, mm" and spec["y"] == "Measured displacement, mm" for spec in page.specs)
+    assert any(spec["x"] == "Command displacement, mm" and spec["y"] == "Measured displacement, mm" for spec in page.specs)
     assert "MTI" in page.text and "MEE" not in page.text
 
 

@@ -111,6 +111,18 @@ def test_the_measures_stand_beside_those_of_the_paper(fourth: tuple[Recording, s
     assert f"{recording.summary['floors_peak_mm'][1]:.1f}" in cells
 
 
+def test_the_further_measures_have_a_table_with_a_dash_where_there_is_none(tmp_path: Path) -> None:
+    recording = recorded(tmp_path, shortened("table3-04"))
+    del recording.summary["stations"][0]["delay_ms"]  # as in a recording from before it was measured
+    recording.summary["stations"][0]["energy_error_percent"] = None
+    page = Page(report_html(RUN, recording))
+    cells = [text for tag, text in page.texts if tag in ("th", "td")]
+    at, first = len(cells) - cells[::-1].index("1 · Storey 1 damper"), recording.summary["stations"][0]
+    assert cells[at : at + 2] == [f"{first['fei_delay_ms']:.2f}".replace("-0.00", "0.00"), f"{first['fei_amplitude']:.4f}"]
+    assert (cells[at + 2], cells[at + 5]) == ("–", "–")
+    assert f"largest input energy, {recording.summary['input_energy_kNm']:.1f} kN·m" in page.text
+
+
 def test_an_unstable_simulation_of_the_paper_is_called_so(tmp_path: Path) -> None:
     text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-01")))).text
     assert text.count("unstable: the test was stopped by its limits") == 2
@@ -153,6 +165,7 @@ def test_every_plot_of_figures_8_and_9_is_there_with_units_on_its_axes(fourth: t
         ("Time, s", "Tracking indicator, mm²"),
         ("Time, s", "Energy error, kN·m"),
         ("Time, s", "Δα"),
+        ("Command displacement, mm", "Measured displacement, mm"),
     ):
         assert axes.count(wanted) >= 2, wanted
     assert ("Time, s", "Ground acceleration, g") in axes
