@@ -67,7 +67,8 @@ def summary(number: int) -> dict[str, object]:
     trip = None if stable(paper) else {"time_s": 1.25, "sentence": "Tripped."}
     status = "completed" if stable(paper) else "tripped"
     times = {"elapsed_s": 0.1, "simulated_s": 40.0}
-    return {"status": status, "trip": trip, "stations": stations, "floors_peak_mm": [50.0, 95.0], **times}
+    peaks = {"floors_peak_mm": [50.0, 95.0], "input_energy_kNm": 900.0}
+    return {"status": status, "trip": trip, "stations": stations, **peaks, **times}
 
 
 def end(settings: Settings, run_id: str, found: dict[str, object]) -> None:
