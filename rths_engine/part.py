@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 from annotated_types import MaxLen
@@ -17,6 +18,7 @@ from rths_engine import units
 from rths_engine.arrays import Array
 from rths_engine.errors import Issue, PlanError, RthsError
 
+LONGEST_TEXT = 80  # characters of a refused text that are told
 T = TypeVar("T", bound=BaseModel)
 
 
@@ -99,12 +101,20 @@ def _too_long(value: Any, field: FieldInfo) -> bool:
     return isinstance(value, list | tuple) and len(value) > most
 
 
+@dataclass(frozen=True, slots=True)
+class _Unread:
+    """Text that is no quantity; pydantic refuses it where it stands, and the issue says what is wrong with it."""
+
+    text: str
+    problem: str
+
+
 def _in_si(value: Any, unit: str) -> Any:
     if isinstance(value, str):
         try:
             return units.parse(value, unit)
         except RthsError as error:
-            raise ValueError(error.issues[0].problem) from None
+            return _Unread(value, error.issues[0].problem)
     if isinstance(value, list | tuple):
         return [_in_si(item, unit) for item in value]
     return value
@@ -114,6 +124,8 @@ def _issue(detail: Any, data: Any) -> Issue:
     where = ".".join(str(step) for step in _path(detail["loc"], data))
     problem = str(detail["msg"]).removeprefix("Value error, ")
     given = detail["input"]
+    if isinstance(given, _Unread):
+        return Issue(where, given.problem, given.text if len(given.text) <= LONGEST_TEXT else given.text[:LONGEST_TEXT] + "…")
     value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
     return Issue(where, _plain(detail, problem), value)
 

@@ -5,12 +5,17 @@ from __future__ import annotations
 import argparse
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from app.cli import parser
 from app.config import VARIABLES, Settings
 from app.main import create_app
+from rths_engine import integrators
+from rths_engine.plan import Plan
+from rths_engine.run import simulate
+from rths_engine.shapes import SHAPES
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text()
@@ -40,6 +45,18 @@ def test_the_rest_page_names_every_route_and_no_other(tmp_path: Path) -> None:
     routes = create_app(Settings(data=tmp_path, embedded_worker=False)).openapi()["paths"]
     served = {f"{method.upper()} {path}" for path, methods in routes.items() for method in methods}
     assert set(re.findall(r"^\| `([A-Z]+ [^`]+)` \|", REST, re.MULTILINE)) == served
+
+
+@pytest.mark.parametrize("text", re.findall(r"^```yaml\n(.*?)^```", (ROOT / "docs" / "tests.md").read_text(), re.M | re.S))
+def test_every_example_of_a_kind_of_test_runs_to_its_end(text: str) -> None:
+    assert simulate(Plan.from_yaml(text)).status == "completed"
+
+
+@pytest.mark.parametrize("kinds", [SHAPES, integrators.KINDS], ids=["shapes", "integrators"])
+def test_the_page_of_tests_names_every_kind(kinds: tuple[type[Any], ...]) -> None:
+    page = (ROOT / "docs" / "tests.md").read_text()
+    missing = [kind.model_fields["kind"].default for kind in kinds if f"| `{kind.model_fields['kind'].default}` |" not in page]
+    assert missing == []
 
 
 def test_the_licences_of_bundled_records_lie_beside_them() -> None:

@@ -10,11 +10,14 @@ from rths_engine.errors import Issue, PlanError
 
 PROBLEM = "its stiffness matrix is singular: it is a mechanism"
 MECHANISM = Issue("structure", PROBLEM, fix="support it or raise its softest stiffness")
+WEIGHTLESS = Issue(
+    "structure", "a degree of freedom has next to no mass beside the others", fix="give it more mass, or none at all"
+)
 LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled to rounding
 
 
 def circular_frequencies(mass: Array, stiffness: Array) -> Array:
-    """omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none. PlanError for a mechanism.
+    """omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none. PlanError for a mechanism or next to no mass.
 
     1/omega^2 are the eigenvalues of G^T F G, where F is the flexibility at the DOF that have mass and G G^T their mass matrix.
     """
@@ -26,7 +29,10 @@ def circular_frequencies(mass: Array, stiffness: Array) -> Array:
             raise PlanError(MECHANISM)
         flexibility = cho_solve((factor, lower), np.eye(len(mass))[:, massive])[massive]
         root = cholesky(mass[np.ix_(massive, massive)], lower=True)
-        omega: Array = 1 / np.sqrt(eigvalsh(root.T @ flexibility @ root)[::-1])
+        squares = eigvalsh(root.T @ flexibility @ root)  # 1 / omega^2, rising
+        if not squares[0] > 0:
+            raise PlanError(WEIGHTLESS)
+        omega: Array = 1 / np.sqrt(squares[::-1])
     except (LinAlgError, ValueError):
         raise PlanError(MECHANISM) from None
     return omega

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import pairwise
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -20,6 +20,7 @@ from rths_engine.structures.sections import SECTIONS
 from rths_engine.units import STANDARD_GRAVITY
 
 MOST_DOF = 3000  # K is stored dense while a plan is checked
+BayWidth = Annotated[float, Field(ge=0.1, le=100)]
 LEAN_AREA = 0.5  # m^2
 LEAN_INERTIA = 1e-5  # m^4, next to none
 
@@ -27,7 +28,7 @@ LEAN_INERTIA = 1e-5  # m^4, next to none
 class FrameStorey(Value):
     """One storey: its columns, the beams of the floor on top of it, the floor's mass and the braces to its dampers."""
 
-    height: float = quantity("Storey height", "m", gt=0, le=50)
+    height: float = quantity("Storey height", "m", ge=0.1, le=50)
     mass: float = quantity("Floor mass", "kg", "t", gt=0, le=1e9, help="the frame's tributary mass, also its gravity load")
     column: str = Field(title="Column section", min_length=1)
     beam: str = Field(title="Beam section", min_length=1)
@@ -57,13 +58,13 @@ class MomentFrame(Value):
     """
 
     kind: Literal["moment_frame"] = "moment_frame"
-    bays: tuple[float, ...] = quantity("Bay widths", "m", min_length=1, max_length=20)
+    bays: tuple[BayWidth, ...] = quantity("Bay widths", "m", min_length=1, max_length=20)
     storeys: tuple[FrameStorey, ...] = Field(title="Storeys", min_length=1, max_length=50)
     damping_ratio: float = quantity("Damping ratio of modes 1 and 2", shown="%", ge=0, lt=1, default=0.02)
     fixed_base: bool = Field(True, title="Fixed column bases")
     inelastic: bool = Field(True, title="Members yield")
     p_delta: bool = Field(True, title="P-delta of the gravity frames")
-    hinge_fraction: float = quantity("Length of an end segment", shown="%", gt=0, lt=0.5, default=0.05)
+    hinge_fraction: float = quantity("Length of an end segment", shown="%", ge=1e-3, le=0.49, default=0.05)
     hardening: float = quantity("Strain hardening", shown="%", ge=0, lt=1, default=0.03)
     elastic_modulus: float = quantity("Elastic modulus", "N/m^2", "GPa", gt=0, le=1e13, default=200e9)
     yield_stress: float = quantity("Yield stress", "N/m^2", "MPa", gt=0, le=1e11, default=345e6)

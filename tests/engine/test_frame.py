@@ -111,7 +111,7 @@ def test_a_yielding_frame_dissipates_and_drifts_less_than_its_stiffness_says() -
     ("change", "message"),
     [
         ({"bays": []}, "at least 1 item"),
-        ({"hinge_fraction": 0.5}, "needs a value < 0.5"),
+        ({"hinge_fraction": 0.5}, "needs a value <= 0.49"),
         (
             {"storeys": [{"height": 4, "mass": -1, "column": "W14x120", "beam": "W24x55"}]},
             "storeys.0.mass = -1: needs a value > 0",
