@@ -18,6 +18,8 @@ STANDARD_INPUT = "-"
 def read_plan(given: Namespace) -> Plan:
     """Raises PlanError with every issue."""
     plan = Plan.from_yaml(_text(given.plan))
+    if given.record and plan.driven:
+        raise PlanError(Issue("--record", f"is not used: a test of one {plan.test} follows its drive", fix="leave it out"))
     if given.record:
         motion = {"kind": "file", "path": given.record, "unit": given.record_unit, "dt": given.record_dt}
         return _with_motion(plan, validated(FileMotion, {**motion, "scale": plan.motion.scale}))

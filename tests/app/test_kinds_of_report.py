@@ -100,3 +100,20 @@ def test_the_command_line_runs_and_prints_every_kind(name: str, tmp_path: Path, 
     assert ("ag (g)" in heading) == (plan["test"] in {"hybrid", "structure"})
     assert main(["stability", str(path)]) == 0
     assert ("no loop" in capsys.readouterr().out) == (plan["test"] in {"specimen", "actuator"})
+
+
+def test_a_record_for_a_test_that_follows_its_drive_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "plan.yaml"
+    path.write_text(templates.template("specimen-mr-damper").to_yaml())
+    assert main(["run", str(path), "--record", "shake.at2"]) == 2
+    assert "--record" in capsys.readouterr().err
+
+
+def test_a_specimen_that_trips_is_reported_as_far_as_it_came(tmp_path: Path) -> None:
+    plan = templates.template("specimen-mr-damper")
+    (station,) = plan.stations
+    weak = station.model_copy(update={"limits": station.limits.model_copy(update={"force": 1.6e5})})
+    recording = recorded(tmp_path, plan.model_copy(update={"stations": (weak,)}))
+    page = Page(report_html(RUN, recording))
+    assert recording.status == "tripped" and 12.0 < recording.summary["simulated_s"] < 20.0  # in the second level
+    assert "Tripped" in page.text and headings(page)[1] == "Drive"

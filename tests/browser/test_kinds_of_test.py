@@ -80,6 +80,16 @@ def test_samples_of_a_shape_are_pasted(form: Page) -> None:
     expect(form.locator("[data-path=drive] .facts-line")).to_contain_text("Peak displacement 20.00 mm")
 
 
+def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) -> None:
+    form.get_by_label("Ground motion").select_option("none")
+    expect(form.get_by_label("Record", exact=True)).to_have_count(0)
+    with _checked(form, lambda plan: len(plan["forces"]) == 1) as answer:
+        form.get_by_role("button", name="Add a floor force").click()
+    assert answer.value.json()["summary"]["pga"] is None
+    form.get_by_label("Floor", exact=True).fill("3")
+    expect(form.locator("[id='e-forces.0.floor']")).to_contain_text("the structure has 2 floors")
+
+
 RUNS = {
     "specimen-mr-damper": ("light", ["Damper force against displacement", "Displacement", "Measured force", "Tracking error"]),
     "actuator-sweep": (

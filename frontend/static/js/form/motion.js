@@ -16,8 +16,9 @@ import { uploadBox } from "./upload.js";
 export function motionPart(schema, unresolved, value, records) {
   const node = schema.resolve(unresolved);
   const kinds = schema.kinds(node);
-  const offered = [...kinds].filter(([kind]) => kind === "record" || kind === "none" || kind === value?.kind);
-  const choice = choiceField("motion.kind", node.title, new Map(offered.map(([kind, option]) => [kind, kindLabel(option)])), value?.kind);
+  const first = value?.kind === "none" || value?.kind === "inline" ? value.kind : "record"; // a file is the command line's
+  const offered = [...kinds].filter(([kind]) => kind === "record" || kind === "none" || kind === first);
+  const choice = choiceField("motion.kind", node.title, new Map(offered.map(([kind, option]) => [kind, kindLabel(option)])), first);
   const body = el("div", {});
   const makers = {
     record: () => recordPart(schema, /** @type {Node} */ (kinds.get("record")), value?.kind === "record" ? value : {}, records),
