@@ -81,7 +81,7 @@ def test_samples_of_a_shape_are_pasted(form: Page) -> None:
 
 
 def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) -> None:
-    form.get_by_label("Ground motion").select_option("none")
+    form.get_by_role("combobox", name="Ground motion").select_option("none")
     expect(form.get_by_label("Record", exact=True)).to_have_count(0)
     with _checked(form, lambda plan: len(plan["forces"]) == 1) as answer:
         form.get_by_role("button", name="Add a floor force").click()

@@ -24,7 +24,7 @@ def test_a_test_is_submitted_watched_to_its_end_and_its_recording_downloaded(for
     form.get_by_role("button", name="Queue the test").click()
     form.wait_for_url("**/runs/*")
     expect(form.locator("#state")).to_have_text("completed")
-    expect(form.locator("#metrics tbody tr.measured")).to_have_count(2)
+    expect(form.get_by_role("region", name="Measures of each station", exact=True).locator("tbody tr")).to_have_count(2)
     expect(form.locator("#clock")).to_contain_text("5.00 of 5.00 s simulated")
     expect(form.locator(".chart canvas").first).to_be_visible()
     with form.expect_download() as download:
