@@ -31,7 +31,7 @@ def design_basis(motion: M, motions: MotionLibrary, laboratory: Laboratory = LAB
     """
 
     def excess(logarithm: float) -> float:
-        return _floors(_times(motion, math.exp(logarithm)), motions, laboratory)
+        return floors_excess(_times(motion, math.exp(logarithm)), motions, laboratory)
 
     low, high = math.log(LEAST), math.log(MOST)
     if excess(low) > 0 or excess(high) < 0:
@@ -44,7 +44,7 @@ def _times(motion: M, factor: float) -> M:
     return motion.model_copy(update={"scale": Factor(factor=factor)})
 
 
-def _floors(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory) -> float:
+def floors_excess(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory) -> float:
     """ln of the floors' peaks over the paper's; 1 where even these limits are exceeded."""
     plan = plans(motion, laboratory)[2]
     stations = tuple(station.model_copy(update={"limits": FAR}) for station in plan.stations)
