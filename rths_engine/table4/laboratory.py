@@ -21,7 +21,7 @@ HEIGHTS = (4.57, 3.96)  # m
 BEAMS = ("W24x55", "W18x40")
 DURATION = 40.0  # s
 PlannedRecord = RecordMotion | FileMotion
-BUNDLED = RecordMotion(record="landers-1992-yermo-270", scale=Factor(factor=1.166))
+BUNDLED = RecordMotion(record="landers-1992-yermo-270", scale=Factor(factor=1.174))
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +38,12 @@ class Laboratory:
 
 
 LABORATORY = Laboratory(
-    time_constant=(28.7 / 1024, 36.5 / 1024),
-    valve_time=3.1e-3,
-    displacement_noise=6.8e-5,
-    damper_stiffness=1e8,
-    brace_ratio=40.0,
-    equivalent_damping=1e6,
+    time_constant=(27.267e-3, 37.557e-3),
+    valve_time=4.7921e-3,
+    displacement_noise=99.4e-6,
+    damper_stiffness=156.13e6,
+    brace_ratio=12.951,
+    equivalent_damping=16.41e6,
 )
 
 
