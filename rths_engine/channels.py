@@ -51,7 +51,7 @@ def channels(plan: Plan) -> tuple[Channel, ...]:
         found.append(Channel("ag", "Ground acceleration", "m/s^2", "g", "input"))
         for number, force in enumerate(plan.forces, start=1):
             found.append(Channel(f"force{number}", f"Force on floor {force.floor}", "N", "kN", "input"))
-        for floor in range(1, len(plan.structure.assemble().floors) + 1):
+        for floor in range(1, len(plan.assembled().floors) + 1):
             found.append(Channel(f"floor{floor}.x", f"Floor {floor} displacement", "m", "mm", "floors"))
     for number, station in enumerate(plan.stations, start=1):
         found += [

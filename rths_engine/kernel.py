@@ -56,32 +56,19 @@ def entry(function: Callable[..., Any]) -> Any:
 def fold(steps: Sequence[Callable[..., Any]]) -> Any:
     """One compiled `dispatch(code, *args)` that calls `steps[code](*args)`; the last step answers any higher code.
 
-    Each dispatch is named by what it holds. Code that was kept on disk finds what it calls by name, and would call another
-    process's closure of the same name and number.
+    Written out as one chain of branches: a function for each branch compiles twice as long, and deepens the compiler's
+    recursion. Each dispatch is named by what it holds. Code that was kept on disk finds what it calls by name, and would call
+    another process's dispatch of the same name.
     """
-    last = compiled(steps[-1])
-
-    def only(code, *args):
-        return last(*args)
-
-    dispatch = compiled(_named(only, 0, steps[-1:]))
-    for code in reversed(range(len(steps) - 1)):
-        dispatch = _choice(code, steps[code:], dispatch)
-    return dispatch
+    last = len(steps) - 1
+    branches = [f"    if code == {code}:\n        return step_{code}(*args)" for code in range(last)]
+    scope = {f"step_{code}": compiled(step) for code, step in enumerate(steps)}
+    exec("\n".join(["def dispatch(code, *args):", *branches, f"    return step_{last}(*args)"]), scope)
+    return compiled(named(scope["dispatch"], steps))
 
 
-def _choice(own: int, steps: Sequence[Callable[..., Any]], rest: Any) -> Any:
-    step = compiled(steps[0])
-
-    def choose(code, *args):
-        if code == own:
-            return step(*args)
-        return rest(code, *args)
-
-    return compiled(_named(choose, own, steps))
-
-
-def _named(function: Callable[..., Any], own: int, steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+def named(function: Callable[..., Any], steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+    """The closure under a name of its own: a digest of what it calls."""
     held = "|".join(f"{step.__module__}.{step.__qualname__}" for step in steps)
-    function.__qualname__ = f"{function.__name__}_{own}_{hashlib.sha256(held.encode()).hexdigest()[:16]}"
+    function.__qualname__ = f"{function.__name__}_{hashlib.sha256(held.encode()).hexdigest()[:16]}"
     return function

@@ -12,17 +12,24 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rths_engine import actuators, compensators, specimens
-from rths_engine.kernel import compiled, entry, fold
+from rths_engine.dispatch import (
+    actuate,
+    compensate,
+    extend_actuator,
+    extend_sensor,
+    extend_specimen,
+    extend_storey,
+    own,
+    resist,
+    resisted,
+)
+from rths_engine.kernel import compiled, entry
+from rths_engine.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR
 from rths_engine.restoring import subtract_forces, subtract_product
 from rths_engine.solve import solve
 
-_compensate = fold([part.step for part in compensators.KINDS])
-_actuate = fold([part.step for part in actuators.KINDS])
-_resist = fold([part.step for part in specimens.KINDS])
-
 # memory of a station between substeps
-X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, MEMORY = range(9)
+X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, X_TRUE, V_TRUE, X_SENT, X_END, MEMORY = range(13)
 # columns a station records
 STATION_COLUMNS = ("x_cmd", "x_comp", "x_meas", "f_meas", "error", "ti", "d_alpha", "energy_error")
 # parts of a station
@@ -84,6 +91,15 @@ class State(NamedTuple):
     memory: Any  # (S, MEMORY)
 
 
+class LeftOut(NamedTuple):
+    """Left-out effects of a plan that has any. Without them the loop is compiled without a trace of them."""
+
+    stations: Any  # dispatch.Effects, stacked
+    storeys: Any  # dispatch.Effects, stacked, E effects of storeys
+    drifts: Any  # (E, DOF), takes x to the drift that each works against
+    stiffness: Any  # (E), elastic, along that drift
+
+
 class Record(NamedTuple):
     """What a run writes. Columns of signals: inputs, floors, stations; trip: station from 0, value, bound, substep from 1."""
 
@@ -93,7 +109,27 @@ class Record(NamedTuple):
 
 
 @compiled
-def _substep(j, setup, state, x_cmd, noise, row):
+def _extended_rig(j, setup, state, left_out, x_comp, noise, t):
+    """Actuator, specimen and sensors of station j with the effects on them (`physics.effect`): the readings."""
+    memory, dt, effects = state.memory[j], setup.dt, own(left_out.stations, j)
+    codes, parameters, parts = setup.codes[j], setup.parameters, state.parts
+    force, before = memory[F_TRUE], memory[X_TRUE]
+    sent = extend_actuator(COMMAND, effects, x_comp, before, memory[V_TRUE], force, t, dt)
+    x = actuate(codes[ACTUATOR], parameters[ACTUATOR, j], parts[ACTUATOR, j], sent, force)
+    x = extend_actuator(PISTON, effects, x, sent, (sent - memory[X_SENT]) / dt, force, t, dt)
+    v = (x - before) / dt
+    u = extend_specimen(INPUT, effects, x, x, v, force, t, dt)
+    flexibility = extend_specimen(SERIES, effects, 0.0, x, v, force, t, dt)
+    u, force = resisted(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], flexibility, u, dt)
+    force = extend_specimen(FORCE, effects, force, u, (u - memory[X_END]) / dt, 1.0, t, dt)
+    memory[X_TRUE], memory[V_TRUE], memory[X_SENT], memory[X_END], memory[F_TRUE] = x, v, sent, u, force
+    x_meas = extend_sensor(X_SENSOR, effects, x + noise[0], x, v, x, t, dt)
+    f_meas = extend_sensor(F_SENSOR, effects, force + noise[1], x, v, force, t, dt)
+    return x_meas, f_meas
+
+
+@compiled
+def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
     """One controller step of station j into its row. Returns the position of the broken limit plus 1, or 0, and the value."""
     memory, limits, dt = state.memory[j], setup.limits[j], setup.dt
     codes, parameters, parts = setup.codes[j], setup.parameters, state.parts
@@ -102,24 +138,41 @@ def _substep(j, setup, state, x_cmd, noise, row):
         return 1, x_cmd
     if not _within(velocity, limits[1]):
         return 2, velocity
-    own = parts[COMPENSATOR, j]
+    adapted = parts[COMPENSATOR, j]
     x_last, x_meas_last, ti = memory[X_CMD], memory[X_MEAS], memory[TI]
-    x_comp = _compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], own, x_cmd, x_last, x_meas_last, ti, dt)
-    x_true = _actuate(codes[ACTUATOR], parameters[ACTUATOR, j], parts[ACTUATOR, j], x_comp, memory[F_TRUE])
-    f_true = _resist(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], x_true, dt)
-    memory[F_TRUE] = f_true
-    x_meas = x_true + noise[0]
-    f_meas = f_true + noise[1]
+    x_comp = compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], adapted, x_cmd, x_last, x_meas_last, ti, dt)
+    if left_out is not None:
+        x_meas, f_meas = _extended_rig(j, setup, state, left_out, x_comp, noise, time)
+    else:
+        x_true = actuate(codes[ACTUATOR], parameters[ACTUATOR, j], parts[ACTUATOR, j], x_comp, memory[F_TRUE])
+        f_true = resist(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], x_true, dt)
+        memory[F_TRUE] = f_true
+        x_meas = x_true + noise[0]
+        f_meas = f_true + noise[1]
     _track(memory, x_cmd, x_meas, f_meas)
     row[0], row[1], row[2], row[3] = x_cmd, x_comp, x_meas, f_meas
-    row[4], row[5], row[6], row[7] = x_cmd - x_meas, memory[TI], own[0], memory[ENERGY_ERROR]
+    row[4], row[5], row[6], row[7] = x_cmd - x_meas, memory[TI], adapted[0], memory[ENERGY_ERROR]
     if not _within(f_meas, limits[2]):
         return 3, f_meas
     return 0, 0.0
 
 
 @compiled
-def _integrate(i, setup, state, residual, work, x_next):
+def _resist_drifts(t, dt, state, left_out, residual):
+    """residual -= the forces of the structure's left-out effects against the drifts of their storeys."""
+    x, v = state.x, state.v
+    for k in range(left_out.stiffness.size):
+        drift, rate = 0.0, 0.0
+        for a in range(x.size):
+            drift += left_out.drifts[k, a] * x[a]
+            rate += left_out.drifts[k, a] * v[a]
+        force = extend_storey(STOREY, own(left_out.storeys, k), 0.0, drift, rate, left_out.stiffness[k] * drift, t, dt)
+        for a in range(x.size):
+            residual[a] -= left_out.drifts[k, a] * force
+
+
+@compiled
+def _integrate(i, setup, state, left_out, residual, work, x_next):
     """x[i+1] into x_next and v[i+1] into state.v by the scheme (`integrators.scheme`), with the measured forces of step i."""
     x, v = state.x, state.v
     for a in range(x.size):
@@ -134,6 +187,8 @@ def _integrate(i, setup, state, residual, work, x_next):
     subtract_product(setup.damping, v, residual)
     subtract_product(setup.elastic, x, residual)
     subtract_forces(setup.members, x, state.plastic, residual)
+    if left_out is not None:
+        _resist_drifts(i * setup.dt_step, setup.dt_step, state, left_out, residual)
     remembers = setup.held.value.size > 0
     if remembers:
         for a in range(x.size):
@@ -149,13 +204,13 @@ def _integrate(i, setup, state, residual, work, x_next):
 
 
 @entry
-def advance(first, last, setup, state, record):
+def advance(first, last, setup, state, left_out, record):
     """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
     x, n, floors, inputs = state.x, setup.n, setup.floors, setup.loads.shape[0]
     stations, width = setup.dampers.size, len(STATION_COLUMNS)
     residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
-        _integrate(i, setup, state, residual, work, x_next)
+        _integrate(i, setup, state, left_out, residual, work, x_next)
         for j in range(stations):
             command[j, 0], command[j, 1] = setup.drive[i, j], setup.drive[i + 1, j]
             for a in range(x.size):
@@ -173,7 +228,8 @@ def advance(first, last, setup, state, record):
             for j in range(stations):
                 x_cmd = command[j, 0] + share * (command[j, 1] - command[j, 0])
                 start = inputs + floors.size + j * width
-                broken, value = _substep(j, setup, state, x_cmd, setup.noise[done, j], row[start : start + width])
+                time, own_row = (done + 1) * setup.dt, row[start : start + width]
+                broken, value = _substep(j, setup, state, left_out, x_cmd, setup.noise[done, j], time, own_row)
                 if broken > 0:
                     record.trip[0], record.trip[1] = j, value
                     record.trip[2], record.trip[3] = setup.limits[j, broken - 1], done + 1

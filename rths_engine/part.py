@@ -131,7 +131,7 @@ def _issue(detail: Any, data: Any) -> Issue:
 
 
 def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
-    """The path into `data`: pydantic's location without the tags it adds for the chosen kind."""
+    """The path into `data`: pydantic's location without the tags it adds for the chosen kind and channel."""
     path: list[int | str] = []
     for position, step in enumerate(loc):
         inside = (isinstance(data, Mapping) and step in data) or (
@@ -139,7 +139,7 @@ def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
         )
         if inside:
             data = data[step]
-        elif step == data.get("kind") if isinstance(data, Mapping) else position < len(loc) - 1:
+        elif step in (data.get("kind"), data.get("channel")) if isinstance(data, Mapping) else position < len(loc) - 1:
             continue
         path.append(step)
     return path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -23,11 +23,14 @@ from rths_engine.integrators import Integrator
 from rths_engine.integrators.cr import CrIntegrator
 from rths_engine.integrators.scheme import Scheme
 from rths_engine.motion import NoMotion, PlannedMotion
-from rths_engine.part import Value, quantity, validated
+from rths_engine.part import Part, Value, quantity, validated
+from rths_engine.physics import ActuatorEffect, InputEffect, SensorEffect, SpecimenEffect, StructureEffect
+from rths_engine.physics.effect import MATRICES, PART, Effect
 from rths_engine.safety import Limits
 from rths_engine.specimens import Specimen
 from rths_engine.specimens.mr_damper import MrDamper
 from rths_engine.structures import Structure
+from rths_engine.structures.assembled import Assembled
 from rths_engine.structures.modes import circular_frequencies
 from rths_engine.structures.no_structure import NoStructure
 
@@ -61,6 +64,26 @@ class Station(Value):
     specimen: Specimen = Field(MrDamper(), title="Specimen")
     noise: Noise = Field(Noise(), title="Sensor noise")
     limits: Limits = Field(Limits(), title="Safety limits")
+    actuator_physics: tuple[ActuatorEffect, ...] = Field((), title="Physics the actuator's model leaves out", max_length=8)
+    specimen_physics: tuple[SpecimenEffect, ...] = Field((), title="Physics the specimen's model leaves out", max_length=8)
+    sensor_physics: tuple[SensorEffect, ...] = Field((), title="Errors of the sensors", max_length=8)
+
+    @property
+    def rig(self) -> tuple[Part, Part, Part]:
+        """Compensator, actuator and specimen as they are built, with what effects change of a part."""
+        return self.compensator, _amended(self.actuator, self.actuator_physics), _amended(self.specimen, self.specimen_physics)
+
+    @property
+    def physics(self) -> tuple[Effect, ...]:
+        """Every effect with a step of its own."""
+        return tuple(one for one in (*self.actuator_physics, *self.specimen_physics, *self.sensor_physics) if one.hook != PART)
+
+
+def _amended(part: Part, effects: Sequence[Effect]) -> Part:
+    for effect in effects:
+        if effect.hook == PART:
+            part = effect.amended(part)
+    return part
 
 
 class Fastest(Value):
@@ -106,6 +129,12 @@ class Plan(Value):
     integrator: Integrator = Field(CrIntegrator(), title="Integration", json_schema_extra=COMPUTED)
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
     stations: tuple[Station, ...] = Field((), title="Stations", max_length=32, json_schema_extra=TESTED)
+    structure_physics: tuple[StructureEffect, ...] = Field(
+        (), title="Physics the structure's model leaves out", max_length=8, json_schema_extra=COMPUTED
+    )
+    motion_physics: tuple[InputEffect, ...] = Field(
+        (), title="Errors of the ground motion", max_length=8, json_schema_extra=COMPUTED
+    )
     seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
     duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: as long as what moves it")
     pace: Pace = Field(Fastest(), title="Pace")
@@ -169,14 +198,22 @@ class Plan(Value):
         forces = (force.shape.duration for force in self.forces)
         return max(0.0 if self.motion.kind == "none" else record, self.drive.shape.duration, *forces)
 
+    def assembled(self) -> Assembled:
+        """The structure with what effects change of its matrices. Raises PlanError."""
+        built = self.structure.assemble()
+        for effect in self.structure_physics:
+            if effect.hook == MATRICES:
+                built = effect.assembled(built)
+        return built
+
     def drifts(self) -> Array:
         """L (stations, DOF): row j takes displacements to the stroke of station j."""
-        rows = self.structure.assemble().drifts
+        rows = self.assembled().drifts
         return rows[[station.storey - 1 for station in self.stations]]
 
     def scheme(self) -> Scheme:
         """The integrator's scheme from M, C and the initial K with the stations' equivalents. Raises PlanError."""
-        built = self.structure.assemble()
+        built = self.assembled()
         damping, stiffness = built.damping.copy(), built.stiffness.copy()
         for station, drift in zip(self.stations, self.drifts(), strict=True):
             outer = station.dampers * np.outer(drift, drift)
@@ -186,7 +223,7 @@ class Plan(Value):
 
     def periods(self) -> Array:
         """Natural periods (s) of the analytical substructure, the first mode's first."""
-        built = self.structure.assemble()
+        built = self.assembled()
         if not len(built.mass):
             return np.zeros(0)
         periods: Array = 2 * np.pi / circular_frequencies(built.mass, built.stiffness)

@@ -116,7 +116,7 @@ def _stable(plan: Plan) -> Iterator[Issue]:
     bound = plan.integrator.stable_up_to
     if math.isinf(bound):
         return
-    built, title = plan.structure.assemble(), plan.integrator.title
+    built, title = plan.assembled(), plan.integrator.title
     massless = int(np.sum(~built.mass.any(axis=0)))
     if massless:
         problem = f"has {massless} degrees of freedom without mass, which {title.lower()} can't integrate"
@@ -132,7 +132,7 @@ def _stable(plan: Plan) -> Iterator[Issue]:
 
 
 def _places(plan: Plan) -> Iterator[Issue]:
-    built = plan.structure.assemble()
+    built = plan.assembled()
     floors, storeys = len(built.floors), len(built.drifts)
     for index, station in enumerate(plan.stations):
         if station.storey > storeys:

@@ -14,14 +14,19 @@ from numpy.typing import NDArray
 from rths_engine import actuators, compensators, loop, motion, specimens, starting
 from rths_engine.arrays import Array
 from rths_engine.channels import Channel, channels
+from rths_engine.dispatch import effects as effects_of
+from rths_engine.dispatch import stacked
 from rths_engine.errors import Issue, PlanError
 from rths_engine.factor import factorised
 from rths_engine.ground_motions import Motion, MotionLibrary
 from rths_engine.loads import loads
+from rths_engine.physics.effect import STOREY
+from rths_engine.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.plan import Plan
 from rths_engine.restoring import rows
 from rths_engine.result import Result
 from rths_engine.safety import LIMITS, Trip
+from rths_engine.structures.assembled import Assembled
 
 LARGEST_RECORDING = 2_000_000_000  # bytes
 
@@ -44,7 +49,7 @@ class Run:
         n, dt = plan.substeps, plan.step
         self._steps = _steps(plan.length(self.motion.duration), dt)
         self.total = self._steps * n
-        built = plan.structure.assemble()
+        built = plan.assembled()
         stations = len(plan.stations)
         self.channels: tuple[Channel, ...] = channels(plan)
         if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
@@ -83,6 +88,7 @@ class Run:
         if initial:
             x[:], v[:] = initial
         self._state = loop.State(x, v, carry, plastic, parts, memory)
+        self._left_out = _left_out(plan, built)
         self._record = loop.Record(self.signals, self.history, np.zeros(4))
         self.history[0] = x[self._setup.floors], v[self._setup.floors]
 
@@ -96,7 +102,7 @@ class Run:
         if self.finished:
             return slice(before, before)
         last = min(self._step + steps, self._steps)
-        broken, self.done = loop.advance(self._step, last, self._setup, self._state, self._record)
+        broken, self.done = loop.advance(self._step, last, self._setup, self._state, self._left_out, self._record)
         self._step = last
         if broken:
             self.trip = self._tripped(broken - 1)
@@ -150,10 +156,23 @@ def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
     built: list[list[tuple[Array, Array]]] = [[] for _ in _SLOTS]
     for slot, kinds in enumerate(_SLOTS):
         for j, station in enumerate(plan.stations):
-            part = getattr(station, kinds.field)
+            part = station.rig[slot]
             codes[j, slot] = kinds.kinds.index(type(part))
             built[slot].append(part.build(plan.substep))
     return codes, _padded(built, 0), _padded(built, 1)
+
+
+def _left_out(plan: Plan, built: Assembled) -> loop.LeftOut | None:
+    against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
+    if not against and not any(station.physics for station in plan.stations):
+        return None
+    drifts = [drift(built, effect.storey) for effect in against]
+    return loop.LeftOut(
+        stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
+        storeys=stacked([effects_of([effect], plan.step) for effect in against]),
+        drifts=np.array(drifts).reshape(len(drifts), len(built.mass)),
+        stiffness=np.array([stiffness(built, row) for row in drifts]),
+    )
 
 
 def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:
@@ -187,5 +206,8 @@ def _inputs(plan: Plan, record: Motion, time: Array) -> Array:
     """(steps + 1, inputs): ground acceleration, linear between samples and zero after the record's end, and floor forces."""
     if plan.driven:
         return np.zeros((len(time), 0))
-    ground = np.interp(time, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
+    ground = record.acceleration
+    for effect in plan.motion_physics:
+        ground = effect.shaken(ground, record.dt)
+    ground = np.interp(time, np.arange(len(ground)) * record.dt, ground, right=0.0)
     return np.column_stack([ground, *(force.sample(time) for force in plan.forces)])

@@ -24,7 +24,7 @@ def floor_loads(plan: Plan) -> Array | None:
     """`loads` of a plan; None without a structure, and where the ground moves mass off the floors, which is not recorded."""
     if plan.driven:
         return None
-    built = plan.structure.assemble()
+    built = plan.assembled()
     every = loads(plan, built)
     floors = list(built.floors)
     elsewhere = np.delete(every, floors, axis=1)

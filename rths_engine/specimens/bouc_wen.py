@@ -21,6 +21,23 @@ def _slope(zeta, way, n, eta):
     return 1.0 - abs(zeta) ** n * (turned + 1.0 - eta)
 
 
+@compiled
+def moved(zeta, ratio, n, eta):
+    """zeta after a move of `ratio` yield displacements: classical Runge-Kutta in parts below 0.5 / n."""
+    move = min(max(ratio, -SATURATED), SATURATED)
+    way = 1.0 if move >= 0.0 else -1.0
+    parts = math.ceil(2.0 * n * abs(move))
+    for _ in range(parts):
+        h = move / parts
+        first = _slope(zeta, way, n, eta)
+        second = _slope(zeta + 0.5 * h * first, way, n, eta)
+        third = _slope(zeta + 0.5 * h * second, way, n, eta)
+        fourth = _slope(zeta + h * third, way, n, eta)
+        zeta += h * (first + 2.0 * second + 2.0 * third + fourth) / 6.0
+        zeta = min(max(zeta, -1.0), 1.0)
+    return zeta
+
+
 class BoucWen(Part):
     """f = r k x + (1 - r) f_y zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta)),  x_y = f_y / k
 
@@ -50,19 +67,6 @@ class BoucWen(Part):
 
     @staticmethod
     def step(p, s, x, dt):
-        n, eta = p[3], p[4]
-        move = min(max((x - s[0]) / p[2], -SATURATED), SATURATED)
+        s[1] = moved(s[1], (x - s[0]) / p[2], p[3], p[4])
         s[0] = x
-        way = 1.0 if move >= 0.0 else -1.0
-        parts = math.ceil(2.0 * n * abs(move))
-        zeta = s[1]
-        for _ in range(parts):
-            h = move / parts
-            first = _slope(zeta, way, n, eta)
-            second = _slope(zeta + 0.5 * h * first, way, n, eta)
-            third = _slope(zeta + 0.5 * h * second, way, n, eta)
-            fourth = _slope(zeta + h * third, way, n, eta)
-            zeta += h * (first + 2.0 * second + 2.0 * third + fourth) / 6.0
-            zeta = min(max(zeta, -1.0), 1.0)
-        s[1] = zeta
-        return p[0] * x + p[1] * zeta
+        return p[0] * x + p[1] * s[1]

@@ -94,6 +94,8 @@ class ClosedLoop:
             found.append(f"The adaptive compensation of {', '.join(adaptive)} is held at its start value.")
         if len(self.plan.structure.assemble().members.dofs):
             found.append("The frame's members are taken before yielding.")
+        if any(station.physics for station in self.plan.stations) or self.plan.structure_physics:
+            found.append("Left-out physics that the plan adds to its models is not in the prediction.")
         return found
 
 

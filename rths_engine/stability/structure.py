@@ -34,7 +34,7 @@ class LinearStructure:
 
 def linear(plan: Plan) -> LinearStructure:
     """The plan's structure under its integrator. Raises PlanError when it is a mechanism or has too many motions."""
-    built, drifts, dt, scheme = plan.structure.assemble(), plan.drifts(), plan.step, plan.scheme()
+    built, drifts, dt, scheme = plan.assembled(), plan.drifts(), plan.step, plan.scheme()
     factor = lu_factor(scheme.effective)
     dof, weight = len(built.mass), scheme.weight
 

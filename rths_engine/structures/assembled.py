@@ -33,6 +33,7 @@ class Assembled(NamedTuple):
     floors: tuple[int, ...]  # DOF of each floor's lateral displacement
     drifts: Array  # (storeys, n): row s takes x to the stroke of a damper in storey s + 1
     members: Members
+    base: int = -1  # DOF of the base's lateral displacement; -1 where it is the ground
 
 
 def no_members() -> Members:

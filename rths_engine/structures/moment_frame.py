@@ -174,6 +174,5 @@ def _assembled(frame: MomentFrame) -> Assembled:
     omega = circular_frequencies(mass, stiffness)
     damping = rayleigh(mass, stiffness, frame.damping_ratio, omega)
     elastic = model.rest() if frame.inelastic else stiffness
-    influence: Array = np.zeros(len(kept))
-    influence[floors] = 1.0
+    influence = np.isin(kept, [lateral for lateral, _, _ in model.dofs]).astype(np.float64)
     return Assembled(mass, damping, stiffness, elastic, influence, tuple(floors.tolist()), drifts, members)

@@ -12,12 +12,12 @@ import { kindLabel } from "./schema.js";
  */
 export function listPart(schema, node, path, values, part) {
   const item = schema.resolve(node.items);
-  const name = kindLabel(item);
+  const name = item.title ? kindLabel(item) : "Effect";
   const singular = name.toLowerCase();
   /** @type {Part[]} */
   let parts = [];
   const items = el("div", { class: "items" });
-  const add = el("button", { type: "button", class: "quiet", on: { click: () => insert(parts.length, schema.initial(node.items)) } }, `Add a ${singular}`);
+  const add = el("button", { type: "button", class: "quiet", on: { click: () => insert(parts.length, schema.initial(node.items)) } }, `Add ${/^[aeiou]/.test(singular) ? "an" : "a"} ${singular}`);
 
   const build = (/** @type {any[]} */ read) => {
     parts = read.map((value, i) => part(schema, { ...item, title: `${name} ${i + 1}` }, `${path}.${i}`, value));

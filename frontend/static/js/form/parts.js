@@ -14,6 +14,7 @@ export function part(schema, unresolved, path, value) {
   if (node.type === "object") return groupPart(schema, node, path, value, node.title);
   if (node.type === "array") {
     if (node.items.$ref) return listPart(schema, node, path, value, part);
+    if (node.items.oneOf) return effectsPart(schema, node, path, value);
     return node.items.type === "array" ? matrixField(node, path, value) : numbersField(node, path, value);
   }
   if (node.type === "boolean") return switchField(node, path, value);
@@ -61,6 +62,13 @@ function groupPart(schema, node, path, value, title) {
   const heading = node.properties.kind && title !== kindLabel(node) ? `${title}: ${kindLabel(node)}` : title;
   const element = el("fieldset", { class: "group", "data-path": path }, el("legend", { class: path.includes(".") ? "" : "unseen" }, heading), el("div", { class: "fields" }, ...fields.elements));
   return { element, read: fields.read, problems: fields.problems };
+}
+
+/** A list of effects, each a choice of kinds, under a heading. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */
+function effectsPart(schema, node, path, value) {
+  const list = listPart(schema, node, path, value, part);
+  const element = el("fieldset", { class: "group effects" }, el("legend", {}, node.title), list.element);
+  return { ...list, element };
 }
 
 /** A choice of kinds whose fields follow the choice; what was typed for a kind is kept while others are tried. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */

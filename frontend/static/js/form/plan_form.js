@@ -9,10 +9,10 @@ import { part, usedIn } from "./parts.js";
 const SECTIONS = [
   { title: "Test", names: ["test", "name", "notes"] },
   { title: "Drive", names: ["drive"] },
-  { title: "Ground motion", names: ["motion"] },
+  { title: "Ground motion", names: ["motion", "motion_physics"] },
   { title: "Forces on floors", names: ["forces"] },
   { title: "Start", names: ["start"] },
-  { title: "Structure", names: ["structure"] },
+  { title: "Structure", names: ["structure", "structure_physics"] },
   { title: "Integration and controller", names: ["integrator", "controller_rate"] },
   { title: "Stations: actuator, specimen, compensator, limits", names: ["stations"] },
   { title: "Duration, pace and seed", names: ["duration", "pace", "seed"] },

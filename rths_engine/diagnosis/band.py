@@ -1,0 +1,60 @@
+"""The band in which simulation and recording are compared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import butter, firwin, sosfiltfilt, upfirdn, welch
+
+from rths_engine.arrays import Array
+
+ANALYSIS_RATE = 128.0  # Hz; what is compared lies below 0.4 of it
+LENGTH = 20  # taps a side and decimated sample
+ABOVE_FLOOR = 10.0  # power over the noise floor that still is signal
+LEAST_CUT = 15.0  # Hz
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """Takes signals at `dt` to every `factor`-th sample by a zero-phase low-pass filter."""
+
+    dt: float
+    factor: int
+    taps: Array
+
+    @classmethod
+    def of(cls, dt: float) -> Band:
+        factor = max(1, int(1 / (dt * ANALYSIS_RATE)))
+        taps = firwin(2 * LENGTH * factor + 1, 0.8 / factor) if factor > 1 else np.ones(1)
+        return cls(dt, factor, taps)
+
+    @property
+    def step(self) -> float:
+        return self.dt * self.factor
+
+    def reduced(self, signal: Array) -> Array:
+        if self.factor == 1:
+            return signal
+        half = len(self.taps) // 2
+        padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
+        filtered: Array = upfirdn(self.taps, padded, 1, self.factor)
+        first = 2 * half // self.factor
+        return filtered[first : first + len(signal) // self.factor]
+
+
+def cut_of(displacement: Array, dt: float) -> float | None:
+    """The frequency (Hz) above which a displacement holds nothing but noise; None where it has none to take away."""
+    frequency, power = welch(displacement - displacement.mean(), 1 / dt, nperseg=min(len(displacement), 1024))
+    floor = float(np.median(power[len(power) // 2 :]))
+    above = np.flatnonzero(power > ABOVE_FLOOR * floor)
+    cut = max(LEAST_CUT, 2.0 * float(frequency[above[-1]]) if len(above) else 0.0)
+    return None if cut >= 0.45 / dt or floor == 0.0 else cut
+
+
+def filtered(signal: Array, dt: float, cut: float | None) -> Array:
+    """The signal below the frequency `cut` (Hz), zero phase."""
+    if cut is None:
+        return signal
+    kept: Array = sosfiltfilt(butter(4, cut, output="sos", fs=1 / dt), signal)
+    return kept

@@ -1,0 +1,76 @@
+"""The numbers of a model that a fit may move, as one vector."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import annotated_types
+import numpy as np
+
+from rths_engine.arrays import Array
+from rths_engine.part import Part
+
+SMALLEST = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A field of one part: `owner` is the part's place in the model, 0 the baseline. z = ln value, or value / scale."""
+
+    owner: int
+    field: str
+    low: float
+    high: float
+    scale: float
+    logarithmic: bool
+
+    def to_z(self, value: float) -> float:
+        return math.log(value) if self.logarithmic else value / self.scale
+
+    def from_z(self, z: float) -> float:
+        value = math.exp(z) if self.logarithmic else z * self.scale
+        return min(max(value, self.low), self.high)
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        return self.to_z(self.low), self.to_z(self.high)
+
+
+def numbers(parts: Sequence[Part]) -> list[Number]:
+    """Every number of the parts, in order, that is not an integer."""
+    return [number for owner, part in enumerate(parts) for number in _of(owner, part)]
+
+
+def vector(parts: Sequence[Part], free: Sequence[Number]) -> Array:
+    return np.array([number.to_z(getattr(parts[number.owner], number.field)) for number in free])
+
+
+def moved(parts: Sequence[Part], free: Sequence[Number], z: Array) -> list[Part]:
+    """The parts with the numbers of `z`."""
+    changes: list[dict[str, float]] = [{} for _ in parts]
+    for number, one in zip(free, z, strict=True):
+        changes[number.owner][number.field] = number.from_z(float(one))
+    return [part.model_copy(update=change) for part, change in zip(parts, changes, strict=True)]
+
+
+def _of(owner: int, part: Part) -> list[Number]:
+    found = []
+    for name, field in type(part).model_fields.items():
+        if field.annotation is not float or name in getattr(part, "held", ()):
+            continue
+        low, high, strict = -math.inf, math.inf, False
+        for bound in field.metadata:
+            if isinstance(bound, annotated_types.Gt):
+                low, strict = float(bound.gt), True  # type: ignore[arg-type]
+            elif isinstance(bound, annotated_types.Ge):
+                low = float(bound.ge)  # type: ignore[arg-type]
+            elif isinstance(bound, annotated_types.Le | annotated_types.Lt):
+                high = float(bound.le if isinstance(bound, annotated_types.Le) else bound.lt)  # type: ignore[arg-type]
+        value = abs(float(getattr(part, name)))
+        logarithmic = strict and low >= 0
+        if logarithmic:
+            low = max(low, SMALLEST)
+        found.append(Number(owner, name, low, high, value or 1.0, logarithmic))
+    return found

@@ -1,0 +1,52 @@
+"""The noise of a recording: its level and its colour."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_toeplitz
+from scipy.signal import lfilter
+
+from rths_engine.arrays import Array
+
+ORDER = 6
+QUIET = 0.01  # of the largest speed: slower is at rest
+LEAST_QUIET = 128  # samples
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """n[i] + a_1 n[i-1] + ... = sigma e[i], with e white and of unit variance."""
+
+    coefficients: Array  # 1, a_1, ...
+    sigma: float
+
+    def whitened(self, signals: Array) -> Array:
+        """The signals (samples along the last axis) in units of the noise, made white."""
+        white: Array = lfilter(self.coefficients, [self.sigma], signals, axis=-1)
+        return white
+
+    def drawn(self, count: int, random: np.random.Generator) -> Array:
+        white = random.standard_normal(count + 50 * len(self.coefficients))
+        drawn: Array = lfilter([self.sigma], self.coefficients, white)[-count:]
+        return drawn
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of the noise itself."""
+        impulse = lfilter([self.sigma], self.coefficients, np.eye(1, 4000)[0])
+        return float(np.sqrt(np.sum(impulse**2)))
+
+
+def autoregressive(signal: Array, order: int = ORDER) -> Noise:
+    """The autoregressive process of a stretch of noise, by Yule and Walker."""
+    centred = signal - signal.mean()
+    count = len(centred)
+    order = min(order, max(0, count // 20))
+    covariance = np.array([centred[: count - lag] @ centred[lag:] for lag in range(order + 1)]) / count
+    if order == 0 or covariance[0] <= 0:
+        return Noise(np.ones(1), float(np.sqrt(max(covariance[0], np.finfo(float).tiny))))
+    weights = solve_toeplitz(covariance[:-1], -covariance[1:])
+    power = covariance[0] + covariance[1:] @ weights
+    return Noise(np.concatenate([[1.0], weights]), float(np.sqrt(max(power, 1e-12 * covariance[0]))))

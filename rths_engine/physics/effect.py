@@ -1,0 +1,100 @@
+"""What every left-out effect is: a part nested in its component, which vanishes at its neutral values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, ClassVar, NamedTuple, Self
+
+import annotated_types
+
+from rths_engine.arrays import Array
+from rths_engine.part import Part
+from rths_engine.structures.assembled import Assembled
+
+# where an effect acts: in the loop, or before it on a part, on the structure's matrices or on the ground motion
+COMMAND, PISTON, INPUT, SERIES, FORCE, X_SENSOR, F_SENSOR, STOREY, PART, MATRICES, GROUND = range(11)
+TINY = 1e-12
+
+
+class Seen(NamedTuple):
+    """Sizes of what a component went through (SI): from them an effect guesses its own."""
+
+    x: float  # largest displacement
+    v: float  # largest velocity
+    f: float  # largest force (of a structure: of a storey)
+    time: float  # duration
+    energy: float  # dissipated, sum of |f v| dt
+    dt: float
+    storey: int = 1  # of a structure, from 1: x and v are of its drift
+
+    @property
+    def stiffness(self) -> float:
+        return self.f / max(self.x, TINY)
+
+    @property
+    def acceleration(self) -> float:
+        """Largest, of a harmonic motion of this displacement and velocity."""
+        return self.v * self.v / max(self.x, TINY)
+
+
+class Effect(Part):
+    """A left-out effect. `step(p, s, y, x, v, w, t, dt) -> y` replaces the signal y at its `hook`:
+
+    COMMAND   y compensated command, x and v of the piston at the last substep, w force on it
+    PISTON    y piston displacement, x and v of the command it follows, w force on it
+    INPUT     y displacement that reaches the specimen, x and v of the piston, w specimen's force at the last substep
+    SERIES    y flexibility (m/N) before the specimen, which the loop solves with it
+    FORCE     y specimen's force, x and v of the end that INPUT left, w current (1 where none is known)
+    X_SENSOR  y displacement reading; F_SENSOR  y force reading; x and v of the piston, w the true value
+    STOREY    y becomes a force against the drift of a storey, from 0; x and v of the drift, w its elastic force
+
+    t time (s) of the substep, dt (s). With the `neutral` values `step` returns y to rounding. Effects without a step change
+    something before the run: PART by `amended`, MATRICES by `assembled`, GROUND by `shaken`.
+    """
+
+    hook: ClassVar[int]
+    neutral: ClassVar[Mapping[str, float]]
+    held: ClassVar[tuple[str, ...]] = ()  # numbers that a fit does not move
+    needs: ClassVar[tuple[str, ...]] = ()
+    relatives: ClassVar[tuple[str, ...]] = ()
+    noun: ClassVar[str]  # "backlash was left out"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        """Values to look for the effect with: a few sizes that would show in such a recording."""
+        raise NotImplementedError
+
+    @classmethod
+    def sized(cls, **sizes: float) -> Self:
+        """With sizes moved into their bounds: a recording may hold anything."""
+        return cls(**{name: _within(size, cls.model_fields[name].metadata) for name, size in sizes.items()})
+
+    def says(self) -> str:
+        """What the effect does, with its size and unit: the middle of the sentence of a diagnosis."""
+        raise NotImplementedError
+
+    @staticmethod
+    def step(p: Any, s: Any, y: float, x: float, v: float, w: float, t: float, dt: float) -> float:
+        return y
+
+    def amended(self, part: Part) -> Part:
+        """PART: the component's part with the effect in it."""
+        raise NotImplementedError
+
+    def assembled(self, built: Assembled) -> Assembled:
+        """MATRICES: the structure with the effect in it."""
+        raise NotImplementedError
+
+    def shaken(self, ground: Array, dt: float) -> Array:
+        """GROUND: the ground acceleration (m/s^2) with the effect in it."""
+        raise NotImplementedError
+
+
+def _within(size: float, bounds: Iterable[Any]) -> float:
+    for bound in bounds:
+        match bound:
+            case annotated_types.Gt(gt=low) | annotated_types.Ge(ge=low):
+                size = max(size, float(low) + (TINY if isinstance(bound, annotated_types.Gt) else 0.0))  # type: ignore[arg-type]
+            case annotated_types.Lt(lt=high) | annotated_types.Le(le=high):
+                size = min(size, float(high))  # type: ignore[arg-type]
+    return float(size)

@@ -1,0 +1,51 @@
+"""Coulomb friction beside the specimen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.arrays import Array
+from rths_engine.part import quantity
+from rths_engine.physics.effect import FORCE, Effect, Seen
+from rths_engine.physics.wording import said
+
+
+class CoulombFriction(Effect):
+    """f = f_0 + F_c z,  x_e z' = v while |z| < 1 or v turns it back
+
+    F_c friction force (N), either sign of motion; x_e pre-sliding displacement (m), over which the friction builds up after a
+    reversal. Neutral: F_c = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun.
+    Source: Dahl (1968) with a straight rise: Coulomb's law as an elastic-plastic slider.
+    Fails first where static friction exceeds kinetic friction.
+    """
+
+    kind: Literal["coulomb_friction"] = "coulomb_friction"
+    friction: float = quantity("Friction force F_c", "N", "kN", ge=0, le=1e9, default=0.0)
+    presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", gt=0, le=0.1, default=1e-4)
+    title: ClassVar[str] = "Coulomb friction"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"friction": 0.0}
+    needs: ClassVar[tuple[str, ...]] = ("x_meas", "f_meas")
+    relatives: ClassVar[tuple[str, ...]] = ("stribeck_friction", "bouc_wen_hysteresis")
+    noun: ClassVar[str] = "Coulomb friction"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls.sized(friction=0.1 * seen.f, presliding=0.01 * seen.x)
+
+    def says(self) -> str:
+        return f"resists every motion with {said(self.friction, 'kN')} of friction"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.friction, self.presliding]), np.zeros(3)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        if s[2] > 0.0:
+            s[1] = min(max(s[1] + (x - s[0]) / p[1], -1.0), 1.0)
+        s[0] = x
+        s[2] = 1.0
+        return y + p[0] * s[1]

@@ -1,0 +1,22 @@
+"""Coulomb friction between two floors."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from rths_engine.physics.effect import STOREY
+from rths_engine.physics.specimen import coulomb_friction as specimen
+from rths_engine.physics.structure.storey import OfStorey
+
+
+class CoulombFriction(OfStorey, specimen.CoulombFriction):
+    """f = F_c z,  x_e z' = v while |z| < 1 or v turns it back
+
+    x drift of the storey: bolts, partitions or bearings rub between its floors. Else as `physics.specimen.coulomb_friction`.
+    """
+
+    title: ClassVar[str] = "Coulomb friction of a storey"
+    hook: ClassVar[int] = STOREY
+    needs: ClassVar = ("x_floor",)
+    relatives: ClassVar = ("bouc_wen_hysteresis", "damping_error", "quadratic_damping")
+    noun: ClassVar[str] = "Coulomb friction"

@@ -1,0 +1,196 @@
+"""Contract of every left-out effect: neutral, nested, bounded, said in a sentence, the same compiled and in Python."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+from typing import Any
+
+import annotated_types
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rths_engine import physics, replay, specimens
+from rths_engine.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.errors import PlanError
+from rths_engine.part import Value, validated
+from rths_engine.physics.effect import F_SENSOR, GROUND, MATRICES, PART, X_SENSOR, Effect, Seen
+from tests.engine.effects import CURRENT, DT, PATH, SEEN, building, signals, streamed
+
+NAMES = {
+    "SPECIMEN": "coulomb_friction stribeck_friction backlash viscous_heating series_compliance parallel_stiffness"
+    " cubic_stiffness added_inertia asymmetry velocity_exponent bouc_wen_hysteresis pinching strength_drop current_lag",
+    "ACTUATOR": "delay_error amplitude_dependent_delay second_order_lag velocity_saturation force_compliance dead_band backlash"
+    " stick_friction gain_error",
+    "SENSOR": "offset drift scale_error time_skew clipping dropout",
+    "STRUCTURE": "stiffness_error mass_error damping_error coulomb_friction quadratic_damping cubic_stiffness yielding"
+    " bouc_wen_hysteresis pinching gap_contact p_delta base_flexibility stiffness_drop",
+    "INPUT": "scale_error time_shift low_pass baseline_drift",
+}
+GUESSES = [guess for kind in physics.KINDS for guess in kind.guesses(SEEN)]
+UNITS = r"(%|\bm?m\b|kN|\bkg\b|\bm?s\b|Hz|MJ|/s\b|by the power)"
+BEFORE = (PART, MATRICES, GROUND)
+
+
+def named(guess: Effect) -> str:
+    return f"{type(guess).__module__.rsplit('.', 2)[1]}-{guess.kind}"  # type: ignore[attr-defined]
+
+
+def of(hook: int) -> Any:
+    """What an effect at a hook acts on, here."""
+    if hook == PART:
+        return FirstOrderDelay()
+    if hook == MATRICES:
+        return building()
+    return PATH if hook == GROUND else signals(hook)[0]
+
+
+def acted(effect: Effect) -> Any:
+    if effect.hook == PART:
+        return effect.amended(of(PART))
+    if effect.hook == MATRICES:
+        return effect.assembled(of(MATRICES))
+    if effect.hook == GROUND:
+        return effect.shaken(of(GROUND), DT)
+    return streamed(effect, signals(effect.hook))
+
+
+def flat(value: Any) -> np.ndarray:
+    """Every number of a part, a structure or a signal."""
+    if isinstance(value, FirstOrderDelay):
+        return value.build(DT)[0]
+    return np.concatenate([np.ravel(one) for one in value[:4]]) if isinstance(value, tuple) else value
+
+
+@pytest.mark.parametrize(("registry", "names"), NAMES.items())
+def test_each_component_has_the_effects_of_its_contract(registry: str, names: str) -> None:
+    kinds = getattr(physics, registry)
+    assert {kind.model_fields["kind"].default for kind in kinds} == set(names.split())
+
+
+@pytest.mark.parametrize("guess", GUESSES, ids=named)
+def test_an_effect_vanishes_at_its_neutral_values(guess: Effect) -> None:
+    neutral = guess.model_copy(update=dict(guess.neutral))
+    before = flat(of(guess.hook))
+    np.testing.assert_allclose(flat(acted(neutral)), before, rtol=1e-12, atol=1e-15 * np.abs(before).max())
+
+
+@pytest.mark.parametrize("kind", physics.SPECIMEN, ids=lambda kind: kind.model_fields["kind"].default)
+def test_every_specimen_stays_itself_beside_a_neutral_effect(kind: type[Effect]) -> None:
+    neutral = next(iter(kind.guesses(SEEN))).model_copy(update=dict(kind.neutral))
+    for part in (specimen() for specimen in specimens.KINDS):
+        plain = replay.specimen(part, [], PATH, CURRENT, DT)
+        np.testing.assert_allclose(replay.specimen(part, [neutral], PATH, CURRENT, DT), plain, rtol=1e-12, atol=1e-9)
+
+
+@pytest.mark.parametrize("guess", GUESSES, ids=named)
+def test_an_effect_changes_something_at_each_of_its_guesses(guess: Effect) -> None:
+    before, after = flat(of(guess.hook)), flat(acted(guess))
+    assert np.isfinite(after).all()
+    assert len(after) != len(before) or (np.abs(after - before) > 1e-6 * np.abs(after)).any()
+
+
+@pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
+def test_an_effect_has_one_to_four_sizes_to_look_for(kind: type[Effect]) -> None:
+    assert 1 <= len(list(kind.guesses(SEEN))) <= 4
+
+
+@pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
+def test_guesses_keep_their_bounds_whatever_was_seen(kind: type[Effect]) -> None:
+    for size in (0.0, 1e-30, 1e30):
+        for guess in kind.guesses(Seen(size, size, 1 / max(size, 1e-30), size, size, DT)):
+            assert kind.model_validate(guess.model_dump()) == guess
+            assert guess.says()
+
+
+@pytest.mark.parametrize("guess", GUESSES, ids=named)
+def test_the_sentence_says_size_and_unit_and_what_was_left_out(guess: Effect) -> None:
+    sentence = f"The first one {guess.says()}: {guess.noun} was left out."
+    assert re.search(rf"\d.*{UNITS}|{UNITS}.*\d", guess.says()), sentence
+    assert "e+" not in sentence and "  " not in sentence and guess.says()[0].islower() and not guess.says().endswith(".")
+
+
+@pytest.mark.parametrize("guess", [guess for guess in GUESSES if hasattr(guess, "time")], ids=named)
+def test_the_sentence_of_an_event_says_when(guess: Effect) -> None:
+    assert f"{guess.time:.3g} s" in guess.says()  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
+def test_an_effect_declares_its_equation_and_label_unit_and_bounds_of_each_number(kind: type[Effect]) -> None:
+    assert kind.title and kind.noun and kind.needs and re.search(r"[=<+]|K|M", (kind.__doc__ or "").splitlines()[0])
+    for name, field in kind.model_json_schema()["properties"].items():
+        assert field["title"]
+        if name not in ("kind", "channel", "side"):
+            assert {"unit", "shown", "factor"} <= field.keys()
+            assert {"maximum"} <= field.keys() and {"minimum", "exclusiveMinimum"} & field.keys()
+    assert set(kind.neutral) | set(kind.held) <= set(kind.model_fields)
+
+
+def test_titles_differ_and_relatives_are_effects() -> None:
+    for registry in NAMES:
+        titles = [kind.title for kind in getattr(physics, registry)]
+        assert len(set(titles)) == len(titles)
+    known = {kind.model_fields["kind"].default for kind in physics.KINDS}
+    assert all(set(kind.relatives) <= known for kind in physics.KINDS)
+
+
+@pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
+def test_numbers_out_of_bounds_are_refused_with_the_bound(kind: type[Effect]) -> None:
+    for name, field in kind.model_fields.items():
+        for bound in field.metadata:
+            if isinstance(bound, annotated_types.Le):
+                with pytest.raises(PlanError, match=rf"{name} = .*: needs a value <= "):
+                    validated(kind, {name: 2 * bound.le})  # type: ignore[operator]
+            elif isinstance(bound, annotated_types.Gt | annotated_types.Ge):
+                low = bound.gt if isinstance(bound, annotated_types.Gt) else bound.ge
+                with pytest.raises(PlanError, match=rf"{name} = .*: needs a value >"):
+                    validated(kind, {name: low - 1 - abs(low)})  # type: ignore[operator]
+        if field.annotation is float:
+            with pytest.raises(PlanError, match="finite number"):
+                validated(kind, {name: float("nan")})
+
+
+class Listed(Value):
+    specimen: tuple[physics.SpecimenEffect, ...] = ()
+    actuator: tuple[physics.ActuatorEffect, ...] = ()
+    sensor: tuple[physics.SensorEffect, ...] = ()
+    structure: tuple[physics.StructureEffect, ...] = ()
+    input: tuple[physics.InputEffect, ...] = ()
+
+
+@pytest.mark.parametrize("guess", GUESSES, ids=named)
+def test_an_effect_is_read_back_from_what_it_writes(guess: Effect) -> None:
+    component = type(guess).__module__.rsplit(".", 2)[1]
+    assert getattr(Listed.model_validate({component: [guess.model_dump(mode="json")]}), component) == (guess,)
+
+
+def test_a_wrong_number_in_a_list_of_effects_is_named_by_its_path() -> None:
+    with pytest.raises(PlanError, match=r"^sensor\.0\.error = 5"):
+        validated(Listed, {"sensor": [{"kind": "offset", "channel": "x_meas", "error": 5.0}]})
+
+
+@pytest.mark.parametrize("guess", [guess for guess in GUESSES if guess.hook not in BEFORE], ids=named)
+def test_the_compiled_step_equals_the_python_step(guess: Effect) -> None:
+    y, x, v, w = (signal[:600] for signal in signals(guess.hook))
+    parameters, state = guess.build(DT)
+    plain = [guess.step(parameters, state, y[q], x[q], v[q], w[q], q * DT, DT) for q in range(600)]
+    # pow and exp differ by an ulp between compiled and Python
+    np.testing.assert_allclose(streamed(guess, (y, x, v, w)), plain, rtol=1e-11, atol=1e-15)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 4), min_size=2, max_size=6))
+def test_an_effect_makes_a_number_of_every_number(rows: list[tuple[float, float, float, float]]) -> None:
+    for guess in GUESSES:
+        parameters, state = guess.build(DT)
+        for q, (y, x, v, w) in enumerate(rows):
+            assert np.isfinite(guess.step(parameters, state, y, x, v, w, 3 * q, DT))
+
+
+def test_a_sensor_effect_acts_on_its_own_channel() -> None:
+    for displacement, force in pairwise(physics.SENSOR):
+        if displacement.model_fields["kind"].default == force.model_fields["kind"].default:
+            assert (displacement.hook, force.hook) == (X_SENSOR, F_SENSOR)
+            assert displacement().channel, force().channel == ("x_meas", "f_meas")  # type: ignore[attr-defined]
