@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from typing import ClassVar, Literal, Self
 
 import numpy as np
-from scipy.signal import lfilter
 
 from rths_engine.arrays import Array
 from rths_engine.part import quantity
@@ -50,5 +49,7 @@ class LowPass(Effect):
         decay = math.exp(-1 / ratio)
         mean = ratio * (1 - decay)
         numerator = [1 - mean, mean - decay]
+        from scipy.signal import lfilter  # here, because it takes 0.7 s to load
+
         passed: Array = lfilter(numerator, [1.0, -decay], ground)
         return passed
