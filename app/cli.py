@@ -59,6 +59,13 @@ def parser() -> argparse.ArgumentParser:
     )
     table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
 
+    diagnose = _command(commands, "diagnose", "app.cli_diagnose:diagnose", "find what the models of specimens leave out")
+    diagnose.add_argument("plan", metavar="PLAN.yaml", help="the plan whose models are doubted")
+    diagnose.add_argument("recording", type=Path, metavar="REC.h5", help="a recording of the plan's stations")
+    diagnose.add_argument("--holdout", type=Path, nargs="+", default=[], metavar="REC.h5", help="recordings to prove it on")
+    diagnose.add_argument("--level", type=float, default=0.01, help="rate of false alarms (default %(default)s)")
+    diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the diagnosis as one JSON object")
+
     serve = _command(commands, "serve", "app.cli_serve:serve", "start the control room")
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")

@@ -17,11 +17,12 @@ from rths_engine.stability import published
 
 
 def stability(given: Namespace) -> None:
-    found = _published() if given.plan is None else engine.summary(_plan(given.plan))
+    found = _published() if given.plan is None else engine.summary(plan_at(given.plan))
     print(json.dumps(found) if given.json else _limit(found) if given.plan is None else _text(found))
 
 
-def _plan(path: str) -> Plan:
+def plan_at(path: str) -> Plan:
+    """The plan of a YAML file; - is standard input. Raises PlanError."""
     try:
         return Plan.from_yaml(sys.stdin.read() if path == "-" else Path(path).read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:

@@ -69,6 +69,11 @@ class Effect(Part):
         """With sizes moved into their bounds: a recording may hold anything."""
         return cls(**{name: _within(size, cls.model_fields[name].metadata) for name, size in sizes.items()})
 
+    @property
+    def id(self) -> str:
+        """Its name in plans and diagnoses, unique within a component."""
+        return str(type(self).model_fields["kind"].default)
+
     def says(self) -> str:
         """What the effect does, with its size and unit: the middle of the sentence of a diagnosis."""
         raise NotImplementedError
