@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
+from tests.browser.checks import checked
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 from tests.browser.test_pages import LOOKS
@@ -33,15 +31,12 @@ def test_another_kind_of_test_hides_what_it_does_not_use_and_brings_it_back(form
         expect(form.get_by_role("heading", name=heading, exact=True)).to_be_hidden()
     expect(form.locator("fieldset[data-path='stations.1']")).to_be_hidden()
     expect(form.get_by_label("Dampers in the storey").first).to_be_hidden()
-    with _checked(form, lambda plan: plan["drive"]["shape"]["kind"] == "sine") as answer:
-        form.get_by_label("Shape", exact=True).select_option("sine")
-    plan = answer.value.json()["plan"]
+    shape = form.get_by_label("Shape", exact=True)
+    plan = checked(form, lambda: shape.select_option("sine"), lambda plan: plan["drive"]["shape"]["kind"] == "sine")["plan"]
     assert (plan["motion"]["kind"], plan["structure"]["kind"], plan["start"]["displacement"]) == ("none", "none", [])
     assert [station["dampers"] for station in plan["stations"]] == [1]
     expect(form.locator(".good")).to_be_visible()
-    with _checked(form, lambda plan: plan["test"] == "hybrid") as answer:
-        kind.select_option("hybrid")
-    plan = answer.value.json()["plan"]
+    plan = checked(form, lambda: kind.select_option("hybrid"), lambda plan: plan["test"] == "hybrid")["plan"]
     assert [station["dampers"] for station in plan["stations"]] == [5, 4]
     assert (plan["motion"]["kind"], plan["drive"]["shape"]["kind"]) == ("record", "still")
 
@@ -61,9 +56,9 @@ def test_matrices_are_pasted_from_a_spreadsheet_and_mistakes_told_beside_them(fo
     form.get_by_label("Start from a template").select_option("structure-matrices")
     mass = form.get_by_label("Mass matrix M, t")
     expect(mass).to_have_value("50  0  0\n0  50  0\n0  0  40")
-    with _checked(form, lambda plan: plan["structure"]["mass"][2][2] == 45e3) as answer:
-        mass.fill(SPREADSHEET.replace("40", "45"))
-    assert answer.value.json()["plan"]["structure"]["mass"] == [[50e3, 0.0, 0.0], [0.0, 50e3, 0.0], [0.0, 0.0, 45e3]]
+    pasted = SPREADSHEET.replace("40", "45")
+    answer = checked(form, lambda: mass.fill(pasted), lambda plan: plan["structure"]["mass"][2][2] == 45e3)
+    assert answer["plan"]["structure"]["mass"] == [[50e3, 0.0, 0.0], [0.0, 50e3, 0.0], [0.0, 0.0, 45e3]]
     mass.fill("50 0 0\n0 50\n0 0 40")
     expect(form.locator("[id='e-structure.mass']")).to_have_text("row 2 has 2 numbers, row 1 has 3")
     mass.fill("50 1 0\n0 50 0\n0 0 40")
@@ -83,9 +78,9 @@ def test_samples_of_a_shape_are_pasted(form: Page) -> None:
 def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) -> None:
     form.get_by_role("combobox", name="Ground motion").select_option("none")
     expect(form.get_by_label("Record", exact=True)).to_have_count(0)
-    with _checked(form, lambda plan: len(plan["forces"]) == 1) as answer:
-        form.get_by_role("button", name="Add a floor force").click()
-    assert answer.value.json()["summary"]["pga"] is None
+    add = form.get_by_role("button", name="Add a floor force")
+    answer = checked(form, lambda: add.click(), lambda plan: len(plan["forces"]) == 1)
+    assert answer["summary"]["pga"] is None
     form.get_by_label("Floor", exact=True).fill("3")
     expect(form.locator("[id='e-forces.0.floor']")).to_contain_text("the structure has 2 floors")
 
@@ -136,13 +131,6 @@ def test_a_test_without_a_loop_has_no_stability_and_says_so(opened: Opener) -> N
     page = opened("/stability/specimen-mr-damper")
     expect(page.locator("#verdict")).to_contain_text("follows its drive: no loop that could be unstable")
     expect(page.locator("table").first).to_be_hidden()
-
-
-def _checked(form: Page, holds: Callable[[Any], bool]) -> Any:
-    """The answer to the first check of a plan of which something holds."""
-    return form.expect_response(
-        lambda answer: answer.url.endswith("/plans/check") and holds(json.loads(answer.request.post_data or "{}"))
-    )
 
 
 def _expect_whole(page: Page) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import h5py
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.checks import checked
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 
@@ -54,9 +56,10 @@ def test_a_mistake_only_the_service_knows_is_shown_beside_its_field(form: Page) 
 
 
 def test_a_value_may_be_typed_with_its_own_unit(form: Page) -> None:
-    with form.expect_response("**/plans/check") as answer:
-        form.get_by_label("Velocity limit, mm/s", exact=True).first.fill("22 in/s")
-    limit = answer.value.json()["plan"]["stations"][0]["actuator"]["velocity_limit"]
+    field = form.get_by_label("Velocity limit, mm/s", exact=True).first
+    before = float(field.input_value()) / 1e3
+    typed = checked(form, lambda: field.fill("22 in/s"), lambda plan: _velocity_limit(plan) != pytest.approx(before))
+    limit = _velocity_limit(typed["plan"])
     assert limit == pytest.approx(22 * 0.0254)  # equal but for the rounding of the product
 
 
@@ -118,10 +121,14 @@ def test_a_record_is_previewed_and_added_to_the_library(form: Page, tmp_path: Pa
     expect(form.locator(".good")).to_be_visible()
 
 
+def _velocity_limit(plan: dict[str, Any]) -> float:
+    limit: float = plan["stations"][0]["actuator"]["velocity_limit"]
+    return limit
+
+
 def _digest(form: Page) -> str:
-    """The digest once the last change was checked."""
-    with form.expect_response("**/plans/check") as answer:
-        form.get_by_label("Notes").press("End")
-        form.get_by_label("Notes").dispatch_event("input")
-    digest: str = answer.value.json()["digest"]
+    """The digest of the plan whose name the form shows."""
+    name = form.get_by_label("Name", exact=True).first.input_value()
+    notes = form.get_by_label("Notes")
+    digest: str = checked(form, lambda: notes.dispatch_event("input"), lambda plan: plan["name"] == name)["digest"]
     return digest
