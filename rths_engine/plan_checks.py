@@ -56,6 +56,9 @@ def _driven(plan: Plan) -> Iterator[Issue]:
         yield Issue("forces", "are not used in this kind of test", len(plan.forces), "leave them out")
     if not plan.start.at_rest:
         yield Issue("start", "is not used in this kind of test", fix="leave it at rest")
+    for name in ("structure_physics", "motion_physics"):
+        if getattr(plan, name):
+            yield Issue(name, "is not used in this kind of test", len(getattr(plan, name)), "leave it out")
     if len(plan.stations) != 1:
         yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one")
     for station in plan.stations[:1]:
@@ -95,6 +98,10 @@ def _computed(plan: Plan) -> Iterator[Issue]:
     if plan.structure.kind == "none":
         yield Issue("structure", "this kind of test computes a structure", "none", "choose one")
         return
+    beyond = list(_beyond(plan))
+    if beyond:  # the structure can't be assembled with such effects
+        yield from beyond
+        return
     if plan.drive.shape.kind != "still":
         yield Issue("drive", "is for tests of one specimen or actuator", plan.drive.shape.kind, "leave it at rest")
     if plan.test == "structure" and plan.stations:
@@ -110,6 +117,15 @@ def _computed(plan: Plan) -> Iterator[Issue]:
         yield Issue("integrator.dt", f"is {dt * rate:.6g} controller steps, but a step has {n} substeps", dt, fix)
     yield from _stable(plan)
     yield from _places(plan)
+
+
+def _beyond(plan: Plan) -> Iterator[Issue]:
+    floors = len(plan.structure.assemble().floors)
+    for index, effect in enumerate(plan.structure_physics):
+        storey = getattr(effect, "storey", 1)
+        if storey > floors:
+            where = f"structure_physics.{index}.storey"
+            yield Issue(where, f"the structure has {floors} storeys", storey, f"give 1 to {floors}")
 
 
 def _stable(plan: Plan) -> Iterator[Issue]:

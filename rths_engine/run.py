@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -140,13 +139,7 @@ def simulate(plan: Plan, motions: MotionLibrary | None = None) -> Result:
     return run.result("tripped" if run.trip else "completed", time.perf_counter() - start)
 
 
-@dataclass(frozen=True, slots=True)
-class _Slot:
-    kinds: Sequence[Any]
-    field: str
-
-
-_SLOTS = (_Slot(compensators.KINDS, "compensator"), _Slot(actuators.KINDS, "actuator"), _Slot(specimens.KINDS, "specimen"))
+_SLOTS: tuple[Sequence[Any], ...] = (compensators.KINDS, actuators.KINDS, specimens.KINDS)  # in the order of Station.rig
 
 
 def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
@@ -157,7 +150,7 @@ def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
     for slot, kinds in enumerate(_SLOTS):
         for j, station in enumerate(plan.stations):
             part = station.rig[slot]
-            codes[j, slot] = kinds.kinds.index(type(part))
+            codes[j, slot] = kinds.index(type(part))
             built[slot].append(part.build(plan.substep))
     return codes, _padded(built, 0), _padded(built, 1)
 

@@ -32,12 +32,12 @@ class Recordings:
     def residuals(self, parts: Sequence[Part]) -> list[Array]:
         return [self.component.measured(one) - self.component.predicted(parts, one) for one in self.data]
 
-    def misfit(self, parts: Sequence[Part], fitted: bool = True) -> Array:
-        """Whitened residuals of the fitted, or of the held-out, samples in a row."""
-        return self.joined(self.residuals(parts), fitted)
+    def misfit(self, parts: Sequence[Part]) -> Array:
+        """Whitened residuals of the fitted samples in a row."""
+        return self.joined(self.residuals(parts))
 
-    def joined(self, signals: Sequence[Array], fitted: bool = True) -> Array:
-        rows = [self.noise.whitened(one)[mask if fitted else ~mask] for one, mask in zip(signals, self.masks, strict=True)]
+    def joined(self, signals: Sequence[Array]) -> Array:
+        rows = [self.noise.whitened(one)[mask] for one, mask in zip(signals, self.masks, strict=True)]
         return np.concatenate(rows)
 
 

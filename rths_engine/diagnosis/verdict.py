@@ -68,7 +68,7 @@ def diagnose(
         "candidates": _candidates(worst) if worst else [],
         "indistinguishable": _indistinguishable(worst) if worst else [],
         "fit": _fit(worst) if worst else None,
-        "unexplained": _unexplained(worst) if worst else None,
+        "unexplained": _unexplained(worst, level) if worst else None,
         "next_test": None,
         "extended_plan": _extended(plan, judged).as_dict() if effects else None,
     }
@@ -164,10 +164,10 @@ def _fit(one: Judged) -> dict[str, Any]:
     return {"baseline": both(baseline), "extended": both(chosen), "noise_floor_nrmse": _noise(one)}
 
 
-def _unexplained(one: Judged) -> dict[str, Any]:
+def _unexplained(one: Judged, level: float) -> dict[str, Any]:
     left = max(0.0, _nrmse(one, one.selection.chosen.parts, True) ** 2 - _noise(one) ** 2)
     fraction = float(np.sqrt(left))
-    if one.selection.detections[-1].p_value > 0.01:
+    if one.selection.detections[-1].p_value > level:
         words = "What remains is noise as far as the library of effects can tell."
     else:
         words = f"A part of {100 * fraction:.2g} % of the force's standard deviation is beyond the noise and not explained."

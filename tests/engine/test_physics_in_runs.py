@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rths_engine import physics, replay
+from rths_engine.errors import PlanError
 from rths_engine.physics.specimen.backlash import Backlash
 from rths_engine.physics.specimen.viscous_heating import ViscousHeating
 from rths_engine.plan import Plan
@@ -93,3 +94,16 @@ def test_a_ground_motion_scaled_wrongly_shakes_a_linear_test_as_much_more() -> N
 def test_a_plan_with_effects_survives_yaml() -> None:
     plan = hybrid({"specimen_physics": [{"kind": "backlash", "gap": 0.002}]}, structure_physics=[{"kind": "p_delta"}])
     assert Plan.from_yaml(plan.to_yaml()).digest == plan.digest
+
+
+@pytest.mark.parametrize("kind", ["cubic_stiffness", "mass_error"])
+def test_an_effect_of_a_storey_that_is_not_there_is_told_where(kind: str) -> None:
+    with pytest.raises(PlanError, match=r"structure_physics\.1\.storey = 3: the structure has 2 storeys"):
+        hybrid({}, structure_physics=[{"kind": "p_delta"}, {"kind": kind, "storey": 3}])
+
+
+@pytest.mark.parametrize("field", ["structure_physics", "motion_physics"])
+def test_effects_of_what_a_test_does_not_have_are_refused(field: str) -> None:
+    effect = {"structure_physics": {"kind": "p_delta"}, "motion_physics": {"kind": "scale_error", "share": 0.1}}[field]
+    with pytest.raises(PlanError, match=f"{field} = 1: is not used in this kind of test"):
+        Plan.read(driven("specimen", **{field: [effect]}))

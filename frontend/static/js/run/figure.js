@@ -19,7 +19,7 @@ export class Figure {
       el("span", { class: "entry" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
     );
     this.at = el("span", { class: "at muted" });
-    this.plot = el("div", { class: "plot", role: "img", tabindex: "0" });
+    this.plot = el("div", { class: "plot", role: "img", tabindex: "0", "aria-label": this.describe("no data yet") });
     this.element = el(
       "figure",
       { class: "chart" },
@@ -35,6 +35,11 @@ export class Figure {
     this.at.textContent = atCursor && time !== null ? `at ${time.toFixed(3)} s` : "";
     const said = this.series.map((one, i) => `${one.label} ${reading(values[i])} ${one.unit}`.trim()).join(", ");
     const when = time === null ? "no data yet" : `at ${time.toFixed(2)} s: ${said}`;
-    this.plot.setAttribute("aria-label", `${this.title}, ${when}. ${this.keys ? KEYS : ""}`);
+    this.plot.setAttribute("aria-label", this.describe(when));
+  }
+
+  /** @param {string} when */
+  describe(when) {
+    return `${this.title}, ${when}. ${this.keys ? KEYS : ""}`;
   }
 }
