@@ -51,6 +51,10 @@ class RecordingError(RthsError):
     """A recording that is missing, damaged or of another form than expected."""
 
 
+class MeasuredError(RthsError):
+    """A file of measurements, or its mapping, that can't be imported."""
+
+
 def _short(value: Any, limit: int = 80) -> str:
     text = value if isinstance(value, str) else repr(value)
     return text if len(text) <= limit else text[: limit - 1] + "…"

@@ -38,7 +38,7 @@ def parse(lines: list[str], channel: int = 1) -> Parsed:
     """Raises MotionError with the line where the columns end being columns."""
     header, data = _split(lines)
     rows = _rows(data)
-    dt, unit = _header_step(header), unit_in(" ".join(header))
+    dt, unit = header_step(header), unit_in(" ".join(header))
     if dt is None and (listed := _count_and_step(rows)) is not None:
         dt, rows = listed, rows[1:]
     widths = {len(row) for _, row in rows[:-1]} or {len(rows[0][1])}
@@ -119,7 +119,7 @@ def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
     raise MotionError(Issue(f"line {at}", "the comma may be a decimal sign or a separator", line, fix))
 
 
-def _header_step(header: list[str]) -> float | None:
+def header_step(header: list[str]) -> float | None:
     for line in header:
         if found := _STEP.search(line):
             milli = "ms" in ((found[1] or "").lower(), (found[3] or "").lower())

@@ -1,0 +1,33 @@
+"""Reads a file of measurements of any known format, found by its content."""
+
+from __future__ import annotations
+
+from rths_engine.errors import Issue, MeasuredError, MotionError
+from rths_engine.ground_motions.text import lines_of
+from rths_engine.measured.readers import ground_motion, hdf5, json_file, matlab, parquet, text
+from rths_engine.measured.table import Table, checked
+
+FORMATS = ("CSV, TSV or columns", "JSON", "MATLAB", "Parquet", "HDF5", "PEER AT2", "COSMOS V2")
+
+
+def read(raw: bytes, filename: str) -> Table:
+    """Raises MeasuredError with what is wrong and how to mend it."""
+    return checked(_read(raw, filename))
+
+
+def _read(raw: bytes, filename: str) -> Table:
+    if not raw.strip():
+        raise MeasuredError(Issue("file", "is empty", fix="choose a file of measurements"))
+    if parquet.looks_like(raw):
+        return parquet.read(raw)
+    if hdf5.looks_like(raw):
+        return hdf5.read(raw)
+    if matlab.looks_like(raw, filename):
+        return matlab.read(raw)
+    if json_file.looks_like(raw):
+        return json_file.read(raw)
+    try:
+        lines = lines_of(raw)
+        return ground_motion.read(lines) if ground_motion.looks_like(lines) else text.read(lines)
+    except MotionError as error:
+        raise MeasuredError(error.issues) from None
