@@ -59,6 +59,12 @@ def parser() -> argparse.ArgumentParser:
     )
     table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
 
+    imports = _command(commands, "import", "app.cli_import:measurements", "bring in a file of measurements as a recording")
+    imports.add_argument("file", type=Path, metavar="FILE", help="CSV, JSON, MATLAB, Parquet, HDF5, AT2 or COSMOS V2")
+    imports.add_argument("--map", type=Path, metavar="MAP.yaml", help="what the file's columns are")
+    imports.add_argument("--out", type=Path, metavar="REC.h5", help="where to write the recording (HDF5)")
+    imports.add_argument("--guess", action="store_true", help="print a proposed MAP.yaml")
+
     diagnose = _command(commands, "diagnose", "app.cli_diagnose:diagnose", "find what the models of specimens leave out")
     diagnose.add_argument("plan", metavar="PLAN.yaml", help="the plan whose models are doubted")
     diagnose.add_argument("recording", type=Path, metavar="REC.h5", help="a recording of the plan's stations")

@@ -6,9 +6,11 @@ import numpy as np
 
 from rths_engine.arrays import Array
 from rths_engine.measured.finding import Finding
+from rths_engine.measured.roles import shown
 
 LONGEST_RUN = 10  # samples that are bridged by interpolation; longer runs refuse the file
 CLIPPED_RUN = 4  # samples at exactly the extreme
+CLIPPED_SAMPLES = 8  # in all runs: fewer may be a coarse reading at one peak
 ABRUPT = 4.0  # of the resolution, over two samples: a smooth peak reaches its top in smaller steps
 
 
@@ -31,15 +33,15 @@ def filled(values: Array, times: Array, channel: str) -> tuple[Array, list[Findi
     return bridged, [Finding("warning", channel, "has missing values (NaN); they were bridged by interpolation", value, at)]
 
 
-def shape(values: Array, times: Array, channel: str) -> list[Finding]:
-    """Whether the channel never changes or is cut off at its extremes."""
+def shape(values: Array, times: Array, channel: str, unit: str) -> list[Finding]:
+    """Whether the channel, in the SI `unit`, never changes or is cut off at its extremes."""
     if np.ptp(values) == 0:
         fix = "leave the channel out unless it is meant to be constant"
-        return [Finding("warning", channel, "is constant", f"{values[0]:.6g} throughout", float(times[0]), fix)]
-    return [*_clipped(values, times, channel, 1.0), *_clipped(values, times, channel, -1.0)]
+        return [Finding("warning", channel, "is constant", f"{_told(values[0], unit)} throughout", float(times[0]), fix)]
+    return [*_clipped(values, times, channel, unit, 1.0), *_clipped(values, times, channel, unit, -1.0)]
 
 
-def _clipped(values: Array, times: Array, channel: str, sign: float) -> list[Finding]:
+def _clipped(values: Array, times: Array, channel: str, unit: str, sign: float) -> list[Finding]:
     """Runs at the very extreme that the signal meets abruptly; those that begin or end the record may be rest."""
     level = sign * float(np.max(sign * values))
     starts, ends = _runs(values == level)
@@ -52,11 +54,11 @@ def _clipped(values: Array, times: Array, channel: str, sign: float) -> list[Fin
         and last - first >= CLIPPED_RUN
         and sign * (level - values[max(first - 2, 0)]) > ABRUPT * resolution
     ]
-    if not inside:
-        return []
     samples = sum(last - first for first, last in inside)
+    if samples < CLIPPED_SAMPLES:
+        return []
     word = "largest" if sign > 0 else "smallest"
-    value = f"{samples} samples in {len(inside)} run{'s' if len(inside) > 1 else ''} at exactly {level:.6g}"
+    value = f"{samples} samples in {len(inside)} run{'s' if len(inside) > 1 else ''} at exactly {_told(level, unit)}"
     problem = f"stays at its {word} value: clipped, saturated, or a held command"
     return [
         Finding("warning", channel, problem, value, float(times[inside[0][0]]), "check the range of the sensor or the drive")
@@ -68,6 +70,11 @@ def _resolution(values: Array) -> float:
     steps = np.diff(np.unique(values))
     told = steps[steps > 1e-9 * np.ptp(values)]
     return float(told.min()) if len(told) else 0.0
+
+
+def _told(value: float, unit: str) -> str:
+    number, name = shown(np.array(value), unit)
+    return f"{number:.6g} {name}"
 
 
 def _runs(flags: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

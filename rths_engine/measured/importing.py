@@ -56,7 +56,7 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
         values, found = checks.filled(_si(table.column(channel.column, "").values, channel), own.times, channel.key)
         findings += found
         if not any(one.severity == "error" for one in found):
-            findings += checks.shape(values, own.times, channel.key)
+            findings += checks.shape(values, own.times, channel.key, _unit(channel))
             signals.append((channel, values, own))
     if len(signals) < len(mapping.measurements):
         return Examined(None, tuple(findings))
@@ -124,6 +124,11 @@ def _si(values: Array, channel: ColumnMap) -> Array:
     return sign * factor * gain * (values - channel.offset) + zero
 
 
+def _unit(channel: ColumnMap) -> str:
+    """The SI unit of the channel."""
+    return SI[dimension(channel.scale[1])]
+
+
 def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
     """Start (s), number of samples and step (s) of the recording: what all channels share, within start and stop."""
     dt = 1 / mapping.target_rate if mapping.target_rate else min(one.step for one in clocks)
@@ -160,4 +165,4 @@ def _channel(channel: ColumnMap, values: Array) -> MeasuredChannel:
     role = ROLES[channel.role]
     number = (channel.number or 1) if role.counts else None
     label = channel.label or (f"{role.label}, {role.counts} {number}" if number else role.label)
-    return MeasuredChannel(channel.role, number, values, SI[dimension(channel.scale[1])], label, str(channel.column))
+    return MeasuredChannel(channel.role, number, values, _unit(channel), label, str(channel.column))

@@ -1,7 +1,7 @@
 """What a file's columns are: value = sign * gain * (column - offset), in `unit`, as role and station or floor.
 
-Read like plans: a frozen value, in YAML `schema: rths-mapping/1`; kept with a recording, and used again for the next file of the same
-instrument.
+Read like plans: a frozen value, in YAML `schema: rths-mapping/1`; kept with a recording, and used again for the next file of
+the same instrument.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rths_engine import units
+from rths_engine.arrays import Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,3 +65,10 @@ def to_si(unit: str) -> tuple[float, float]:
 def key(role: str, number: int | None) -> str:
     """Name of a channel in a measured recording: `ag`, `x_meas.1`."""
     return f"{role}.{number}" if ROLES[role].counts else role
+
+
+def shown(values: Array, unit: str) -> tuple[Array, str]:
+    """Values in SI as people read them, with the unit they are shown in."""
+    name = SHOWN[dimension(unit)]
+    factor, zero = to_si(name)
+    return (values - zero) / factor, name

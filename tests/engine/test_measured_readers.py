@@ -1,0 +1,162 @@
+"""Files of measurements in every format come back as what was written; what can't be read is refused with the reason."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rths_engine.errors import MeasuredError
+from rths_engine.measured import examine, guess, imported, read
+from rths_engine.measured.table import MOST_SAMPLES
+from tests.engine import measurements as made
+from tests.engine.measurements import COLUMNS, NAMES, RATE, F, V, X, csv, text
+
+DIGITS = 1e-8  # relative: text is written with nine digits
+FORMATS: dict[str, tuple[str, Callable[[], bytes]]] = {
+    "CSV": ("test.csv", csv),
+    "TSV": ("test.tsv", lambda: text("\t", head=("\t".join(NAMES),))),
+    "semicolon and decimal comma": ("test.csv", lambda: text(";", ",", (";".join(NAMES),))),
+    "tab and decimal comma": ("test.txt", lambda: text("\t", ",", ("\t".join(NAMES),))),
+    "white space and a row of units": ("test.dat", lambda: text("   ", head=("time disp vel force", "s mm mm/s kN"))),
+    "comment header": ("test.txt", lambda: text(",", head=("# sine test", "# " + ",".join(NAMES)))),
+    "trailing separators": ("test.csv", lambda: text(head=(",".join(NAMES),)).replace(b"\n", b",\r\n") + b",\r\n"),
+    "nested JSON": ("test.json", made.json_nested),
+    "JSON matrix": ("test.json", made.json_matrix),
+    "JSON records": ("test.json", made.json_records),
+    "MATLAB v5": ("test.mat", made.matlab5),
+    "MATLAB v7.3": ("test.mat", made.matlab73),
+    "HDF5": ("test.h5", made.hdf5),
+    "Parquet": ("test.parquet", made.parquet),
+}
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_a_file_read_by_its_guessed_mapping_holds_what_was_written_in_si(format: str) -> None:
+    filename, write = FORMATS[format]
+    table = read(write(), filename)
+    found = imported(table, guess(table).mapping)
+    assert found.dt == pytest.approx(1 / RATE, rel=1e-12)
+    for role, values, factor in (("x_meas", X, 1e-3), ("v_meas", V, 1e-3), ("f_meas", F, 1e3)):
+        np.testing.assert_allclose(found.get(role, 1), factor * values, rtol=DIGITS, atol=DIGITS * factor * 30)
+
+
+def test_an_at2_record_is_the_ground_acceleration() -> None:
+    samples = np.round(0.3 * np.sin(np.arange(400) / 7), 6)
+    head = (
+        "PEER NGA STRONG MOTION DATABASE RECORD",
+        "Event, Station, 0",
+        "ACCELERATION TIME SERIES IN UNITS OF G",
+        "NPTS= 400, DT= .0050 SEC",
+    )
+    rows = ("  ".join(f"{number:.6E}" for number in row) for row in samples.reshape(-1, 5))
+    table = read("\n".join([*head, *rows]).encode(), "record.AT2")
+    found = imported(table, guess(table).mapping)
+    assert found.dt == pytest.approx(0.005)
+    channel = found.channels[0]
+    np.testing.assert_allclose(channel.values, 9.80665 * samples, atol=1e-9)  # six digits are written, none is lost
+
+
+def test_every_channel_of_a_cosmos_file_is_a_column() -> None:
+    def block(name: str, scale: float) -> list[str]:
+        rows = ["".join(f"{scale * k:10.3f}" for k in range(first, first + 8)) for first in range(0, 80, 8)]
+        opening = "   80 points of accel data equally spaced at  .020 sec.      (Units: cm/sec/sec)"
+        return [
+            "Corrected accelerogram",
+            f"Chan  {name}: {name} Deg",
+            opening,
+            *rows,
+            "/&  ----------  End of data for channel",
+        ]
+
+    table = read("\n".join([*block("1", 1.0), *block("2", 2.0)]).encode(), "two.v2")
+    assert [len(column.values) for column in table.columns] == [80, 80]
+    assert {column.dt for column in table.columns} == {0.02} and {column.unit for column in table.columns} == {"cm/s^2"}
+    np.testing.assert_allclose(table.columns[1].values, 2 * table.columns[0].values)
+
+
+def test_missing_values_come_as_nan_and_columns_of_text_are_left_out() -> None:
+    table = read(b"time,operator,disp (mm),note\n0,Ana,1.5,\n0.1,Ana,,ok\n0.2,Ana,NaN,ok\n0.3,Ana,2.5,ok\n", "a.csv")
+    assert list(table.names) == ["time", "disp (mm)"]
+    assert np.isnan(table.names["disp (mm)"].values).tolist() == [False, True, True, False]
+    assert table.notes == ("operator holds text", "note holds text")
+    assert np.isnan(read(json.dumps({"x": [1, None, 3], "y": [1, 2, 3]}).encode(), "a.json").names["x"].values[1])
+
+
+def test_parquet_tells_what_is_missing() -> None:
+    columns = COLUMNS.copy()
+    columns[7, 1] = np.nan
+    table = read(made.parquet(columns), "test.parquet")
+    assert np.flatnonzero(np.isnan(table.names["Disp (mm)"].values)).tolist() == [7]
+    assert table.notes == ("column operator holds no numbers",)
+
+
+@pytest.mark.parametrize(
+    ("raw", "filename", "told"),
+    [
+        (b"", "a.csv", "is empty"),
+        (b"operator,note\nAna,fine\nBo,good\n", "a.csv", "is no row of numbers"),
+        (b"t,x\n0,1\n1,2,3\n2,4\n3,5\n", "a.csv", "line 3 = 1,2,3: has 3 fields; the others have 2"),
+        (b"t,x\n0,1\n1,2\n2,4\n3,oops\n4,1\n5,1\n6,1\n7,1\n", "a.csv", "line 5 = oops: column 2 is no number"),
+        (b"0,1\n0,2\n0,3\n", "a.csv", "the comma may be a decimal sign or a separator"),
+        (b'{"x": [1, 2', "a.json", "is no JSON"),
+        (b'{"x": "nothing"}', "a.json", "holds no column of numbers"),
+        (b"[" * 100_000, "a.json", "nested too deeply"),
+        (b"MATLAB 5.0 MAT-file".ljust(200, b"x"), "a.mat", "can't be read as a MATLAB file"),
+        (b"\x89HDF\r\n\x1a\n" + b"x" * 100, "a.h5", "can't be read as HDF5"),
+        (b"PAR1" + b"x" * 50 + b"PAR1", "a.parquet", "can't be read as Parquet"),
+        (b"\x00\x01\x02\x03" * 9, "a.bin", "is binary content"),
+    ],
+)
+def test_what_cant_be_read_is_refused_with_the_reason(raw: bytes, filename: str, told: str) -> None:
+    with pytest.raises(MeasuredError) as refusal:
+        read(raw, filename)
+    assert told in str(refusal.value)
+
+
+@given(
+    st.sampled_from([made.matlab5(), made.matlab73(), made.hdf5(), made.parquet(), made.json_nested(), csv()]),
+    st.lists(st.tuples(st.integers(0, 10**9), st.integers(0, 255)), min_size=1, max_size=20),
+    st.integers(0, 10**9),
+)
+def test_a_damaged_file_is_read_or_refused_but_never_an_error_of_the_program(
+    raw: bytes, changes: list[tuple[int, int]], cut: int
+) -> None:
+    damaged = bytearray(raw[: 1 + cut % len(raw)] if cut % 2 else raw)
+    for at, value in changes:
+        damaged[at % len(damaged)] = value
+    try:
+        table = read(bytes(damaged), "damaged.bin")
+        examine(table, guess(table).mapping)
+    except MeasuredError as refusal:
+        assert refusal.issues
+
+
+def test_an_hdf5_file_can_name_no_other_file_of_the_machine(tmp_path: Path) -> None:
+    with h5py.File(tmp_path / "secret.h5", "w") as secret:
+        secret.create_dataset("x", data=np.arange(9.0))
+    np.arange(9.0).tofile(tmp_path / "secret.bin")
+    file = io.BytesIO()
+    with h5py.File(file, "w") as written:
+        written.create_dataset("own", data=np.arange(5.0))
+        written["link"] = h5py.ExternalLink(str(tmp_path / "secret.h5"), "/x")
+        written.create_dataset("stored", (9,), "f8", external=[(str(tmp_path / "secret.bin"), 0, 72)])
+        layout = h5py.VirtualLayout((9,), "f8")
+        layout[:] = h5py.VirtualSource(tmp_path / "secret.h5", "x", (9,))
+        written.create_virtual_dataset("virtual", layout)
+    assert list(read(file.getvalue(), "a.h5").names) == ["own"]
+
+
+def test_a_small_file_that_claims_to_be_huge_is_refused_unread() -> None:
+    file = io.BytesIO()
+    with h5py.File(file, "w") as written:
+        written.create_dataset("x", (MOST_SAMPLES + 1,), "f8", chunks=(1024,))
+    with pytest.raises(MeasuredError, match="is the most"):
+        read(file.getvalue(), "a.h5")
