@@ -12,7 +12,8 @@ from rths_engine.measured.finding import Finding
 LONGEST_GAP = 10  # steps that are bridged by interpolation; longer ones refuse the file
 JITTER = 0.02  # of a step: rounding of time stamps stays below
 DRIFT = 0.05  # of a step, over the whole record, by which the step is rounded
-IRREGULAR = 0.1  # share of steps beyond 1.5 from which samples count as irregular, not as missing
+UNEVEN = 0.25  # of a step: what a step may be late before a sample counts as missing, beyond one half
+IRREGULAR = 0.1  # share of steps beyond that from which samples count as irregular, not as missing
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +42,7 @@ def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
     if refused := _refused(times, channel):
         return None, [refused]
     differences = np.diff(times)
-    steps = np.maximum(1, np.rint(differences / np.median(differences)))
+    steps = np.maximum(1, np.rint(differences / np.median(differences) - UNEVEN))
     index = np.concatenate([[0.0], np.cumsum(steps)])
     slope, start = np.polyfit(index, times, 1) if len(times) > 2 else (differences[0], times[0])
     step = _rounded(float(slope), float(index[-1]))

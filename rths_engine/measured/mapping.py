@@ -35,7 +35,7 @@ def _gain(value: Any) -> Any:
 class ColumnMap(Value):
     """One column, by its name or its number from 1, as a channel."""
 
-    column: str | int = Field(title="Column")
+    column: Annotated[str, Field(max_length=300)] | int = Field(title="Column")
     role: RoleName = Field(title="Role")
     number: int | None = Field(None, ge=1, le=999, title="Station or floor")
     unit: str = Field(title="Unit of the column", max_length=20)
@@ -45,7 +45,9 @@ class ColumnMap(Value):
     offset: float = Field(0.0, title="Offset", description="the column's reading at zero, in its own unit")
     reverse: bool = Field(False, title="Reversed sign")
     label: str = Field("", title="Label", max_length=120)
-    time: str | None = Field(None, title="Own time column", description="where channels were sampled by different clocks")
+    time: str | None = Field(
+        None, max_length=300, title="Own time column", description="where channels were sampled by different clocks"
+    )
     rate: float | None = quantity("Own rate", "Hz", default=None, gt=0)
 
     @field_validator("unit")

@@ -14,10 +14,10 @@ def write(mapping: Mapping, reasons: Texts[str, str] | None = None, left_out: Te
     from ruamel.yaml import YAML
     from ruamel.yaml.comments import CommentedMap, CommentedSeq
 
-    data = CommentedMap(_set(mapping, exclude={"channels"}))
+    data = CommentedMap({name: _quoted(value) for name, value in _set(mapping, exclude={"channels"}).items()})
     channels = CommentedSeq()
     for channel in mapping.channels:
-        fields = CommentedMap(_set(channel))
+        fields = CommentedMap({name: _quoted(value) for name, value in _set(channel).items()})
         if reason := (reasons or {}).get(str(channel.column), ""):
             fields.yaml_add_eol_comment(_line(reason), "column")
         channels.append(fields)
@@ -34,6 +34,13 @@ def write(mapping: Mapping, reasons: Texts[str, str] | None = None, left_out: Te
 def _set(value: Any, exclude: set[str] | None = None) -> dict[str, Any]:
     found: dict[str, Any] = value.model_dump(mode="json", by_alias=True, exclude=exclude, exclude_defaults=True)
     return ({"schema": value.schema_} | found) if hasattr(value, "schema_") else found
+
+
+def _quoted(value: Any) -> Any:
+    """Text with signs that plain YAML can't hold, in quotes."""
+    from ruamel.yaml.scalarstring import DoubleQuotedScalarString
+
+    return DoubleQuotedScalarString(value) if isinstance(value, str) and not value.isprintable() else value
 
 
 def _line(text: str) -> str:

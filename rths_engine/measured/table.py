@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +14,7 @@ from rths_engine.errors import Issue, MeasuredError
 
 MOST_SAMPLES = 50_000_000  # in all columns: 400 MB
 MOST_COLUMNS = 1000
+LONGEST_NAME = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +53,7 @@ class Table:
 
 
 def checked(table: Table) -> Table:
-    """The table itself. Raises MeasuredError where it holds nothing, or more than can be worked with."""
+    """The table, its names storable. Raises MeasuredError where it holds nothing, or more than can be worked with."""
     if not table.columns:
         raise MeasuredError(
             Issue("file", "holds no column of numbers", table.format, "export the signals as arrays or columns")
@@ -61,7 +62,14 @@ def checked(table: Table) -> Table:
         problem = f"holds {len(table.columns)} columns; {MOST_COLUMNS} is the most"
         raise MeasuredError(Issue("file", problem, fix="export fewer signals, one signal a column"))
     refuse_many(sum(len(column.values) for column in table.columns))
-    return table
+    return replace(
+        table, columns=tuple(replace(one, name=_storable(one.name), unit=_storable(one.unit)) for one in table.columns)
+    )
+
+
+def _storable(text: str) -> str:
+    """The text without what no file or database holds: NUL and halves of surrogate pairs."""
+    return text.replace("\0", "").encode("utf-8", "replace").decode()[:LONGEST_NAME]
 
 
 def refuse_many(samples: int) -> None:

@@ -78,7 +78,7 @@ def test_start_and_stop_are_in_the_files_time() -> None:
     ("more", "told"),
     [
         ({"start": 7.0}, "leave 0 samples"),
-        ({"target_rate": 0.1}, "1000 is the most"),
+        ({"target_rate": 0.1}, "leave 1 samples"),
         ({"target_rate": 0.4}, "leave 3 samples"),
         ({"target_rate": 1e6}, "1000 is the most"),
     ],
@@ -128,7 +128,7 @@ def test_what_is_no_recording_is_refused(tmp_path: Path) -> None:
     for name in ("text.h5", "other.h5"):
         with pytest.raises(RecordingError, match=f"{name} is no complete rths-measured/1"):
             load(tmp_path / name)
-    with pytest.raises(RecordingError, match="there is no recording none.h5"):
+    with pytest.raises(RecordingError, match=r"there is no recording none\.h5"):
         load(tmp_path / "none.h5")
 
 
