@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -115,3 +118,10 @@ def test_a_file_without_any_time_says_what_is_missing() -> None:
 )
 def test_the_kind_of_test_follows_from_what_was_measured(signals: tuple[str, ...], test: str) -> None:
     assert guess(Table("test", (Column("t (s)", T), *(Column(name, X) for name in signals)))).mapping.test == test
+
+
+def test_the_example_of_the_page_is_a_mapping() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "importing.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"^```yaml\n(.*?)^```", page, re.M | re.S)
+    assert Mapping.from_yaml(text).channels[2].scale == (2.5, "kN")
+    assert all(f"`{role}`" in page for role in ROLES)
