@@ -7,15 +7,16 @@ from argparse import Namespace
 from typing import Any
 
 from app.cli_stability import plan_at
-from rths_engine import files, recording
-from rths_engine.diagnosis.verdict import diagnose as engine
+from rths_engine import files, measured
+from rths_engine.diagnosis import diagnose as engine
 from rths_engine.errors import Issue, PlanError
 
 WORDS = {
     "consistent": "The recording is what the plan's models simulate, up to noise.",
     "recalibrate": "The plan's models fit once their own parameters are moved: no new physics.",
-    "undetermined": "Something beyond noise remains, but no effect of the library accounts for it.",
+    "undetermined": "Something beyond noise remains, too small to tell what it is.",
     "mismatch": "The models leave physics out.",
+    "configuration_error": "What the controller computed is not what the plan computes.",
 }
 
 
@@ -25,8 +26,8 @@ def diagnose(given: Namespace) -> None:
     if given.json and not given.json.parent.is_dir():
         raise PlanError(Issue("--json", "there is no such folder", str(given.json.parent), "make it first"))
     plan = plan_at(given.plan)
-    heldout = [recording.load(path) for path in given.holdout]
-    found = engine(plan, recording.load(given.recording), heldout, given.level)
+    heldout = [measured.load(path) for path in given.holdout]
+    found = engine(plan, measured.load(given.recording), heldout, given.level).verdict
     if given.json:
         with files.temporary(given.json) as written:
             written.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", encoding="utf-8")

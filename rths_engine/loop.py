@@ -42,7 +42,7 @@ def _within(value, limit):
 
 
 @compiled
-def _track(memory, x_cmd, x_meas, f_meas):
+def track(memory, x_cmd, x_meas, f_meas):
     """Tracking indicator (9) and energy error (10) by the trapezoidal rule; remembers the measured values."""
     cmd_move = x_cmd - memory[X_CMD]
     meas_move = x_meas - memory[X_MEAS]
@@ -149,7 +149,7 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
         memory[F_TRUE] = f_true
         x_meas = x_true + noise[0]
         f_meas = f_true + noise[1]
-    _track(memory, x_cmd, x_meas, f_meas)
+    track(memory, x_cmd, x_meas, f_meas)
     row[0], row[1], row[2], row[3] = x_cmd, x_comp, x_meas, f_meas
     row[4], row[5], row[6], row[7] = x_cmd - x_meas, memory[TI], adapted[0], memory[ENERGY_ERROR]
     if not _within(f_meas, limits[2]):
@@ -172,7 +172,7 @@ def _resist_drifts(t, dt, state, left_out, residual):
 
 
 @compiled
-def _integrate(i, setup, state, left_out, residual, work, x_next):
+def integrate(i, setup, state, left_out, residual, work, x_next):
     """x[i+1] into x_next and v[i+1] into state.v by the scheme (`integrators.scheme`), with the measured forces of step i."""
     x, v = state.x, state.v
     for a in range(x.size):
@@ -210,7 +210,7 @@ def advance(first, last, setup, state, left_out, record):
     stations, width = setup.dampers.size, len(STATION_COLUMNS)
     residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
-        _integrate(i, setup, state, left_out, residual, work, x_next)
+        integrate(i, setup, state, left_out, residual, work, x_next)
         for j in range(stations):
             command[j, 0], command[j, 1] = setup.drive[i, j], setup.drive[i + 1, j]
             for a in range(x.size):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -25,7 +25,7 @@ from rths_engine.integrators.scheme import Scheme
 from rths_engine.motion import NoMotion, PlannedMotion
 from rths_engine.part import Part, Value, quantity, validated
 from rths_engine.physics import ActuatorEffect, InputEffect, SensorEffect, SpecimenEffect, StructureEffect
-from rths_engine.physics.effect import MATRICES, PART, Effect
+from rths_engine.physics.effect import MATRICES, PART, Effect, amended
 from rths_engine.safety import Limits
 from rths_engine.specimens import Specimen
 from rths_engine.specimens.mr_damper import MrDamper
@@ -71,19 +71,12 @@ class Station(Value):
     @property
     def rig(self) -> tuple[Part, Part, Part]:
         """Compensator, actuator and specimen as they are built, with what effects change of a part."""
-        return self.compensator, _amended(self.actuator, self.actuator_physics), _amended(self.specimen, self.specimen_physics)
+        return self.compensator, amended(self.actuator, self.actuator_physics), amended(self.specimen, self.specimen_physics)
 
     @property
     def physics(self) -> tuple[Effect, ...]:
         """Every effect with a step of its own."""
         return tuple(one for one in (*self.actuator_physics, *self.specimen_physics, *self.sensor_physics) if one.hook != PART)
-
-
-def _amended(part: Part, effects: Sequence[Effect]) -> Part:
-    for effect in effects:
-        if effect.hook == PART:
-            part = effect.amended(part)
-    return part
 
 
 class Fastest(Value):

@@ -6,32 +6,112 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rths_engine import specimens
+from rths_engine import actuators, compensators, loop, specimens, starting
 from rths_engine.arrays import Array
-from rths_engine.dispatch import effects, extend_sensor, extend_specimen, resisted
+from rths_engine.dispatch import (
+    actuate,
+    compensate,
+    effects,
+    extend_actuator,
+    extend_sensor,
+    extend_specimen,
+    resisted,
+)
 from rths_engine.kernel import entry
 from rths_engine.part import Part
-from rths_engine.physics.effect import F_SENSOR, FORCE, INPUT, SERIES, Effect
+from rths_engine.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PART, PISTON, SERIES, X_SENSOR, Effect, amended
+from rths_engine.plan import Plan
+from rths_engine.setup import left_out, setup
 
 
-def specimen(part: Part, left_out: Sequence[Effect], x: Array, current: Array, dt: float) -> Array:
-    """Force (N) of a specimen and the effects on it, from displacement (m) and current, every dt (s)."""
+def specimen(part: Part, extended: Sequence[Effect], x: Array, current: Array, dt: float, start: float = 0.0) -> Array:
+    """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s)."""
+    part = amended(part, extended)
     parameters, state = part.build(dt)
     code = specimens.KINDS.index(type(part))
     force: Array = np.empty(len(x))
-    _specimen(x, current, dt, code, parameters, state, effects(left_out, dt), force)
+    _specimen(x, current, start, dt, code, parameters, state, effects(_stepping(extended), dt), force)
     return force
 
 
+def actuator(part: Part, extended: Sequence[Effect], command: Array, load: Array, dt: float, start: float = 0.0) -> Array:
+    """Displacement reading (m) of an actuator with effects, from its command (m) and the force on it (N)."""
+    part = amended(part, extended)
+    parameters, state = part.build(dt)
+    code = actuators.KINDS.index(type(part))
+    x: Array = np.empty(len(command))
+    _actuator(command, load, start, dt, code, parameters, state, effects(_stepping(extended), dt), x)
+    return x
+
+
+def compensator(part: Part, x_cmd: Array, x_meas: Array, dt: float) -> Array:
+    """Compensated command (m) from the command and the measured displacement (m)."""
+    parameters, state = part.build(dt)
+    sent: Array = np.empty(len(x_cmd))
+    _compensator(x_cmd, x_meas, dt, compensators.KINDS.index(type(part)), parameters, state, sent)
+    return sent
+
+
+def structure(plan: Plan, inputs: Array, reactions: Array) -> Array:
+    """Displacements (steps + 1, DOF), m, of the plan's structure under inputs (steps + 1, 1 + forces), the ground
+    acceleration (m/s^2) and the forces on floors (N), and the stations' forces (steps + 1, stations), N."""
+    built, scheme = plan.assembled(), plan.scheme()
+    stations = len(plan.stations)
+    held, parts = setup(plan, built, scheme, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
+    x, v, carry = starting.state(plan.start, built, scheme, plan.step, inputs[0] @ held.loads)
+    state = loop.State(x, v, carry, np.zeros((len(built.members.dofs), 3)), parts, np.zeros((stations, loop.MEMORY)))
+    history: Array = np.empty((len(inputs), len(x)))
+    history[0] = x
+    _structure(held, state, left_out(plan, built), reactions, history)
+    return history
+
+
+def _stepping(extended: Sequence[Effect]) -> list[Effect]:
+    return [effect for effect in extended if effect.hook != PART]
+
+
 @entry
-def _specimen(x, current, dt, code, parameters, state, left_out, force):
+def _specimen(x, current, start, dt, code, parameters, state, extended, force):
     f, last, last_u = 0.0, x[0], x[0]
     for q in range(x.size):
+        t = start + q * dt
         v = (x[q] - last) / dt
         last = x[q]
-        u = extend_specimen(INPUT, left_out, x[q], x[q], v, f, q * dt, dt)
-        flexibility = extend_specimen(SERIES, left_out, 0.0, x[q], v, f, q * dt, dt)
+        u = extend_specimen(INPUT, extended, x[q], x[q], v, f, t, dt)
+        flexibility = extend_specimen(SERIES, extended, 0.0, x[q], v, f, t, dt)
         u, f = resisted(code, parameters, state, flexibility, u, dt)
-        f = extend_specimen(FORCE, left_out, f, u, (u - last_u) / dt, current[q], q * dt, dt)
+        f = extend_specimen(FORCE, extended, f, u, (u - last_u) / dt, current[q], t, dt)
         last_u = u
-        force[q] = extend_sensor(F_SENSOR, left_out, f, x[q], v, f, q * dt, dt)
+        force[q] = extend_sensor(F_SENSOR, extended, f, x[q], v, f, t, dt)
+
+
+@entry
+def _actuator(command, load, start, dt, code, parameters, state, extended, reading):
+    x, v, last_sent, force = 0.0, 0.0, 0.0, 0.0
+    for q in range(command.size):
+        t = start + q * dt
+        sent = extend_actuator(COMMAND, extended, command[q], x, v, force, t, dt)
+        moved = actuate(code, parameters, state, sent, force)
+        moved = extend_actuator(PISTON, extended, moved, sent, (sent - last_sent) / dt, force, t, dt)
+        x, v, last_sent, force = moved, (moved - x) / dt, sent, load[q]
+        reading[q] = extend_sensor(X_SENSOR, extended, x, x, v, x, t, dt)
+
+
+@entry
+def _compensator(x_cmd, x_meas, dt, code, parameters, state, sent):
+    memory = np.zeros(loop.MEMORY)
+    for q in range(x_cmd.size):
+        last, read, ti = memory[loop.X_CMD], memory[loop.X_MEAS], memory[loop.TI]
+        sent[q] = compensate(code, parameters, state, x_cmd[q], last, read, ti, dt)
+        loop.track(memory, x_cmd[q], x_meas[q], 0.0)
+
+
+@entry
+def _structure(held, state, extended, reactions, history):
+    residual, work, x_next = np.empty(state.x.size), np.empty(state.x.size), np.empty(state.x.size)
+    for i in range(history.shape[0] - 1):
+        for j in range(reactions.shape[1]):
+            state.memory[j, loop.F_MEAS] = reactions[i, j]
+        loop.integrate(i, held, state, extended, residual, work, x_next)
+        state.x[:] = x_next
+        history[i + 1] = x_next

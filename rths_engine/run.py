@@ -5,27 +5,18 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rths_engine import actuators, compensators, loop, motion, specimens, starting
+from rths_engine import loop, motion, starting
 from rths_engine.arrays import Array
 from rths_engine.channels import Channel, channels
-from rths_engine.dispatch import effects as effects_of
-from rths_engine.dispatch import stacked
 from rths_engine.errors import Issue, PlanError
-from rths_engine.factor import factorised
 from rths_engine.ground_motions import Motion, MotionLibrary
-from rths_engine.loads import loads
-from rths_engine.physics.effect import STOREY
-from rths_engine.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.plan import Plan
-from rths_engine.restoring import rows
 from rths_engine.result import Result
 from rths_engine.safety import LIMITS, Trip
-from rths_engine.structures.assembled import Assembled
+from rths_engine.setup import left_out, setup
 
 LARGEST_RECORDING = 2_000_000_000  # bytes
 
@@ -56,38 +47,17 @@ class Run:
             raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
         self.signals: Array = np.zeros((self.total, len(self.channels)))
         self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
-        codes, parameters, parts = _built(plan)
         scheme = plan.scheme()
         times = np.arange(self._steps + 1) * dt
-        self._setup = loop.Setup(
-            n=n,
-            dt_step=dt,
-            dt=self.dt,
-            factor=factorised(scheme.effective),
-            held=rows(np.zeros_like(scheme.effective) if scheme.held is None else scheme.held),
-            weight=scheme.weight,
-            shift=scheme.shift,
-            damping=rows(built.damping),
-            elastic=rows(built.elastic),
-            members=built.members,
-            loads=loads(plan, built),
-            inputs=_inputs(plan, self.motion, times),
-            floors=np.array(built.floors, dtype=np.int64),
-            drifts=plan.drifts(),
-            drive=np.repeat(plan.drive.sample(times)[:, None], stations, axis=1),
-            dampers=np.array([float(station.dampers) for station in plan.stations]),
-            codes=codes,
-            parameters=parameters,
-            limits=np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS)),
-            noise=_noise(plan, self.total),
-        )
+        drive = np.repeat(plan.drive.sample(times)[:, None], stations, axis=1)
+        self._setup, parts = setup(plan, built, scheme, _inputs(plan, self.motion, times), drive, _noise(plan, self.total))
         memory = np.zeros((stations, loop.MEMORY))
         plastic = np.zeros((len(built.members.dofs), 3))
         x, v, carry = starting.state(plan.start, built, scheme, dt, self._setup.inputs[0] @ self._setup.loads)
         if initial:
             x[:], v[:] = initial
         self._state = loop.State(x, v, carry, plastic, parts, memory)
-        self._left_out = _left_out(plan, built)
+        self._left_out = left_out(plan, built)
         self._record = loop.Record(self.signals, self.history, np.zeros(4))
         self.history[0] = x[self._setup.floors], v[self._setup.floors]
 
@@ -139,45 +109,6 @@ def simulate(plan: Plan, motions: MotionLibrary | None = None) -> Result:
     return run.result("tripped" if run.trip else "completed", time.perf_counter() - start)
 
 
-_SLOTS: tuple[Sequence[Any], ...] = (compensators.KINDS, actuators.KINDS, specimens.KINDS)  # in the order of Station.rig
-
-
-def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
-    """Codes (stations, 3), parameters and states (3, stations, widest) of the stations' parts."""
-    stations = len(plan.stations)
-    codes = np.zeros((stations, len(_SLOTS)), dtype=np.int64)
-    built: list[list[tuple[Array, Array]]] = [[] for _ in _SLOTS]
-    for slot, kinds in enumerate(_SLOTS):
-        for j, station in enumerate(plan.stations):
-            part = station.rig[slot]
-            codes[j, slot] = kinds.index(type(part))
-            built[slot].append(part.build(plan.substep))
-    return codes, _padded(built, 0), _padded(built, 1)
-
-
-def _left_out(plan: Plan, built: Assembled) -> loop.LeftOut | None:
-    against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
-    if not against and not any(station.physics for station in plan.stations):
-        return None
-    drifts = [drift(built, effect.storey) for effect in against]
-    return loop.LeftOut(
-        stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
-        storeys=stacked([effects_of([effect], plan.step) for effect in against]),
-        drifts=np.array(drifts).reshape(len(drifts), len(built.mass)),
-        stiffness=np.array([stiffness(built, row) for row in drifts]),
-    )
-
-
-def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:
-    vectors = [[pair[which] for pair in slot] for slot in built]
-    widest = max((len(vector) for slot in vectors for vector in slot), default=1)
-    table = np.zeros((len(vectors), len(vectors[0]), widest))
-    for slot, row in enumerate(vectors):
-        for j, vector in enumerate(row):
-            table[slot, j, : len(vector)] = vector
-    return table
-
-
 def _noise(plan: Plan, total: int) -> Array:
     """Sensor noise (substeps, stations, 2): displacement (m) and force (N), by the plan's seed."""
     scale = np.array([(station.noise.displacement, station.noise.force) for station in plan.stations]).reshape(-1, 2)
@@ -185,10 +116,6 @@ def _noise(plan: Plan, total: int) -> Array:
     if scale.any():
         noise = np.random.Generator(np.random.PCG64(plan.seed)).standard_normal(noise.shape) * scale
     return noise
-
-
-def _limits(station: Any) -> tuple[float, ...]:
-    return tuple(getattr(station.limits, name) for name in LIMITS)
 
 
 def _steps(duration: float, dt: float) -> int:

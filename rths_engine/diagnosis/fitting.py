@@ -1,9 +1,9 @@
-"""Baseline and effects fitted jointly to recordings."""
+"""Planned parts and effects fitted jointly to recordings."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,84 +11,121 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from rths_engine.arrays import Array
+from rths_engine.diagnosis.components import Component
 from rths_engine.diagnosis.free import Number, moved, numbers, vector
 from rths_engine.diagnosis.noise import Noise
+from rths_engine.diagnosis.slopes import Slopes, differences
 from rths_engine.part import Part
 
-DIFFERENCE = 1e-3  # of a number's scale: wide beside the kinks of friction and play
 EVALUATIONS = 40
+ROUGH = 12  # evaluations that tell the hopeless
 CLOSE = 1e-6  # of the squared misfit: far below the 1 that evidence weighs
 
 
 @dataclass(frozen=True)
 class Recordings:
-    """What a component is fitted to: its data, the measured output, which samples count, and the noise."""
+    """What a component is fitted to: its data, which samples count, the noise of each channel of the output, and how much each
+    sample counts, less where noise on the input reaches the output more."""
 
-    component: Any
+    component: Component
     data: tuple[Any, ...]
     masks: tuple[NDArray[np.bool_], ...]  # True where fitted
-    noise: Noise
+    noises: tuple[Noise, ...]
+    weights: tuple[Array, ...]  # (channels, n) each
+
+    def predicted(self, parts: Sequence[Part]) -> list[Array]:
+        return [self.component.predicted(parts, one) for one in self.data]
 
     def residuals(self, parts: Sequence[Part]) -> list[Array]:
-        return [self.component.measured(one) - self.component.predicted(parts, one) for one in self.data]
+        return [one.measured - found for one, found in zip(self.data, self.predicted(parts), strict=True)]
 
     def misfit(self, parts: Sequence[Part]) -> Array:
         """Whitened residuals of the fitted samples in a row."""
         return self.joined(self.residuals(parts))
 
     def joined(self, signals: Sequence[Array]) -> Array:
-        rows = [self.noise.whitened(one)[mask] for one, mask in zip(signals, self.masks, strict=True)]
+        """Whitened signals (channels, n) of the fitted samples in a row: recording by recording, channel by channel."""
+        rows = []
+        for signal, mask, weights in zip(signals, self.masks, self.weights, strict=True):
+            rows += [noise.whitened(channel)[mask] for channel, noise in zip(weights * signal, self.noises, strict=True)]
         return np.concatenate(rows)
+
+    def channels(self, misfit: Array) -> list[list[Array]]:
+        """The rows of each channel of a misfit."""
+        counts = [int(mask.sum()) for mask in self.masks for _ in self.noises]
+        rows = np.split(misfit, np.cumsum(counts)[:-1])
+        return [rows[place :: len(self.noises)] for place in range(len(self.noises))]
+
+    @property
+    def samples(self) -> int:
+        return len(self.noises) * sum(int(mask.sum()) for mask in self.masks)
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A model fitted: its parts, the squared misfit in units of the noise, and the Jacobian of the whitened misfit."""
+    """A model fitted: its parts, the misfit in units of the noise, behind it how far the planned numbers went in units of
+    their spread, and the Jacobian of both."""
 
     parts: tuple[Part, ...]
     free: tuple[Number, ...]
     z: Array
     misfit: Array
     jacobian: Array
+    samples: int
 
     @property
     def squared(self) -> float:
-        return float(self.misfit @ self.misfit)
+        """Of the recordings alone."""
+        return float(self.misfit[: self.samples] @ self.misfit[: self.samples])
 
     @property
     def bic(self) -> float:
-        """chi^2 + k ln N."""
-        return self.squared + len(self.free) * float(np.log(len(self.misfit)))
+        """chi^2 + k ln N, with the numbers' chances beforehand in chi^2."""
+        return float(self.misfit @ self.misfit) + len(self.free) * float(np.log(self.samples))
 
 
 def fit(recordings: Recordings, parts: Sequence[Part], evaluations: int = EVALUATIONS) -> Fitted:
-    """The least squares of the whitened misfit over every free number of the parts, from where they are."""
+    """The least squares of the whitened misfit over every free number of the parts, from where they are.
+
+    Between Jacobians by differences the Jacobian is kept by secants (Broyden 1965); the search then begins once more, with a
+    Jacobian by differences, where the first ended.
+    """
     free, misfit, start, bounds = _problem(recordings, parts)
     if not free:
         return evaluated(recordings, parts)
-    solved = least_squares(misfit, start, bounds=bounds.T, diff_step=DIFFERENCE, max_nfev=evaluations, ftol=CLOSE, xtol=CLOSE)
-    return Fitted(tuple(moved(parts, free, solved.x)), tuple(free), solved.x, solved.fun, solved.jac)
+    for rest in (evaluations, evaluations // 4):
+        slopes = Slopes(misfit, bounds)
+        solved = least_squares(
+            slopes.misfit, start, slopes.jacobian, bounds=bounds.T, x_scale="jac", max_nfev=rest, ftol=CLOSE, xtol=CLOSE
+        )
+        start = solved.x
+        if evaluations <= ROUGH:
+            break
+    return Fitted(tuple(moved(parts, free, solved.x)), tuple(free), solved.x, solved.fun, solved.jac, recordings.samples)
 
 
 def evaluated(recordings: Recordings, parts: Sequence[Part]) -> Fitted:
     """The parts as they are, with the misfit's Jacobian."""
     free, misfit, start, bounds = _problem(recordings, parts)
     plain = misfit(start)
-    columns = []
-    for place in range(len(free)):
-        size = DIFFERENCE * max(1.0, abs(start[place]))
-        size = size if start[place] + size <= bounds[place, 1] else -size
-        columns.append((misfit(start + size * np.eye(len(free))[place]) - plain) / size)
-    jacobian = np.column_stack(columns) if columns else np.zeros((len(plain), 0))
-    return Fitted(tuple(parts), tuple(free), start, plain, jacobian)
+    return Fitted(tuple(parts), tuple(free), start, plain, differences(misfit, start, plain, bounds), recordings.samples)
+
+
+def compared(recordings: Recordings, fitted: Fitted) -> Fitted:
+    """A model fitted before, with its misfit under the noise of these recordings."""
+    _, misfit, start, _ = _problem(recordings, fitted.parts)
+    return replace(fitted, misfit=misfit(start))
 
 
 def _problem(recordings: Recordings, parts: Sequence[Part]) -> tuple[list[Number], Callable[[Array], Array], Array, Array]:
-    free = numbers(parts)
+    free = numbers(recordings.component, parts)
     bounds = np.array([number.bounds for number in free]).reshape(-1, 2)
     start = np.clip(vector(parts, free), bounds[:, 0] + 1e-9, bounds[:, 1] - 1e-9)
+    known = [place for place, number in enumerate(free) if np.isfinite(number.spread)]
+    planned = np.array([free[place].planned for place in known])
+    spread = np.array([free[place].spread for place in known])
 
     def misfit(z: Array) -> Array:
-        return recordings.misfit(moved(parts, free, z))
+        return np.concatenate([recordings.misfit(moved(parts, free, z)), (z[known] - planned) / spread])
 
     return free, misfit, start, bounds

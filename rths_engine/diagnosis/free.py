@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import annotated_types
 import numpy as np
 
 from rths_engine.arrays import Array
+from rths_engine.diagnosis.components.component import Component, Loose
 from rths_engine.part import Part
+from rths_engine.physics.effect import Effect
 
 SMALLEST = 1e-12
 
@@ -25,6 +27,8 @@ class Number:
     high: float
     scale: float
     logarithmic: bool
+    planned: float  # z as planned
+    spread: float  # standard deviation of z beforehand; inf where anything goes
 
     def to_z(self, value: float) -> float:
         return math.log(value) if self.logarithmic else value / self.scale
@@ -38,9 +42,16 @@ class Number:
         return self.to_z(self.low), self.to_z(self.high)
 
 
-def numbers(parts: Sequence[Part]) -> list[Number]:
-    """Every number of the parts, in order, that is not an integer."""
-    return [number for owner, part in enumerate(parts) for number in _of(owner, part)]
+def numbers(component: Component, parts: Sequence[Part]) -> list[Number]:
+    """Every number of the parts that a fit moves, in order. One of a planned part at zero is no part of the plan's model."""
+    base = len(component.base)
+    found = []
+    for owner, part in enumerate(parts):
+        planned = component.base[owner] if owner < base else None
+        for number in _of(owner, part, planned, None if planned is None else component.spread(planned)):
+            if planned is None or isinstance(planned, Effect | Loose) or getattr(planned, number.field) != 0.0:
+                found.append(number)
+    return found
 
 
 def vector(parts: Sequence[Part], free: Sequence[Number]) -> Array:
@@ -55,8 +66,7 @@ def moved(parts: Sequence[Part], free: Sequence[Number], z: Array) -> list[Part]
     return [part.model_copy(update=change) for part, change in zip(parts, changes, strict=True)]
 
 
-def _of(owner: int, part: Part) -> list[Number]:
-    found = []
+def _of(owner: int, part: Part, planned: Part | None, spread: float | None) -> Iterator[Number]:
     for name, field in type(part).model_fields.items():
         if field.annotation is not float or name in getattr(part, "held", ()):
             continue
@@ -68,9 +78,12 @@ def _of(owner: int, part: Part) -> list[Number]:
                 low = float(bound.ge)  # type: ignore[arg-type]
             elif isinstance(bound, annotated_types.Le | annotated_types.Lt):
                 high = float(bound.le if isinstance(bound, annotated_types.Le) else bound.lt)  # type: ignore[arg-type]
-        value = abs(float(getattr(part, name)))
+        value = abs(float(getattr(planned or part, name)))
+        scale = getattr(part, "scale", None) or value or 1.0
         logarithmic = strict and low >= 0
         if logarithmic:
             low = max(low, SMALLEST)
-        found.append(Number(owner, name, low, high, value or 1.0, logarithmic))
-    return found
+        number = Number(owner, name, low, high, scale, logarithmic, 0.0, math.inf)
+        if planned is not None and spread is not None:
+            number = replace(number, planned=number.to_z(float(getattr(planned, name))), spread=spread)
+        yield number

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +11,7 @@ from scipy.signal import lfilter
 
 from rths_engine.arrays import Array
 
-ORDER = 6
-QUIET = 0.01  # of the largest speed: slower is at rest
-LEAST_QUIET = 128  # samples
+ORDER = 12  # the stop band of the decimation takes as many
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,12 +38,13 @@ class Noise:
         return float(np.sqrt(np.sum(impulse**2)))
 
 
-def autoregressive(signal: Array, order: int = ORDER) -> Noise:
-    """The autoregressive process of a stretch of noise, by Yule and Walker."""
-    centred = signal - signal.mean()
-    count = len(centred)
+def autoregressive(stretches: Sequence[Array], order: int = ORDER) -> Noise:
+    """The autoregressive process of stretches of noise, by Yule and Walker."""
+    count = sum(len(one) for one in stretches)
     order = min(order, max(0, count // 20))
-    covariance = np.array([centred[: count - lag] @ centred[lag:] for lag in range(order + 1)]) / count
+    covariance = np.zeros(order + 1)
+    for one in stretches:
+        covariance += [one[: len(one) - lag] @ one[lag:] / count for lag in range(order + 1)]
     if order == 0 or covariance[0] <= 0:
         return Noise(np.ones(1), float(np.sqrt(max(covariance[0], np.finfo(float).tiny))))
     weights = solve_toeplitz(covariance[:-1], -covariance[1:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from rths_engine.measured.roles import ROLES
 from rths_engine.measured.store import Measured, MeasuredChannel
@@ -22,7 +23,13 @@ def of_run(recording: Recording, name: str) -> Measured:
             values = recording.signal(channel.key)
             found.append(MeasuredChannel(role, number, values, channel.unit, channel.label, channel.key))
     plan = recording.plan
-    return Measured(recording.dt, _summed(found), recording.dt, plan.name, plan.test, name, str(recording.attrs["digest"]))
+    attrs: dict[str, Any] = {
+        "title": plan.name,
+        "test": plan.test,
+        "source": name,
+        "source_sha256": str(recording.attrs["digest"]),
+    }
+    return Measured(recording.dt, _summed(found), recording.dt, **attrs, of_run=True)
 
 
 def _role(key: str, recording: Recording) -> tuple[str, int | None]:

@@ -54,6 +54,7 @@ class Measured:
     source_sha256: str = ""
     mapping: str = ""
     warnings: tuple[Finding, ...] = ()
+    of_run: bool = False  # of a run of this program, whose first sample is one controller step after the start
 
     @property
     def samples(self) -> int:
@@ -141,7 +142,7 @@ def _read(file: h5py.File) -> Measured:
     dt = float(attrs["dt"])
     if not (np.isfinite(dt) and dt > 0) or not all(np.isfinite(one.values).all() for one in channels):
         raise ValueError("it holds values that are not finite")
-    texts = {name: str(attrs[name]) for name in ("title", "source", "source_sha256", "mapping")}
+    texts: dict[str, Any] = {name: str(attrs[name]) for name in ("title", "source", "source_sha256", "mapping")}
     return Measured(dt, channels, float(attrs["start_s"]), test=str(attrs["test"]) or None, warnings=tuple(warnings), **texts)
 
 

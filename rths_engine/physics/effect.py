@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, Self
 
 import annotated_types
@@ -93,6 +93,14 @@ class Effect(Part):
     def shaken(self, ground: Array, dt: float) -> Array:
         """GROUND: the ground acceleration (m/s^2) with the effect in it."""
         raise NotImplementedError
+
+
+def amended(part: Part, effects: Sequence[Effect]) -> Part:
+    """A component's part with what PART effects change of it."""
+    for effect in effects:
+        if effect.hook == PART:
+            part = effect.amended(part)
+    return part
 
 
 def _within(size: float, bounds: Iterable[Any]) -> float:

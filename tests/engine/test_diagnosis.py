@@ -1,47 +1,31 @@
-"""What a recording of a specimen holds beyond its model: found, named and sized; nothing where there is nothing."""
+"""What a recording holds beyond its plan's models: found, named and sized; nothing where there is nothing."""
 
 from __future__ import annotations
+
+import json
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from rths_engine import replay
-from rths_engine.diagnosis.component import Specimen, SpecimenData
-from rths_engine.diagnosis.fitting import Recordings
-from rths_engine.diagnosis.noise import Noise, autoregressive
-from rths_engine.diagnosis.select import Selection, select
+from rths_engine.diagnosis import diagnose
+from rths_engine.diagnosis.noise import autoregressive
+from rths_engine.errors import RecordingError
+from rths_engine.measured import Measured, MeasuredChannel
 from rths_engine.physics.effect import Effect
 from rths_engine.physics.specimen.asymmetry import Asymmetry
 from rths_engine.physics.specimen.backlash import Backlash
 from rths_engine.physics.specimen.coulomb_friction import CoulombFriction
-from rths_engine.shapes import BandNoise
-from rths_engine.specimens.linear import LinearSpecimen
-
-DT, DURATION = 1 / 512, 12.0
-BASELINE = LinearSpecimen(stiffness=2.0e6, damping=8.0e5)
-
-
-def diagnosed(seed: int, *left_out: Effect) -> Selection:
-    """A recording with coloured noise of 1 % on the force and 10 um on the displacement, of a specimen 4 % off its plan."""
-    random = np.random.default_rng(seed)
-    time = np.arange(int(DURATION / DT)) * DT
-    x = 0.04 * BandNoise(low_frequency=0.1, high_frequency=2.5, duration=DURATION, seed=seed).sample(time)
-    true = BASELINE.model_copy(update={"stiffness": 1.04 * BASELINE.stiffness, "damping": 0.96 * BASELINE.damping})
-    force = replay.specimen(true, left_out, x, np.ones(len(x)), DT)
-    coloured = lfilter([np.sqrt(1 - 0.81)], [1, -0.9], random.standard_normal(len(x)))
-    measured = force + 0.01 * np.std(force) * coloured
-    data = SpecimenData(x + 1e-5 * random.standard_normal(len(x)), measured, np.ones(len(x)), DT)
-    count = len(data.band.reduced(data.force))
-    everything = np.ones(count, dtype=bool)
-    recordings = Recordings(Specimen("specimen:1", BASELINE), (data,), (everything,), Noise(np.ones(1), 1.0))
-    return select(recordings, 0.01, np.random.default_rng(seed))
+from rths_engine.plan import Plan
+from tests.engine.recorded_specimens import BASELINE, plan, recording
 
 
 def test_a_clean_recording_is_not_accused_of_anything() -> None:
-    found = diagnosed(1)
-    assert found.effects == ()
-    fitted = found.chosen.parts[0]
+    found = diagnose(plan(), recording(1))
+    assert found.verdict["verdict"] == "recalibrate"  # 4 % off its plan
+    assert found.verdict["effects"] == [] and found.verdict["extended_plan"] is None
+    fitted: Any = found.judged[0].selection.chosen.parts[0]
     assert fitted.stiffness == pytest.approx(1.04 * BASELINE.stiffness, rel=0.02)  # 1 % noise over 12 s
     assert fitted.damping == pytest.approx(0.96 * BASELINE.damping, rel=0.02)
 
@@ -55,16 +39,66 @@ def test_a_clean_recording_is_not_accused_of_anything() -> None:
     ],
     ids=lambda value: getattr(value, "kind", None),
 )
-def test_what_was_left_out_is_named_and_sized(effect: Effect, size: str, rel: float) -> None:
-    found = diagnosed(2, effect)
-    assert [type(one) for one in found.effects] == [type(effect)]
-    assert getattr(found.effects[0], size) == pytest.approx(getattr(effect, size), rel=rel)
-    assert found.chosen.bic < found.baseline.bic - 6
+def test_what_was_left_out_is_named_sized_and_shown_on_another_recording(effect: Effect, size: str, rel: float) -> None:
+    found = diagnose(plan(), recording(2, effect), [recording(3, effect, amplitude=0.03)]).verdict
+    json.dumps(found, allow_nan=False)
+    assert found["verdict"] == "mismatch" and found["where"]["component"] == "specimen:1"
+    assert [(one["component"], one["id"]) for one in found["effects"]] == [("specimen:1", effect.id)]
+    number = next(one for one in found["effects"][0]["parameters"] if one["name"] == size)
+    assert number["value"] == pytest.approx(getattr(effect, size), rel=rel)
+    assert number["ci90"][0] < number["value"] < number["ci90"][1]
+    assert found["fit"]["extended"]["heldout_nrmse"] < 1.2 * found["fit"]["noise_floor_nrmse"]
+    assert found["fit"]["extended"]["heldout_nrmse"] < 0.5 * found["fit"]["baseline"]["heldout_nrmse"]
+    again = Plan.read(found["extended_plan"])
+    assert getattr(again.stations[0].specimen_physics[0], size) == number["value"]
+    assert sum(one["probability"] for one in found["candidates"]) <= 1 + 1e-9
+
+
+def test_a_law_outside_the_library_is_called_unknown_and_described() -> None:
+    plain = recording(4)
+    x = plain.get("x_meas")
+    cogging = 0.05 * np.std(plain.get("f_meas")) * np.sin(2 * np.pi * x / 0.013)
+    found = diagnose(plan(), _with(plain, f_meas=plain.get("f_meas") + cogging)).verdict
+    assert found["verdict"] == "mismatch"
+    assert [one["id"] for one in found["effects"]] == ["unknown"]
+    assert found["unexplained"]["formula"] and found["unexplained"]["words"]
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"x_meas": 1e-3}, "check its unit"),
+        ({"f_meas": 1e3}, "check its unit"),
+    ],
+)
+def test_units_off_by_a_thousand_are_refused_before_anything_is_fitted(changed: dict[str, float], said: str) -> None:
+    plain = recording(5)
+    with pytest.raises(RecordingError, match=said):
+        diagnose(plan(), _with(plain, **{role: factor * plain.get(role) for role, factor in changed.items()}))
+
+
+def test_a_recording_of_another_plan_is_refused_with_its_reason() -> None:
+    plain = recording(6)
+    moved = tuple(MeasuredChannel(one.role, 2, one.values, one.unit) for one in plain.channels)
+    with pytest.raises(RecordingError, match="holds station 2; the plan has 1"):
+        diagnose(plan(), Measured(plain.dt, moved))
+    with pytest.raises(RecordingError, match="is of a test of kind 'structure'"):
+        diagnose(plan(), Measured(plain.dt, plain.channels, test="structure"))
+    few = tuple(MeasuredChannel(one.role, 1, one.values[:100], one.unit) for one in plain.channels)
+    with pytest.raises(RecordingError, match="has 100 samples"):
+        diagnose(plan(), Measured(plain.dt, few))
+    with pytest.raises(RecordingError, match="no component has both its ends recorded"):
+        diagnose(plan(), Measured(plain.dt, plain.channels[:1]))
 
 
 def test_the_colour_of_noise_is_found() -> None:
     random = np.random.default_rng(3)
-    noise = autoregressive(lfilter([2.0], [1, -0.8], random.standard_normal(20_000)), order=1)
+    noise = autoregressive([lfilter([2.0], [1, -0.8], random.standard_normal(20_000))], order=1)
     assert noise.coefficients[1] == pytest.approx(-0.8, abs=0.02)
     assert noise.sigma == pytest.approx(2.0, rel=0.03)
     assert noise.deviation == pytest.approx(2.0 / 0.6, rel=0.05)
+
+
+def _with(plain: Measured, **changed: Any) -> Measured:
+    channels = tuple(MeasuredChannel(one.role, 1, changed.get(one.role, one.values), one.unit) for one in plain.channels)
+    return Measured(plain.dt, channels)

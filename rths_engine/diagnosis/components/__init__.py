@@ -1,0 +1,21 @@
+"""Components of a test with what was recorded at their ends."""
+
+from rths_engine.diagnosis.components.actuator import Actuator, ActuatorData
+from rths_engine.diagnosis.components.chain import Chain, ChainData
+from rths_engine.diagnosis.components.component import Component, Data
+from rths_engine.diagnosis.components.specimen import Specimen, SpecimenData
+from rths_engine.diagnosis.components.structure import Structure, StructureData, based
+
+__all__ = [
+    "Actuator",
+    "ActuatorData",
+    "Chain",
+    "ChainData",
+    "Component",
+    "Data",
+    "Specimen",
+    "SpecimenData",
+    "Structure",
+    "StructureData",
+    "based",
+]

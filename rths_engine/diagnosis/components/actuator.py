@@ -1,0 +1,84 @@
+"""An actuator: command in, measured displacement out, against a measured force where there is one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from rths_engine import physics, replay
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
+from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.part import Part
+from rths_engine.physics.effect import Effect, Seen
+from rths_engine.physics.sensor.channel import OfDisplacement
+
+SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfDisplacement))
+TOLERANCE = 0.05
+
+
+@dataclass(frozen=True)
+class ActuatorData(Data):
+    """Command (m), measured displacement (m), force on the actuator (N), None where it was not measured."""
+
+    command: Array
+    x: Array
+    force: Array | None
+
+    @property
+    def raw(self) -> Array:
+        return self.x[None]
+
+    @cached_property
+    def load(self) -> Array:
+        return np.zeros(len(self.command)) if self.force is None else self.force
+
+    @cached_property
+    def velocity(self) -> Array:
+        return np.gradient(self.command, self.dt)
+
+    def seen(self) -> Seen:
+        load = float(np.max(np.abs(self.load)))
+        energy = float(np.sum(np.abs(self.load * self.velocity)) * self.dt)
+        x, v = (float(np.max(np.abs(one))) for one in (self.command, self.velocity))
+        return Seen(x, v, load, len(self.x) * self.dt, energy, self.dt)
+
+
+@dataclass(frozen=True)
+class Actuator(Component):
+    """Compensated command -> measured displacement of a station's actuator."""
+
+    known: tuple[Effect, ...] = ()
+    output: ClassVar[str] = "displacement"
+
+    def spread(self, part: Part) -> float | None:
+        return TOLERANCE
+
+    def predicted(self, parts: Sequence[Any], data: ActuatorData) -> Array:
+        effects = [*self.known, *parts[1:]]
+        return data.reduced(replay.actuator(parts[0], effects, data.command, data.load, data.dt, data.start)[None])
+
+    def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
+        seen = data.seen()
+        for kind in (*physics.ACTUATOR, *SENSORS):
+            if data.force is not None or "f_meas" not in kind.needs:
+                yield from kind.guesses(seen)
+
+    def features(self, parts: Sequence[Any], data: ActuatorData) -> list[Feature]:
+        terms = of_motion(data.command, data.velocity, data.dt, data.velocity if data.force is None else data.force)
+        if data.force is not None:
+            load = data.force / max(float(np.max(np.abs(data.force))), 1e-300)
+            terms += [
+                ("f", "proportional to the force on it", load),
+                ("f |f|", "growing with the force on it", load * np.abs(load)),
+            ]
+        terms += of_position(data.command, data.velocity, data.dt)
+        return [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+
+    def signals(self, data: ActuatorData) -> tuple[Signal, Signal]:
+        x, v = data.reduced(np.array([data.command, data.velocity]))
+        return Signal("command", "m", "mm", x), Signal("velocity of the command", "m/s", "mm/s", v)

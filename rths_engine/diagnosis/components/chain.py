@@ -1,0 +1,64 @@
+"""Actuator and specimen together, where the displacement between them was not measured."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from rths_engine import physics, replay
+from rths_engine.diagnosis.components.actuator import TOLERANCE, ActuatorData
+from rths_engine.diagnosis.components.component import Component, Feature, Signal
+from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.diagnosis.components.specimen import SENSORS
+from rths_engine.part import Part
+from rths_engine.physics.effect import Effect, Seen
+
+
+@dataclass(frozen=True)
+class ChainData(ActuatorData):
+    """Command (m) and force (N); `x` is the command too, for want of better."""
+
+    @property
+    def raw(self) -> Any:
+        return self.load[None]
+
+
+@dataclass(frozen=True)
+class Chain(Component):
+    """Compensated command -> force. `known` are the effects that the plan has."""
+
+    known: tuple[Effect, ...] = ()
+    output: ClassVar[str] = "force"
+
+    def spread(self, part: Part) -> float | None:
+        return TOLERANCE if part in self.base[:1] else None
+
+    def predicted(self, parts: Sequence[Any], data: ChainData) -> Any:
+        effects = [*self.known, *parts[2:]]
+        moving = [effect for effect in effects if isinstance(effect, physics.ACTUATOR)]
+        resisting = [effect for effect in effects if not isinstance(effect, physics.ACTUATOR)]
+        x = replay.actuator(parts[0], moving, data.command, data.load, data.dt, data.start)
+        force = replay.specimen(parts[1], resisting, x, np.ones(len(x)), data.dt, data.start)
+        return data.reduced(force[None])
+
+    def hypotheses(self, data: ChainData) -> Iterator[Effect]:
+        seen: Seen = data.seen()
+        for kind in (*physics.ACTUATOR, *physics.SPECIMEN, *SENSORS):
+            if "current" not in kind.needs:
+                yield from kind.guesses(seen)
+
+    def features(self, parts: Sequence[Any], data: ChainData) -> list[Feature]:
+        terms = of_motion(data.command, data.velocity, data.dt, data.load)
+        terms += of_position(data.command, data.velocity, data.dt)
+        return [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+
+    def signals(self, data: ChainData) -> tuple[Signal, Signal]:
+        x, v = data.reduced(np.array([data.command, data.velocity]))
+        return Signal("command", "m", "mm", x), Signal("velocity of the command", "m/s", "mm/s", v)
+
+    def place(self, effect: Effect) -> str:
+        named = super().place(effect)
+        return f"actuator:{self.station}" if isinstance(effect, physics.ACTUATOR) else named

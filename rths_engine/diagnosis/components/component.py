@@ -1,0 +1,129 @@
+"""What every component offers to the diagnosis: its models, their replay, and the effects it may leave out."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.band import Band
+from rths_engine.part import Part
+from rths_engine.physics.effect import Effect
+from rths_engine.physics.sensor.channel import Reading
+
+
+class Signal(NamedTuple):
+    """A signal of a component as people read it: SI values and the unit shown."""
+
+    label: str
+    unit: str
+    shown: str
+    values: Array
+
+
+@dataclass(frozen=True)
+class Data(ABC):
+    """Signals at the ends of a component every dt (s) from `start` (s), at rest before."""
+
+    dt: float
+    start: float
+
+    @property
+    @abstractmethod
+    def raw(self) -> Array:
+        """(channels, samples) of the output at the rate of the recording."""
+
+    @property
+    def input_noise(self) -> float:
+        """Standard deviation of the noise that enters with the input; 0 where none is known."""
+        return 0.0
+
+    def redrawn(self, random: np.random.Generator) -> Any:
+        """As if recorded again: other noise of the same size on the input."""
+        return self
+
+    @property
+    def band(self) -> Band:
+        return Band.of(self.dt)
+
+    @property
+    def step(self) -> float:
+        return self.band.step
+
+    @cached_property
+    def measured(self) -> Array:
+        """(channels, n) of the output in the band of the comparison."""
+        return self.reduced(self.raw)
+
+    @property
+    def time(self) -> Array:
+        return self.start + self.step * np.arange(self.measured.shape[1])
+
+    def reduced(self, signals: Array) -> Array:
+        return np.array([self.band.reduced(one) for one in signals])
+
+
+class Loose(Part):
+    """A base part that is not of the plan: what it holds is zero as planned, and moves."""
+
+    scale: ClassVar[float]
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+
+class Feature(NamedTuple):
+    """A term of a law of the output, told by its formula and in words, and what it does to the output (channels, n)."""
+
+    formula: str
+    words: str
+    response: Array
+
+
+@dataclass(frozen=True)
+class Component(ABC):
+    """`base` are the planned parts, whose numbers move by `tolerance`: standard deviations by kind, None where free."""
+
+    name: str
+    base: tuple[Part, ...]
+    output: ClassVar[str]
+
+    def spread(self, part: Part) -> float | None:
+        """How far, as a share, a planned number may be off; None: as far as it likes."""
+        return None
+
+    @abstractmethod
+    def predicted(self, parts: Sequence[Any], data: Any) -> Array:
+        """(channels, n) of the output in the band of the comparison, of the base parts and the effects that follow."""
+
+    @abstractmethod
+    def hypotheses(self, data: Any) -> Iterator[Effect]:
+        """Every effect of the library at its guesses."""
+
+    @abstractmethod
+    def features(self, parts: Sequence[Any], data: Any) -> list[Feature]:
+        """Terms of which an unknown law may consist."""
+
+    @abstractmethod
+    def signals(self, data: Any) -> tuple[Signal, Signal]:
+        """Displacement and velocity, in the band of the comparison, that the output is told against."""
+
+    @property
+    def station(self) -> str:
+        return self.name.partition(":")[2]
+
+    def place(self, effect: Effect) -> str:
+        """The component that a diagnosis names for an effect."""
+        if isinstance(effect, Reading):
+            return f"sensor:{effect.channel}.{self.station}"  # type: ignore[attr-defined]
+        return self.name
+
+
+def key(effect: Part) -> tuple[type[Part], int]:
+    """Effects of one key are one hypothesis."""
+    return type(effect), int(getattr(effect, "storey", 0))

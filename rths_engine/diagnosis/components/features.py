@@ -1,0 +1,76 @@
+"""Terms of a restoring-force law: functions of displacement, velocity, energy and time."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import lfilter
+
+from rths_engine.arrays import Array
+from rths_engine.stop import stop
+
+Terms = list[tuple[str, str, Array]]  # formula, words, values
+STOPS = (0.1, 0.3, 0.7)
+WAVES = 12
+RELAXATIONS = (0.1, 0.5, 3.0)  # s
+
+
+def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
+    """x (m), v (m/s) and the force (N) are scaled by their largest; E is the share of the energy dissipated so far."""
+    x, v, f = _scaled(x), _scaled(v), _scaled(force)
+    side = np.tanh(v / 0.02)
+    energy = np.cumsum(np.abs(f * v)) * dt
+    energy = energy / max(float(energy[-1]), 1e-30)
+    time = np.linspace(0.0, 1.0, len(x))
+    a = _scaled(np.gradient(v))
+    stops = [
+        (f"stop_{r:g}(x)", f"hysteretic, closing over {100 * r:.0f} % of the amplitude", stop(x, r)) for r in (0.1, 0.3, 0.7)
+    ]
+    return [
+        ("1", "constant", np.ones(len(x))),
+        ("x", "proportional to displacement", x),
+        ("v", "proportional to velocity", v),
+        ("a", "proportional to acceleration", a),
+        ("x^2", "even in displacement", x * x),
+        ("x^3", "growing with the cube of displacement", x**3),
+        ("x^5", "rising steeply at large displacement", x**5),
+        ("sgn(v)", "of constant size against velocity, as dry friction", side),
+        ("|v|", "even in velocity", np.abs(v)),
+        ("v |v|", "growing with the square of velocity", v * np.abs(v)),
+        ("v^3", "growing with the cube of velocity", v**3),
+        ("x |v|", "a stiffness that grows with velocity", x * np.abs(v)),
+        ("|x| v", "a damping that grows with displacement", np.abs(x) * v),
+        ("x^2 v", "a damping that grows with the square of displacement", x * x * v),
+        ("|x| sgn(v)", "friction that grows with displacement", np.abs(x) * side),
+        ("x sgn(v)", "friction that depends on the position", x * side),
+        ("E x", "a stiffness that changes with the energy dissipated", energy * x),
+        ("E v", "a damping that changes with the energy dissipated", energy * v),
+        ("E sgn(v)", "friction that changes with the energy dissipated", energy * side),
+        ("t", "drifting in time", time),
+        ("t x", "a stiffness that changes in time", time * x),
+        ("t v", "a damping that changes in time", time * v),
+        *stops,
+    ]
+
+
+def of_position(x: Array, v: Array, dt: float) -> Terms:
+    """What depends on the place, finely, alike both ways or against the motion; and what relaxes in time."""
+    largest = max(float(np.max(np.abs(x))), 1e-300)
+    side = np.tanh(_scaled(v) / 0.02)
+    found: Terms = []
+    for waves in range(1, WAVES + 1):
+        length = 2 * largest / waves
+        told = f"periodic in displacement, every {1e3 * length:.3g} mm"
+        for name, wave in (("sin", np.sin), ("cos", np.cos)):
+            shape = wave(2 * np.pi * x / length)
+            found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm)", told, shape))
+            found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm) sgn(v)", f"friction {told}", shape * side))
+    for time in RELAXATIONS:
+        keep = np.exp(-dt / time)
+        for name, words, signal in (("x", "displacement", _scaled(x)), ("sgn(v)", "direction of motion", side)):
+            slow = lfilter([1 - keep], [1, -keep], signal)
+            found.append((f"{name} relaxed over {time:g} s", f"following the {words} with a delay of about {time:g} s", slow))
+    return found
+
+
+def _scaled(signal: Array) -> Array:
+    return signal / max(float(np.max(np.abs(signal))), 1e-300)

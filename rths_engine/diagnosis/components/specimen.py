@@ -1,0 +1,89 @@
+"""A specimen: displacement in, force out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from rths_engine import physics, replay
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.band import cut_of, filtered
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
+from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.physics.effect import Effect, Seen
+from rths_engine.physics.sensor.channel import OfForce
+
+SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
+
+
+@dataclass(frozen=True)
+class SpecimenData(Data):
+    """Measured displacement (m), force (N) and current."""
+
+    x: Array
+    force: Array
+    current: Array
+
+    @property
+    def raw(self) -> Array:
+        return self.force[None]
+
+    @cached_property
+    def cut(self) -> float | None:
+        return cut_of(self.x, self.dt)
+
+    @cached_property
+    def smooth(self) -> Array:
+        return filtered(self.x, self.dt, self.cut)
+
+    @cached_property
+    def input_noise(self) -> float:
+        return float(np.std(self.x - self.smooth))
+
+    def redrawn(self, random: np.random.Generator) -> SpecimenData:
+        noise = filtered(self.input_noise * random.standard_normal(len(self.x)), self.dt, self.cut)
+        drawn = replace(self)
+        drawn.__dict__["smooth"] = self.smooth + noise
+        return drawn
+
+    @cached_property
+    def velocity(self) -> Array:
+        return np.gradient(self.smooth, self.dt)
+
+    def seen(self) -> Seen:
+        energy = float(np.sum(np.abs(self.force * self.velocity)) * self.dt)
+        x, v, f = (float(np.max(np.abs(one))) for one in (self.smooth, self.velocity, self.force))
+        return Seen(x, v, f, len(self.x) * self.dt, energy, self.dt)
+
+
+@dataclass(frozen=True)
+class Specimen(Component):
+    """Displacement -> force of a station's specimen; `known` are the effects that its plan has."""
+
+    known: tuple[Effect, ...] = ()
+    output: ClassVar[str] = "force"
+
+    def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
+        effects = [*self.known, *parts[1:]]
+        force = replay.specimen(parts[0], effects, data.smooth, data.current, data.dt, data.start)
+        return data.reduced(force[None])
+
+    def hypotheses(self, data: SpecimenData) -> Iterator[Effect]:
+        seen = data.seen()
+        varies = np.ptp(data.current) > 0
+        for kind in (*physics.SPECIMEN, *SENSORS):
+            if varies or "current" not in kind.needs:
+                yield from kind.guesses(seen)
+
+    def features(self, parts: Sequence[Any], data: SpecimenData) -> list[Feature]:
+        terms = of_motion(data.smooth, data.velocity, data.dt, data.force)
+        terms += of_position(data.smooth, data.velocity, data.dt)
+        return [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+
+    def signals(self, data: SpecimenData) -> tuple[Signal, Signal]:
+        x, v = data.reduced(np.array([data.smooth, data.velocity]))
+        return Signal("displacement", "m", "mm", x), Signal("velocity", "m/s", "mm/s", v)

@@ -1,0 +1,195 @@
+"""A structure: ground acceleration, forces and a start in, motions of the floors out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+
+from rths_engine import physics, replay
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
+from rths_engine.diagnosis.components.features import of_motion
+from rths_engine.excitation import FloorForce, Start
+from rths_engine.integrators.cr import CrIntegrator
+from rths_engine.part import Part, quantity
+from rths_engine.physics.effect import GROUND, Effect, Seen
+from rths_engine.physics.structure.damping_error import DampingError
+from rths_engine.physics.structure.stiffness_error import StiffnessError
+from rths_engine.physics.structure.storey import OfStorey, drift, stiffness
+from rths_engine.plan import Plan
+
+TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2}
+FINE = 1e-3  # s: a step so small leaves no error of integration beside noise
+FEW = 20  # degrees of freedom that make such a step cheap
+MOST_STOREYS = 6  # whose unknown laws are looked for
+
+
+class Release(Loose):
+    """Where a floor begins, beside where its first samples put it."""
+
+    floor: int = quantity("Floor", ge=1, default=1)
+    displacement: float = quantity("Displacement at the start", "m", "mm", default=0.0)
+    velocity: float = quantity("Velocity at the start", "m/s", "mm/s", default=0.0)
+    scale: ClassVar[float] = 1e-3
+
+
+Kind = Literal["x", "v", "a"]
+
+
+@dataclass(frozen=True)
+class StructureData(Data):
+    """Ground acceleration (m/s^2), forces (N) by floor, and what was measured of the floors: displacement and velocity against
+    the ground, absolute acceleration. `released` are the displacements and velocities of all floors at the start, where it was
+    not at rest. `step_of_run` is the integration step where the recording is of a run."""
+
+    ground: Array
+    forces: dict[int, Array]
+    floors: tuple[tuple[Kind, int, Array], ...]
+    released: tuple[tuple[float, ...], tuple[float, ...]] | None
+    substeps_of_run: int = 0
+
+    @property
+    def raw(self) -> Array:
+        return np.array([values for _, _, values in self.floors])
+
+    @cached_property
+    def inputs(self) -> Array:
+        """(samples, 1 + forces)."""
+        return np.column_stack([self.ground, *self.forces.values()])
+
+
+@dataclass(frozen=True)
+class Structure(Component):
+    """`plan` is of a test of a structure; its effects stay."""
+
+    plan: Plan
+    output: ClassVar[str] = "motion of the floors"
+
+    def spread(self, part: Part) -> float | None:
+        return TOLERANCES.get(type(part))
+
+    def predicted(self, parts: Sequence[Any], data: StructureData) -> Array:
+        return self._shown(self.motion(parts, data), parts, data)
+
+    def motion(self, parts: Sequence[Any], data: StructureData, extra: Array | None = None) -> Array:
+        """Displacements (samples, DOF), m; `extra` (samples, floors) are forces on every floor, N."""
+        ground = data.ground
+        for effect in parts:
+            if isinstance(effect, Effect) and effect.hook == GROUND:
+                ground = effect.shaken(ground, data.dt)
+        inputs = np.column_stack([ground, data.inputs[:, 1:]])
+        on = list(data.forces)
+        if extra is not None:
+            inputs, on = np.column_stack([inputs, extra]), [*on, *range(1, extra.shape[1] + 1)]
+        effects = tuple(part for part in parts if isinstance(part, physics.STRUCTURE))
+        update: dict[str, Any] = {
+            "structure_physics": (*self.plan.structure_physics, *effects),
+            "forces": tuple(FloorForce(floor=floor) for floor in on),
+            "start": _start(parts, data),
+        }
+        if data.substeps_of_run:
+            plan = self.plan.model_copy(update=update)
+            n = data.substeps_of_run
+            at = replay.structure(plan, _at_steps(inputs, n), np.zeros((len(inputs) // n + 1, 0)))
+            share = np.arange(1, n + 1)[:, None] / n
+            ramps = at[:-1, None] + share * (at[1:] - at[:-1])[:, None]
+            moved: Array = ramps.reshape(-1, at.shape[1])
+            return moved
+        fine = int(np.ceil(data.dt / FINE - 1e-9)) if len(self.built.mass) <= FEW else 1
+        plan = self.plan.model_copy(update={**update, "integrator": CrIntegrator(dt=data.dt / fine, substeps=1)})
+        if fine > 1:
+            whole = np.arange(len(inputs))
+            inputs = np.column_stack(
+                [np.interp(np.arange(0, len(inputs) - 1 + 1e-9, 1 / fine), whole, one) for one in inputs.T]
+            )
+        return replay.structure(plan, inputs, np.zeros((len(inputs), 0)))[::fine]
+
+    @cached_property
+    def built(self) -> Any:
+        return self.plan.assembled()
+
+    def _shown(self, x: Array, parts: Sequence[Any], data: StructureData) -> Array:
+        rows = []
+        for kind, floor, _ in data.floors:
+            row = x[:, self.built.floors[floor - 1]]
+            if kind == "v":
+                row = np.gradient(row, data.dt)
+            elif kind == "a":
+                row = np.gradient(np.gradient(row, data.dt), data.dt) + data.ground
+            rows.append(row)
+        return data.reduced(np.array(rows))
+
+    def drifts(self, data: StructureData) -> Array:
+        """(storeys, samples), m, as planned."""
+        x = self.motion(self.base, data)
+        return np.array([x @ drift(self.built, storey) for storey in range(1, len(self.built.floors) + 1)])
+
+    def hypotheses(self, data: StructureData) -> Iterator[Effect]:
+        for storey, moved in enumerate(self.drifts(data), start=1):
+            v = np.gradient(moved, data.dt)
+            k = stiffness(self.built, drift(self.built, storey))
+            x_top, v_top = float(np.max(np.abs(moved))), float(np.max(np.abs(v)))
+            seen = Seen(x_top, v_top, k * x_top, len(moved) * data.dt, k * x_top * x_top, data.dt, storey)
+            for kind in physics.STRUCTURE:
+                if issubclass(kind, OfStorey) or storey == 1:
+                    yield from kind.guesses(seen)
+            if storey == 1 and data.ground.any():
+                for ground in physics.INPUT:
+                    yield from ground.guesses(seen)
+
+    def features(self, parts: Sequence[Any], data: StructureData) -> list[Feature]:
+        plain = self.motion(parts, data)
+        before = self._shown(plain, parts, data)
+        x = np.array([plain @ drift(self.built, storey) for storey in range(1, len(self.built.floors) + 1)])
+        found = []
+        for storey, moved in enumerate(x[:MOST_STOREYS], start=1):
+            v = np.gradient(moved, data.dt)
+            size = 0.01 * stiffness(self.built, drift(self.built, storey)) * float(np.max(np.abs(moved)))
+            for formula, words, values in of_motion(moved, v, data.dt, moved):
+                extra = np.zeros((len(moved), len(self.built.floors)))
+                extra[:, storey - 1] -= size * values
+                if storey > 1:
+                    extra[:, storey - 2] += size * values
+                change = self._shown(self.motion(parts, data, extra), parts, data) - before
+                found.append(Feature(formula, f"storey {storey}: {words}", change))
+        return found
+
+    def signals(self, data: StructureData) -> tuple[Signal, Signal]:
+        moved = self.drifts(data)[0]
+        x, v = data.reduced(np.array([moved, np.gradient(moved, data.dt)]))
+        return Signal("drift of storey 1 as planned", "m", "mm", x), Signal("its velocity", "m/s", "mm/s", v)
+
+    def place(self, effect: Effect) -> str:
+        if effect.hook == GROUND:
+            return "input"
+        return f"structure:{effect.storey}" if isinstance(effect, OfStorey) else "structure"
+
+
+def based(plan: Plan, released: bool) -> tuple[Part, ...]:
+    """What of a structure's plan may be off a little: the stiffness of each storey, the damping, where it was let go."""
+    floors = range(1, len(plan.structure.assemble().floors) + 1)
+    stiff = [StiffnessError(storey=storey) for storey in floors]
+    begun = [Release(floor=floor) for floor in floors] if released else []
+    return (*stiff, DampingError(), *begun)
+
+
+def _start(parts: Sequence[Any], data: StructureData) -> Start:
+    if data.released is None:
+        return Start()
+    x, v = (list(one) for one in data.released)
+    for part in parts:
+        if isinstance(part, Release):
+            x[part.floor - 1] += part.displacement
+            v[part.floor - 1] += part.velocity
+    return Start.model_construct(displacement=tuple(x), velocity=tuple(v))
+
+
+def _at_steps(rows: Array, n: int) -> Array:
+    """Inputs at the integration steps, from 0, of those recorded on the ramps between them."""
+    at = rows[n - 1 :: n]
+    first = (n * rows[0] - rows[n - 1]) / (n - 1) if n > 1 else rows[0]
+    return np.vstack([first, at])

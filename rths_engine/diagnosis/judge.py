@@ -1,0 +1,118 @@
+"""The verdict on one component."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.stats import chi2
+
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.components import Component
+from rths_engine.diagnosis.fitting import Fitted, Recordings
+from rths_engine.diagnosis.noise import Noise
+from rths_engine.diagnosis.select import Selection, select
+from rths_engine.part import Part
+
+BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, these are never fitted
+ENDS = 0.3  # s at either end, which the filters blur
+PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance
+NOT_WHOLE = 0.15  # of what is beyond the planned model: a named effect that leaves more is not what was left out
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One component: what was selected, its verdict, and the recordings that were not fitted."""
+
+    component: Component
+    name: str
+    selection: Selection
+    verdict: str
+    unknown: bool
+    heldout: tuple[Any, ...]
+
+    @property
+    def recordings(self) -> Recordings:
+        return self.selection.recordings
+
+    @property
+    def effects(self) -> tuple[Part, ...]:
+        return () if self.unknown else self.selection.effects
+
+    @property
+    def gain(self) -> float:
+        """Of chi^2 over the planned parts refitted, by the effects and by what a general law adds."""
+        return self.selection.baseline.squared - self.selection.chosen.squared + self.left
+
+    @property
+    def left(self) -> float:
+        """Squared length, in units of the noise, of what a general law could still explain."""
+        last = self.selection.detections[-1]
+        return max(0.0, last.explained - last.expected)
+
+    def nrmse(self, parts: Sequence[Part], fitted: bool | None) -> float:
+        """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike."""
+        rows: list[tuple[Array, Array]] = []
+        if fitted is False and self.heldout:
+            rows = [(other.measured, self.component.predicted(parts, other)) for other in self.heldout]
+        else:
+            for one, mask in zip(self.recordings.data, self.recordings.masks, strict=True):
+                used = np.ones(len(mask), dtype=bool) if fitted is None else mask if fitted else ~mask
+                rows.append((one.measured[:, used], self.component.predicted(parts, one)[:, used]))
+        real, ours = (np.concatenate(one, axis=1) for one in zip(*rows, strict=True))
+        spread = np.maximum(np.var(real, axis=1), 1e-300)
+        return finite(float(np.sqrt(np.mean(np.mean((real - ours) ** 2, axis=1) / spread))))
+
+    @property
+    def noise(self) -> float:
+        """Of the noise, likewise."""
+        real = np.concatenate([one.measured for one in self.recordings.data], axis=1)
+        shares = [
+            noise.deviation**2 / max(float(np.var(row)), 1e-300)
+            for noise, row in zip(self.recordings.noises, real, strict=True)
+        ]
+        return finite(float(np.sqrt(np.mean(shares))))
+
+
+def judged(
+    component: Component,
+    name: str,
+    data: Sequence[Any],
+    heldout: Sequence[Any],
+    level: float,
+    random: np.random.Generator,
+    told: Callable[[float], None],
+) -> Judged:
+    masks = tuple(fitted_blocks(one.measured.shape[1], one.step) for one in data)
+    noises = tuple(Noise(np.ones(1), 1.0) for _ in data[0].measured)
+    weights = tuple(np.ones(one.measured.shape) for one in data)
+    selection = select(Recordings(component, tuple(data), masks, noises, weights), level, random, told)
+    first, last = selection.detections[0], selection.detections[-1]
+    found = Judged(component, name, selection, "consistent", False, tuple(heldout))
+    if first.p_value > level:
+        return Judged(component, name, selection, _calibration(selection, level), False, found.heldout)
+    remains = last.p_general <= level and found.left > max(PLAIN, NOT_WHOLE * found.gain)
+    if selection.effects and not remains:
+        return Judged(component, name, selection, "mismatch", False, found.heldout)
+    return Judged(component, name, selection, "mismatch" if remains else "undetermined", remains, found.heldout)
+
+
+def fitted_blocks(count: int, step: float) -> Any:
+    """True where fitted."""
+    fitted = ~np.isin(np.arange(count) * BLOCKS // count, HELD_OUT)
+    ends = round(ENDS / step)
+    fitted[:ends] = fitted[count - ends :] = False
+    return fitted
+
+
+def finite(value: float) -> float:
+    return value if np.isfinite(value) else 1e9
+
+
+def _calibration(selection: Selection, level: float) -> str:
+    planned = selection.recordings.misfit(selection.recordings.component.base)
+    chosen: Fitted = selection.chosen
+    gain = float(planned @ planned) - chosen.squared
+    return "recalibrate" if gain > chi2.ppf(1 - level, max(1, len(chosen.free))) else "consistent"

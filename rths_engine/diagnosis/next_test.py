@@ -1,0 +1,84 @@
+"""The test that would tell two models apart best."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.components import ActuatorData, SpecimenData
+from rths_engine.diagnosis.fitting import Recordings
+from rths_engine.diagnosis.parallel import each
+from rths_engine.part import Part
+
+CYCLES = 6
+FREQUENCIES = (0.1, 0.25, 0.5, 1.0, 2.0)  # Hz
+SHARES = (0.25, 0.5, 1.0, 1.5)  # of the largest displacement so far
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """A test, in words, and the lambda to be expected of it."""
+
+    signal: str
+    expected: float
+
+
+def next_test(
+    recordings: Recordings, one: Sequence[Part], other: Sequence[Part], stroke: float, speed: float
+) -> NextTest | None:
+    """Of sines and ramps within the stroke (m) and speed (m/s) of the rig; None where the component has no drive."""
+    data = recordings.data[0]
+    if not isinstance(data, ActuatorData | SpecimenData):
+        return None
+    so_far = data.seen().x
+    offers = []
+    for share in SHARES:
+        for frequency in FREQUENCIES:
+            amplitude = min(share * so_far, stroke)
+            if 2 * np.pi * frequency * amplitude <= speed:
+                offers.append(
+                    (
+                        f"a sine of {1e3 * amplitude:.3g} mm at {frequency:g} Hz, {CYCLES} cycles",
+                        _sine(amplitude, frequency, data.dt),
+                    )
+                )
+        amplitude = min(share * so_far, stroke)
+        if 4 * 0.05 * amplitude <= speed:
+            offers.append((f"a triangle of {1e3 * amplitude:.3g} mm at 0.05 Hz, 2 cycles", _triangle(amplitude, 0.05, data.dt)))
+
+    def expected(offer: tuple[str, Array]) -> float:
+        moved = _moved_as(data, offer[1])
+        first, second = (recordings.component.predicted(parts, moved) for parts in (one, other))
+        apart = sum(
+            float(np.sum(noise.whitened(a - b) ** 2)) for noise, a, b in zip(recordings.noises, first, second, strict=True)
+        )
+        return apart if np.isfinite(apart) else 0.0
+
+    if not offers:
+        return None
+    reached = each(expected, offers)
+    best = int(np.argmax(reached))
+    return NextTest(offers[best][0], reached[best])
+
+
+def _sine(amplitude: float, frequency: float, dt: float) -> Array:
+    time = np.arange(0.0, CYCLES / frequency, dt)
+    rise: Array = np.minimum(1.0, time * frequency)
+    return np.asarray(amplitude * rise * np.sin(2 * np.pi * frequency * time))
+
+
+def _triangle(amplitude: float, frequency: float, dt: float) -> Array:
+    time = np.arange(0.0, 2 / frequency, dt)
+    return np.asarray(amplitude * 2 / np.pi * np.arcsin(np.sin(2 * np.pi * frequency * time)))
+
+
+def _moved_as(data: Any, x: Array) -> Any:
+    if isinstance(data, SpecimenData):
+        moved: Any = replace(data, x=x, force=x, current=np.full(len(x), float(np.mean(data.current))))
+        moved.__dict__["smooth"] = x
+        return moved
+    return replace(data, command=x, x=x, force=None)

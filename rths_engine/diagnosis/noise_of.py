@@ -1,0 +1,103 @@
+"""The noise of a recording, of what the models and few terms of a general law leave of it."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.fitting import Fitted, Recordings, evaluated
+from rths_engine.diagnosis.noise import Noise, autoregressive
+from rths_engine.diagnosis.parallel import each
+from rths_engine.diagnosis.signatures import general_terms, signatures
+
+FIRST_GUESS = 0.01  # noise over the output's deviation, before any is known
+LEAST_NOISE = 1e-6  # likewise: below, numbers of a file are rounded
+DRAWS = 12
+SMOOTHED = 0.1  # s
+ROUNDS = 4
+MOST_TERMS = 12
+CLEAR = 4.0  # standard deviations: a term so large is no noise
+
+
+def first_noise(recordings: Recordings) -> Recordings:
+    spread = np.std(np.concatenate([one.measured for one in recordings.data], axis=1), axis=1)
+    return replace(recordings, noises=tuple(Noise(np.ones(1), max(FIRST_GUESS * float(one), 1e-300)) for one in spread))
+
+
+def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Recordings:
+    """Each sample by 1 / sqrt(1 + s^2 / sigma^2): s is the deviation that noise on the input gives the output there, sigma a
+    robust one of the residual."""
+    residuals = recordings.residuals(fitted.parts)
+    weights = []
+    for one, residual in zip(recordings.data, residuals, strict=True):
+        if one.input_noise == 0:
+            weights.append(np.ones(residual.shape))
+            continue
+        draws = [one.redrawn(random) for _ in range(DRAWS)]
+        reached = np.std(each(lambda drawn: recordings.component.predicted(fitted.parts, drawn), draws), axis=0)
+        sigma = np.maximum(1.4826 * np.median(np.abs(residual), axis=1, keepdims=True), 1e-300)
+        width = max(1, round(SMOOTHED / one.step))
+        local = np.sqrt(uniform_filter1d(reached**2, width, axis=1))
+        weights.append(1 / np.sqrt(1 + (local / sigma) ** 2))
+    return replace(recordings, weights=tuple(weights))
+
+
+def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
+    """First all that the fitted numbers leave is taken for noise; then term by term what stands clear of it, of the library's
+    effects and of a general law, is taken out, and the noise found anew."""
+    plain = first_noise(recordings)
+    now = evaluated(plain, fitted.parts)
+    count = now.samples
+    terms = np.column_stack([signatures(plain, now).rows.T[:count], general_terms(plain, now)[:count]])
+    noises = _noises(plain, now.misfit[:count])
+    taken: list[int] = []
+    for _ in range(ROUNDS):
+        white = _whitened(plain, noises, np.column_stack([now.misfit[:count], now.jacobian[:count], terms]))
+        misfit, known, offered = white[:, 0], white[:, 1 : 1 + len(now.free)], white[:, 1 + len(now.free) :]
+        before = len(taken)
+        taken = _clear(misfit, known, offered, taken)
+        columns = np.column_stack([now.jacobian[:count], terms[:, taken]])
+        weights = np.linalg.lstsq(np.column_stack([known, offered[:, taken]]), misfit, rcond=None)[0]
+        noises = _noises(plain, now.misfit[:count] - columns @ weights)
+        if len(taken) == before:
+            break
+    return replace(recordings, noises=noises)
+
+
+def _clear(misfit: Array, known: Array, offered: Array, taken: list[int]) -> list[int]:
+    """Places of the terms that stand clear of noise, one after another."""
+    taken = list(taken)
+    while len(taken) < MOST_TERMS:
+        basis = np.linalg.qr(np.column_stack([known, offered[:, taken]]))[0]
+        left = offered - basis @ (basis.T @ offered)
+        sizes = np.linalg.norm(left, axis=0)
+        usable = sizes > 1e-3 * np.maximum(np.linalg.norm(offered, axis=0), 1e-300)
+        rest = misfit - basis @ (basis.T @ misfit)
+        scores = np.where(usable, np.abs(rest @ left) / np.maximum(sizes, 1e-300), 0.0)
+        best = int(np.argmax(scores)) if len(scores) else -1
+        if best < 0 or scores[best] < CLEAR:
+            break
+        taken.append(best)
+    return taken
+
+
+def _noises(plain: Recordings, misfit: Array) -> tuple[Noise, ...]:
+    found = []
+    for rows, white in zip(plain.channels(misfit), plain.noises, strict=True):
+        noise = autoregressive(rows)
+        found.append(Noise(noise.coefficients, white.sigma * max(noise.sigma, LEAST_NOISE / FIRST_GUESS)))
+    return tuple(found)
+
+
+def _whitened(plain: Recordings, noises: tuple[Noise, ...], columns: Array) -> Array:
+    """The columns, rows of misfits under the noise of `plain`, in units of `noises`."""
+    rows = []
+    ends = np.cumsum([0] + [int(mask.sum()) for mask in plain.masks for _ in plain.noises])
+    for place, (start, end) in enumerate(itertools.pairwise(ends)):
+        channel = place % len(noises)
+        rows.append(noises[channel].whitened(plain.noises[channel].sigma * columns[start:end].T).T)
+    return np.concatenate(rows)

@@ -1,0 +1,176 @@
+"""The components of a plan with what a recording holds at their ends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rths_engine import replay
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.components import (
+    Actuator,
+    ActuatorData,
+    Chain,
+    ChainData,
+    Component,
+    Specimen,
+    SpecimenData,
+    Structure,
+    StructureData,
+    based,
+)
+from rths_engine.errors import Issue, RecordingError
+from rths_engine.measured import Measured
+from rths_engine.plan import Plan, Station
+
+LEAST = 512  # samples: fewer hold too little to tell noise from physics
+MOST = 4_000_000  # samples of a channel
+FAR_OFF = 30.0  # times: units are off
+AT_REST = 0.02  # of the largest: below, the start is taken for rest
+Pair = tuple[Component, Any]
+FLOORS = ("x_floor", "v_floor", "a_floor")
+
+
+def components(plan: Plan, recording: Measured, where: str) -> list[Pair]:
+    """Each component that can be replayed, with its data. Raises RecordingError where the recording is not of this plan."""
+    _checked(plan, recording, where)
+    found = _structure(plan, recording, where) if plan.test == "structure" else _stations(plan, recording)
+    if not found:
+        needed = "floors' motions" if plan.test == "structure" else "a station's displacement or force beside what drives it"
+        fix = f"it holds {', '.join(recording.keys)}"
+        raise RecordingError(Issue(where, f"no component has both its ends recorded: needs {needed}", None, fix))
+    return found
+
+
+def _checked(plan: Plan, recording: Measured, where: str) -> None:
+    if recording.samples < LEAST:
+        raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis needs {LEAST}"))
+    if recording.samples > MOST:
+        raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis takes {MOST}", None, "cut it"))
+    if recording.test and recording.test != plan.test:
+        fix = "give the plan of this test, or map the recording to this kind"
+        raise RecordingError(Issue(where, f"is of a test of kind {recording.test!r}; the plan's is {plan.test!r}", None, fix))
+    stations = recording.numbers("station")
+    if stations and max(stations) > len(plan.stations):
+        problem = f"holds station {max(stations)}; the plan has {len(plan.stations)}"
+        raise RecordingError(Issue(where, problem, None, "give the plan of this recording"))
+    if recording.of_run and len(stations) != len(plan.stations):
+        problem = f"holds {len(stations)} stations; the plan has {len(plan.stations)}"
+        raise RecordingError(Issue(where, problem, None, "give the plan of this recording"))
+    if (recording.of_run or plan.test in ("hybrid", "actuator")) and not _same_rate(plan, recording):
+        problem = f"has {1 / recording.dt:g} samples a second; the plan's controller rate is {plan.controller_rate:g} Hz"
+        fix = "give the plan of this recording, or import it again with target_rate"
+        raise RecordingError(Issue(where, problem, None, fix))
+    floors = recording.numbers("floor")
+    count = len(plan.structure.assemble().floors) if plan.structure.kind != "none" else 0
+    if floors and plan.test in ("structure", "hybrid") and max(floors) > count:
+        problem = f"holds floor {max(floors)}; the plan's structure has {count}"
+        raise RecordingError(Issue(where, problem, None, "give the plan of this recording"))
+
+
+def _same_rate(plan: Plan, recording: Measured) -> bool:
+    return bool(np.isclose(recording.dt, plan.substep, rtol=1e-6))
+
+
+def _stations(plan: Plan, recording: Measured) -> list[Pair]:
+    found: list[Pair] = []
+    for number, station in enumerate(plan.stations, start=1):
+        x, force = _moving(recording, "x_meas", number), _moving(recording, "f_meas", number)
+        command = _command(plan, station, recording, number)
+        if x is not None and command is not None and _same_rate(plan, recording):
+            actuator = station.actuator
+            moved = Actuator(f"actuator:{number}", (actuator,), tuple(station.actuator_physics))
+            found.append((moved, ActuatorData(recording.dt, recording.start, command, x, force)))
+        if force is not None and x is not None:
+            pressed = Specimen(f"specimen:{number}", (station.specimen,), tuple(station.specimen_physics))
+            current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))
+            found.append((pressed, SpecimenData(recording.dt, recording.start, x, force, current)))
+        if force is not None and x is None and command is not None:
+            known = (*station.actuator_physics, *station.specimen_physics)
+            chain = Chain(f"specimen:{number}", (station.actuator, station.specimen), known)
+            found.append((chain, ChainData(recording.dt, recording.start, command, command, force)))
+    return found
+
+
+def _moving(recording: Measured, role: str, number: int) -> Array | None:
+    """A channel that was measured and was not still."""
+    if not recording.has(role, number):
+        return None
+    values = recording.get(role, number)
+    return values if np.ptp(values) > 0 else None
+
+
+def _command(plan: Plan, station: Station, recording: Measured, number: int) -> Array | None:
+    """What the actuator was sent: recorded, or what its compensator makes of the command."""
+    if (sent := _moving(recording, "x_comp", number)) is not None:
+        return sent
+    command = _moving(recording, "x_cmd", number)
+    if command is None and number == 1 and plan.driven:
+        command = _moving(recording, "drive", 1)
+    if command is None:
+        return None
+    if station.compensator.kind == "none":
+        return command
+    x = _moving(recording, "x_meas", number)
+    if x is None or not _same_rate(plan, recording):
+        return None
+    return replay.compensator(station.compensator, command, x, recording.dt)
+
+
+def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
+    floors: list[Any] = []
+    for one in recording.channels:
+        if one.role in FLOORS and one.number and np.ptp(one.values) > 0:
+            floors.append((one.role[0], one.number, one.values))
+    if not floors:
+        return []
+    ground = recording.get("ag") if recording.has("ag") else np.zeros(recording.samples)
+    forces = {one.number: one.values for one in recording.channels if one.role == "force_ext" and one.number}
+    released = None if recording.of_run else _released(plan, recording, ground, forces)
+    if recording.of_run:
+        plan_start = plan.start
+        count = len(plan.structure.assemble().floors)
+        full = [tuple(one) + (0.0,) * (count - len(one)) for one in (plan_start.displacement, plan_start.velocity)]
+        released = None if plan_start.at_rest else (full[0], full[1])
+    if released is None and not ground.any() and not any(np.any(force) for force in forces.values()):
+        problem = "the floors move, but neither ground acceleration nor force was recorded, and they start at rest"
+        raise RecordingError(Issue(where, problem, None, "map ag or force_ext"))
+    data = StructureData(
+        recording.dt, recording.start, ground, forces, tuple(floors), released, plan.substeps if recording.of_run else 0
+    )
+    return [(Structure("structure", based(plan, released is not None and not recording.of_run), plan), data)]
+
+
+def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, Array]) -> Any:
+    """Displacements and velocities of the floors at the start, by a cubic through the first samples; None at rest."""
+    count = len(plan.structure.assemble().floors)
+    period = float(plan.periods()[0])
+    few = max(8, min(recording.samples, round(0.12 * period / recording.dt)))
+    time = np.arange(few) * recording.dt
+    x, v, moving = [0.0] * count, [0.0] * count, False
+    for floor in range(1, count + 1):
+        if not recording.has("x_floor", floor):
+            continue
+        values = recording.get("x_floor", floor)
+        law = np.polynomial.Polynomial.fit(time, values[:few], 3).convert().coef
+        x[floor - 1], v[floor - 1] = float(law[0]), float(law[1])
+        moving = moving or abs(law[0]) > AT_REST * float(np.max(np.abs(values)))
+    still = not ground.any() and not any(np.any(force) for force in forces.values())
+    return (tuple(x), tuple(v)) if moving or still else None
+
+
+def suspicious(pairs: Sequence[Pair]) -> list[str]:
+    """Reasons to take a unit for wrong: the output as planned is many times off in size."""
+    found = []
+    for component, data in pairs:
+        simulated = component.predicted(component.base, data)
+        for real, ours in zip(data.measured, simulated, strict=True):
+            size, plan = float(np.std(real)), float(np.std(ours))
+            if plan > 0 and size > 0 and not 1 / FAR_OFF < size / plan < FAR_OFF:
+                found.append(
+                    f"{component.name}: the measured {component.output} is {size / plan:.3g} times the simulated one in size: "
+                    "check its unit and that of what goes in"
+                )
+    return found

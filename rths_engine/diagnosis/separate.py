@@ -1,0 +1,28 @@
+"""How well two models can be told apart: on the recording, and by another test."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rths_engine.diagnosis.fitting import Fitted, Recordings
+
+APART = 10.0  # of lambda: below, two models can't be told apart
+
+
+def separation(recordings: Recordings, one: Fitted, other: Fitted) -> float:
+    """lambda = N_eff (misfit of one to the other / sigma)^2: the squared distance, in units of the noise, of what both simulate
+    where both fit the recording best."""
+    pairs = zip(recordings.predicted(one.parts), recordings.predicted(other.parts), strict=True)
+    between = recordings.joined([first - second for first, second in pairs])
+    return float(between @ between)
+
+
+def alike(recordings: Recordings, best: Fitted, tried: tuple[Fitted, ...]) -> list[tuple[Fitted, float]]:
+    """Models of as many effects that can't be told from the best, with their lambda."""
+    found = []
+    for other in tried:
+        if other is not best and len(other.parts) == len(best.parts) and other.bic - best.bic < APART:
+            apart = separation(recordings, best, other)
+            if np.isfinite(apart) and apart < APART:
+                found.append((other, apart))
+    return found

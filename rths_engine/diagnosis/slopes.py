@@ -1,0 +1,52 @@
+"""The Jacobian of a misfit: by differences, and by secants in between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from rths_engine.arrays import Array
+
+DIFFERENCE = 1e-3  # of a number's scale: wide beside the kinks of friction and play
+KEPT = 2  # steps by secants before differences are taken again
+
+
+def differences(misfit: Callable[[Array], Array], z: Array, plain: Array, bounds: Array) -> Array:
+    """(N, k), forward, or backward at an upper bound."""
+    columns = []
+    for place in range(len(z)):
+        size = DIFFERENCE * max(1.0, abs(z[place]))
+        size = size if z[place] + size <= bounds[place, 1] else -size
+        moved = z.copy()
+        moved[place] += size
+        columns.append((misfit(moved) - plain) / size)
+    return np.column_stack(columns) if columns else np.zeros((len(plain), 0))
+
+
+class Slopes:
+    """Misfit and Jacobian for a search. Source of the secants: Broyden (1965), Math. Comp. 19, 577-593."""
+
+    def __init__(self, misfit: Callable[[Array], Array], bounds: Array):
+        self._misfit, self._bounds = misfit, bounds
+        self._known: dict[bytes, Array] = {}
+        self._at: tuple[Array, Array, Array] | None = None
+        self._age = 0
+
+    def misfit(self, z: Array) -> Array:
+        self._known[z.tobytes()] = found = self._misfit(z)
+        return found
+
+    def jacobian(self, z: Array) -> Array:
+        plain = self._known.get(z.tobytes())
+        plain = self.misfit(z) if plain is None else plain
+        self._known = {z.tobytes(): plain}
+        if self._at is None or self._age >= KEPT:
+            slopes, self._age = differences(self._misfit, z, plain, self._bounds), 0
+        else:
+            before, value, last = self._at
+            step = z - before
+            slopes = last + np.outer(plain - value - last @ step, step / max(float(step @ step), 1e-300))
+            self._age += 1
+        self._at = z.copy(), plain, slopes
+        return slopes
