@@ -4,6 +4,7 @@ law of motion, energy and time could account for."""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.stats import gamma, gumbel_r
@@ -11,9 +12,10 @@ from scipy.stats import gamma, gumbel_r
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
-from rths_engine.diagnosis.signatures import Signatures, absorber
+from rths_engine.diagnosis.signatures import Signatures, absorber, bias
 
 REPLICATES = 99
+REDRAWN = 24
 TINIEST = 1e-300
 
 
@@ -48,7 +50,8 @@ def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array
         return Detection(np.zeros(0), 0.0, 1.0, p_general, explained, float(lengths.mean()))
     null = found.scores(drawn)
     centre, spread = null.mean(axis=0), np.maximum(null.std(axis=0), 1e-3)
-    scores = (found.scores(misfit) - centre) / spread
+    shift, variance = bias(recordings, fitted, found, random)
+    scores = (found.scores(misfit, shift) - centre) / np.sqrt(spread**2 + variance)
     largest = float(scores.max())
     p_library = p_value(largest, ((null - centre) / spread).max(axis=1))
     return Detection(scores, largest, p_library, p_general, explained, float(lengths.mean()))
@@ -77,21 +80,32 @@ def _upper_tail(length: float, null: Array) -> float:
 
 def _null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Array:
     absorbed = absorber(fitted.jacobian)
-    component = recordings.component
-    before = recordings.predicted(fitted.parts)
+    inputs = _input_noise(recordings, fitted, random)
     seeds = random.integers(2**63, size=REPLICATES)
     beyond = len(fitted.misfit) - fitted.samples
 
-    def drawn(seed: int) -> Array:
-        own = np.random.default_rng(seed)
+    def drawn(place: int) -> Array:
+        own = np.random.default_rng(seeds[place])
         found = []
-        for one, plain, weights in zip(recordings.data, before, recordings.weights, strict=True):
-            noise = np.array([model.drawn(plain.shape[1], own) for model in recordings.noises]) / weights
-            if one.input_noise > 0:
-                noise = noise + plain - component.predicted(fitted.parts, one.redrawn(own))
-            found.append(noise)
+        for reached, weights in zip(inputs[place % len(inputs)], recordings.weights, strict=True):
+            noise = np.array([model.drawn(weights.shape[1], own) for model in recordings.noises])
+            found.append(noise / weights + reached)
         misfit = np.concatenate([recordings.joined(found), own.standard_normal(beyond)])
         left: Array = misfit - absorbed @ (absorbed.T @ misfit)
         return left
 
-    return np.array(each(drawn, [int(seed) for seed in seeds]))
+    return np.array(each(drawn, range(REPLICATES)))
+
+
+def _input_noise(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> list[list[Array]]:
+    """What other noise on the input does to the residual of each recording, several times."""
+    before = recordings.predicted(fitted.parts)
+    if not any(one.input_noise > 0 for one in recordings.data):
+        return [[np.zeros_like(plain) for plain in before]]
+    draws = [[one.redrawn(random) for one in recordings.data] for _ in range(REDRAWN)]
+    component = recordings.component
+
+    def reached(drawn: list[Any]) -> list[Array]:
+        return [plain - component.predicted(fitted.parts, one) for plain, one in zip(before, drawn, strict=True)]
+
+    return each(reached, draws)

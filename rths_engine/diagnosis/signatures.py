@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +12,10 @@ from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
+from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
 
+DRAWS = 4
 NOTHING = 1e-9  # of the misfit: a signature so small says nothing
 
 
@@ -22,11 +25,13 @@ class Signatures:
 
     effects: tuple[Effect, ...]
     rows: Array
+    sizes: Array  # (K) length of each before it was scaled
     two_sided: Array  # (K)
 
-    def scores(self, misfits: Array) -> Array:
-        """The part of the misfit (N) or misfits (B, N) along each, standard normal where there is none but noise."""
-        along = misfits @ self.rows.T
+    def scores(self, misfits: Array, bias: Array | float = 0.0) -> Array:
+        """The part of the misfit (N) or misfits (B, N) along each, standard normal where there is none but noise. `bias` (K) is
+        what noise on the input alone brings about."""
+        along = misfits @ self.rows.T - bias
         found: Array = np.where(self.two_sided, np.abs(along), along)
         return found
 
@@ -39,17 +44,44 @@ def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
     before = recordings.joined(recordings.predicted(fitted.parts))
     absorbed = absorber(fitted.jacobian)
 
-    def left(guess: Effect) -> Array | None:
-        change = recordings.joined(recordings.predicted([*fitted.parts, guess])) - before
-        return _beyond(change, absorbed)
+    def left(guess: Effect) -> tuple[Array, float] | None:
+        return _beyond(recordings.joined(recordings.predicted([*fitted.parts, guess])) - before, absorbed)
 
-    rows = each(left, guesses)
-    kept = [(guess, row) for guess, row in zip(guesses, rows, strict=True) if row is not None]
+    found = [(guess, row) for guess, row in zip(guesses, each(left, guesses), strict=True) if row is not None]
     return Signatures(
-        tuple(guess for guess, _ in kept),
-        np.array([row for _, row in kept]).reshape(len(kept), -1),
-        np.array([_two_sided(guess) for guess, _ in kept], dtype=bool),
+        tuple(guess for guess, _ in found),
+        np.array([row for _, (row, _) in found]).reshape(len(found), -1),
+        np.array([size for _, (_, size) in found]),
+        np.array([_two_sided(guess) for guess, _ in found], dtype=bool),
     )
+
+
+def bias(recordings: Recordings, fitted: Fitted, found: Signatures, random: np.random.Generator) -> tuple[Array, Array]:
+    """Mean and variance (K) along each signature: noise on the input is in the residual and in the signature, and so
+    correlates the two."""
+    if not any(one.input_noise > 0 for one in recordings.data) or not found.effects:
+        return np.zeros(len(found.effects)), np.zeros(len(found.effects))
+    component, absorbed = recordings.component, absorber(fitted.jacobian)
+    draws = [[one.redrawn(random) for one in recordings.data] for _ in range(DRAWS)]
+    plain = recordings.predicted(fitted.parts)
+
+    def reached(parts: Sequence[Part], drawn: Sequence[Any]) -> list[Array]:
+        return [component.predicted(parts, one) for one in drawn]
+
+    noisy = each(lambda drawn: reached(fitted.parts, drawn), draws)
+
+    def along(effect: Effect) -> list[float]:
+        parts = [*fitted.parts, effect]
+        before = recordings.predicted(parts)
+        found = []
+        for drawn, simulated in zip(draws, noisy, strict=True):
+            own = [a - b - (c - e) for a, b, c, e in zip(reached(parts, drawn), simulated, before, plain, strict=True)]
+            residual = [e - b for e, b in zip(plain, simulated, strict=True)]
+            found.append(float(_free(recordings.joined(residual), absorbed) @ _free(recordings.joined(own), absorbed)))
+        return found
+
+    reach = np.nan_to_num(np.array(each(along, found.effects)) / found.sizes[:, None])
+    return reach.mean(axis=1), reach.var(axis=1, ddof=1) * (1 + 1 / DRAWS)
 
 
 def general(recordings: Recordings, fitted: Fitted) -> Array:
@@ -65,7 +97,7 @@ def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
     for same in zip(*terms, strict=True):
         column = _beyond(recordings.joined([term.response for term in same]), absorbed)
         if column is not None:
-            columns.append(column)
+            columns.append(column[0])
     return np.array(columns).T if columns else np.zeros((len(absorbed), 0))
 
 
@@ -93,17 +125,22 @@ def best_first(found: Signatures, scores: Array) -> Sequence[int]:
     return places
 
 
-def _beyond(change: Array, absorbed: Array) -> Array | None:
-    """The change (of the recordings' rows) beyond what is absorbed, of unit length; None where nothing is left."""
+def _free(change: Array, absorbed: Array) -> Array:
+    """The change (of the recordings' rows) beyond what is absorbed."""
+    change = np.concatenate([change, np.zeros(len(absorbed) - len(change))])
+    left: Array = change - absorbed @ (absorbed.T @ change)
+    return left
+
+
+def _beyond(change: Array, absorbed: Array) -> tuple[Array, float] | None:
+    """Likewise, of unit length, with its length; None where nothing is left."""
     if not np.isfinite(change).all():
         return None
-    change = np.concatenate([change, np.zeros(len(absorbed) - len(change))])
-    left = change - absorbed @ (absorbed.T @ change)
+    left = _free(change, absorbed)
     size = float(np.linalg.norm(left))
     if size <= NOTHING * max(1.0, float(np.linalg.norm(change))):
         return None
-    unit: Array = left / size
-    return unit
+    return left / size, size
 
 
 def _two_sided(effect: Effect) -> bool:

@@ -72,7 +72,7 @@ def test_a_clean_recording_is_not_accused(folder: Path) -> None:
     [
         (["plan.yaml", "none.h5"], "there is no recording none.h5"),
         (["plan.yaml", "plan.yaml"], "no complete rths-measured/1 or rths-recording/1 recording"),
-        (["two.yaml", "clean.h5"], "holds 1 stations; the plan has 2"),
+        (["two.yaml", "clean.h5"], "is of a test of kind 'specimen'; the plan's is 'hybrid'"),
         (["slow.yaml", "clean.h5"], "512 samples a second; the plan's controller rate is 256 Hz"),
         (["plan.yaml", "clean.h5", "--level", "2"], "rate of false alarms between 0 and 1"),
         (["plan.yaml", "clean.h5", "--json", "missing/out.json"], "there is no such folder"),
