@@ -31,6 +31,7 @@ class Settings:
     worker_concurrency: int = 2
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     upload_limit: int = 20 * MEGABYTE
+    measurements_limit: int = 100 * MEGABYTE
 
     @property
     def url(self) -> str:
@@ -46,13 +47,21 @@ class Settings:
         return self.data / "motions"
 
     @property
+    def measured(self) -> Path:
+        return self.data / "measured"
+
+    def body_limit(self, path: str) -> int:
+        """Bytes that a request to an address may have: files of measurements are larger than anything else."""
+        return self.measurements_limit if path.startswith("/api/v1/recordings") else self.upload_limit
+
+    @property
     def known_hosts(self) -> frozenset[str]:
         """Host names that a browser's request may name; empty where a network's names can't be known."""
         return LOOPBACK | {self.host, *self.hosts} if self.host in LOOPBACK or self.hosts else frozenset()
 
     def prepared(self) -> Settings:
         """The same settings with their folders made."""
-        for folder in (self.data, self.recordings, self.motions):
+        for folder in (self.data, self.recordings, self.motions, self.measured):
             folder.mkdir(parents=True, exist_ok=True)
         return self
 
@@ -79,4 +88,5 @@ VARIABLES: dict[str, tuple[str, Callable[[str], Any]]] = {
     "worker_concurrency": ("RTHS_WORKERS", int),
     "worker_token": ("RTHS_WORKER_TOKEN", str),
     "upload_limit": ("RTHS_UPLOAD_LIMIT_MB", lambda text: int(text) * MEGABYTE),
+    "measurements_limit": ("RTHS_MEASUREMENTS_LIMIT_MB", lambda text: int(text) * MEGABYTE),
 }

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import sqlalchemy as sa
 from alembic import command
@@ -33,6 +33,11 @@ def unit_of_work(maker: sessionmaker[Session]) -> Iterator[Session]:
     """One session that commits once at the end, or rolls everything back."""
     with maker() as session, session.begin():
         yield session
+
+
+def afterwards(session: Session, event: Literal["after_commit", "after_rollback"], action: Callable[[], Any]) -> None:
+    """Do `action` once the session's transaction has ended so: what happens to files follows what happened to rows."""
+    sa.event.listen(session, event, lambda _: action(), once=True)
 
 
 def migrate(url: str) -> None:

@@ -27,7 +27,7 @@ class Guard:
     """
 
     def __init__(self, app: ASGIApp, settings: Settings):
-        self.app, self.limit, self.known = app, settings.upload_limit, settings.known_hosts
+        self.app, self.limit, self.known = app, settings.body_limit, settings.known_hosts
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         refusal = None
@@ -47,7 +47,8 @@ class Guard:
             return None
         if not self._own(headers):
             return problem(403, ELSEWHERE)
-        return too_large(self.limit) if _declared(headers) > self.limit else None
+        limit = self.limit(scope["path"])
+        return too_large(limit) if _declared(headers) > limit else None
 
     def _own(self, headers: Headers) -> bool:
         origin = headers.get("origin")

@@ -19,6 +19,7 @@ from app.guard import Guard
 from app.health import router as health
 from app.live.endpoints import router as live
 from app.live.hub import Hub
+from app.measured.endpoints import router as measured
 from app.motions.endpoints import router as motions
 from app.pages.stability import router as stability_page
 from app.pages.table4 import router as table4_page
@@ -48,6 +49,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     problems.install(app)
     for router in (runs, motions, plans, stability, table4, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
+    app.include_router(measured, max_body_size=configured.measurements_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(stability_page)

@@ -91,6 +91,49 @@ class RunStation(Base):
     run: Mapped[Run] = relationship(back_populates="stations")
 
 
+class RawFile(Base):
+    """A file of measurements as it came in, kept under its checksum."""
+
+    __tablename__ = "raw_file"
+
+    sha256: Mapped[str] = mapped_column(sa.String(64), primary_key=True)
+    size: Mapped[int] = mapped_column(sa.BigInteger)
+    filename: Mapped[str] = mapped_column(sa.String(255))
+    uploaded_at: Mapped[datetime] = mapped_column(index=True)
+
+
+class MeasuredRecording(Base):
+    """Measurements imported from a raw file by a mapping. Its HDF5 file is whole once the row is there."""
+
+    __tablename__ = "measured_recording"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    name: Mapped[str] = mapped_column(sa.String(200), index=True)
+    test: Mapped[str | None] = mapped_column(sa.String(16))
+    raw_sha256: Mapped[str] = mapped_column(sa.ForeignKey("raw_file.sha256"), index=True)
+    filename: Mapped[str] = mapped_column(sa.String(255))
+    mapping: Mapped[dict[str, Any]]
+    channels: Mapped[list[dict[str, Any]]] = mapped_column(sa.JSON)
+    warnings: Mapped[list[dict[str, Any]]] = mapped_column(sa.JSON)
+    dt_s: Mapped[float]
+    start_s: Mapped[float]
+    samples: Mapped[int] = mapped_column(sa.BigInteger)
+    imported_by: Mapped[str] = mapped_column(sa.String(80))
+    imported_at: Mapped[datetime] = mapped_column(index=True)
+    code_version: Mapped[str] = mapped_column(sa.String(40))
+    sha256: Mapped[str] = mapped_column(sa.String(64))
+    size: Mapped[int] = mapped_column(sa.BigInteger)
+
+    @property
+    def rate_hz(self) -> float:
+        return 1 / self.dt_s
+
+    @property
+    def duration_s(self) -> float:
+        return (self.samples - 1) * self.dt_s
+
+
 class QueueState(Base):
     """Whether the queue is held: one row."""
 

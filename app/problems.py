@@ -102,7 +102,7 @@ def _expected_kind(request: Request, body: Any) -> str | None:
 def _http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     if error.status_code == 413:
-        return too_large(request.app.state.settings.upload_limit)
+        return too_large(request.app.state.settings.body_limit(request.url.path))
     if error.status_code == 405:
         return _not_possible(request)
     response = problem(error.status_code, _detail(request, error))

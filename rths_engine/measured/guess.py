@@ -59,6 +59,7 @@ def guess(table: Table) -> Guess:
             words = "its name" if not column.unit else f"its name and the file's unit {column.unit}"
             progress.taken[column.name] = _Taken(said.role, said.number, said.unit, f"by {words}")
     _one_time(progress)
+    _asked(progress)
     _related(progress)
     _lone(progress)
     for column in progress.unclear():
@@ -103,6 +104,18 @@ def _rises(values: Array, equally: bool = False) -> bool:
     if len(steps) < 2 or not np.isfinite(steps).all() or (steps <= 0).any():
         return False
     return not equally or float(np.ptp(steps)) < 0.5 * float(np.median(steps))
+
+
+def _asked(progress: _Progress) -> None:
+    """A command without a unit that the drive follows up to its limits is what was asked of the drive, not a displacement."""
+    drives = [name for name, one in progress.taken.items() if one.role == "drive"]
+    commands = [name for name, one in progress.taken.items() if one.role == "x_cmd" and not one.unit]
+    for command, drive in ((a, b) for a in commands for b in drives):
+        if relations.limited(progress.table.names[command].values, progress.table.names[drive].values):
+            why = f"column {drive} is the same within its limits: both are the drive"
+            progress.taken[command] = _Taken("drive", None, progress.taken[drive].unit, why)
+            progress.left[drive] = f"column {command} after its limits"
+            return
 
 
 def _related(progress: _Progress) -> None:
@@ -178,6 +191,9 @@ def _unit(progress: _Progress, column: Column, one: _Taken) -> Unit:
             found = by_partner(x_column.values, said.name, column.values, progress.step)
             if found is not None:
                 return found
+    if one.role == "drive":
+        why = "nothing gives its unit: V as of most drives, check it"
+        return by_hint("voltage", progress.table.hints) or Unit("V", why, True)
     return by_hint(kind, progress.table.hints) or by_magnitude(kind, column.values)
 
 

@@ -18,6 +18,7 @@ from rths_engine.measured.store import Measured, MeasuredChannel
 from rths_engine.measured.table import MOST_SAMPLES, Table
 
 LEAST = 8  # samples of a recording
+LARGEST = 1e30  # SI: beyond it squares, and what is computed from them, overflow soon
 LOST = 0.01  # share of a channel's time beyond the others' from which it is told
 
 
@@ -41,6 +42,7 @@ def imported(table: Table, mapping: Mapping, source: str = "", sha256: str = "")
     return examined.measured
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Examined:
     """Everything that can be found out at once. Raises MeasuredError where the mapping does not fit the file."""
     _check_columns(table, mapping)
@@ -63,6 +65,11 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
     start, count, dt = _grid(mapping, [own for _, _, own in signals])
     findings += _lost(signals, start, start + (count - 1) * dt, mapping)
     channels = tuple(_channel(one, resampled(values, own, start, count, dt)) for one, values, own in signals)
+    huge = [one for one in channels if not float(np.max(np.abs(one.values))) < LARGEST]
+    if huge:
+        problem, fix = "comes out larger than any measurement", "check its gain and unit"
+        findings += [Finding("error", one.key, problem, f"above {LARGEST:g} {one.unit}", fix=fix) for one in huge]
+        return Examined(None, tuple(findings))
     findings += pairs.contradictions({one.key: one.values for one in channels}, dt)
     warnings = tuple(one for one in findings if one.severity == "warning")
     text = mapping_yaml.write(mapping)

@@ -35,7 +35,7 @@ _ROLES: tuple[tuple[str, str], ...] = (
     ("v_floor", rf"\bv floor\b|\b{_FLOOR}\b.*\bvel\w*|\bvel\w*\b.*\b{_FLOOR}\b"),
     ("v_meas", r"\bv meas\b|\bvel\w*|\bspeed\b|\b(v|xdot|dx|qdot)\b"),
     ("current", r"\bcurrent\w*|\bcurr\b|\bamp(s|ere\w*)?\b|\bi\b"),
-    ("drive", r"\bdrive\b|\bcontrol\w*|\bexcit\w*|\bvalve\b|\bservo\b|\binput\b|\bvoltage\b|\bu\b"),
+    ("drive", r"\bdrive\b|\bcontrol\w*|\bexcit\w*|\bvalve\b|\bservo\b|\binput\b|\bvoltage\b|\bu\b|\bvir\b"),
     ("x_floor", rf"\bx floor\b|\b{_FLOOR}\b"),
     ("x_meas", r"\bx meas\b|\b(disp\w*|position|pos|stroke|lvdt|travel|extension|weg|actuator|qm|x|d|y|q)\b"),
 )  # fmt: skip

@@ -9,6 +9,7 @@ from scipy.ndimage import uniform_filter1d
 
 from rths_engine.arrays import Array
 
+SAME = 1e-3  # of the range: rounding in the file
 SMOOTHED = 9  # samples: takes the sampling noise off a derivative, not the motion of a test
 
 
@@ -34,6 +35,14 @@ def between(a: Array, b: Array) -> Relation:
         return Relation(0.0, 0.0)
     correlation = float(a @ b) / np.sqrt(power)
     return Relation(float(np.sign(correlation) * np.sqrt((b @ b) / (a @ a))), float(correlation))
+
+
+def limited(asked: Array, given: Array) -> bool:
+    """Whether `given` is `asked` cut off at the extremes of `given`, or all of it."""
+    if len(asked) != len(given) or not (np.isfinite(asked).all() and np.isfinite(given).all()) or np.ptp(given) == 0:
+        return False
+    low, high = float(given.min()), float(given.max())
+    return bool(np.max(np.abs(np.clip(asked, low, high) - given)) < SAME * (high - low))
 
 
 def dissipated(x: Array, force: Array) -> float:

@@ -155,3 +155,11 @@ def test_a_mapping_of_other_columns_names_the_nearest() -> None:
     with pytest.raises(MeasuredError) as refusal:
         examine(table, Mapping.read({"channels": [{"column": "Disp", "role": "x_meas", "unit": "mm"}]}))
     assert "mapping.channels.0 = Disp: the file has no such column (it has Disp (mm))" in str(refusal.value)
+
+
+def test_values_that_only_a_mistaken_gain_explains_refuse_the_file() -> None:
+    data = mapping()
+    data["channels"][1]["gain"] = "1e300"
+    found = examine(Table("test", tuple(Column(name, COLUMNS[:, k]) for k, name in enumerate(NAMES))), Mapping.read(data))
+    assert found.measured is None
+    assert [(one.severity, one.channel) for one in found.findings] == [("error", "x_meas.1")]

@@ -97,6 +97,27 @@ def test_volts_of_a_quantity_get_a_gain_to_be_corrected() -> None:
     assert "placeholder" in found.reasons["load (V)"]
 
 
+def test_a_drive_without_a_unit_is_a_voltage_to_be_checked() -> None:
+    found = guess(Table("test", (Column("t", T), Column("qm", X), Column("qg", X), Column("vir", V / 10))))
+    assert [(one.column, one.role) for one in found.mapping.channels] == [
+        ("t", "t"), ("qm", "x_meas"), ("qg", "x_cmd"), ("vir", "drive"),
+    ]  # fmt: skip
+    assert found.mapping.channels[-1].unit == "V" and "check it" in found.reasons["vir"]
+
+
+def test_a_reference_that_the_drive_follows_up_to_its_limits_is_the_drive() -> None:
+    cut = np.clip(X, -10.0, 10.0)
+    found = guess(Table("test", (Column("t_s", T), Column("reference", X), Column("control", cut), Column("position", V))))
+    assert [(one.column, one.role, one.unit) for one in found.mapping.measurements[:1]] == [("reference", "drive", "V")]
+    assert found.left_out == {"control": "column reference after its limits"}
+    assert "within its limits" in found.reasons["reference"]
+
+
+def test_a_reference_that_the_drive_does_not_follow_stays_a_command() -> None:
+    found = guess(Table("test", (Column("t_s", T), Column("reference", X), Column("control", V))))
+    assert [(one.column, one.role) for one in found.mapping.measurements] == [("reference", "x_cmd"), ("control", "drive")]
+
+
 def test_columns_of_one_role_are_numbered_in_turn() -> None:
     found = guess(Table("test", (Column("t (s)", T), Column("disp north (mm)", X), Column("disp south (mm)", V))))
     assert [one.key for one in found.mapping.measurements] == ["x_meas.1", "x_meas.2"]

@@ -1,0 +1,17 @@
+"""The recordings' service of a request."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends
+
+from app.dependencies import Configured, OneSession
+from app.measured.service import MeasuredService
+
+
+def measured_service(session: OneSession, configured: Configured) -> MeasuredService:
+    return MeasuredService(session, configured.measured)
+
+
+Recordings = Annotated[MeasuredService, Depends(measured_service)]

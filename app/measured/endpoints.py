@@ -1,0 +1,96 @@
+"""REST of measured recordings."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, File, Query, UploadFile
+from fastapi.responses import FileResponse, PlainTextResponse
+
+from app.measured import shown
+from app.measured.dependency import Recordings
+from app.measured.schemas import EarlierMapping, Import, Mapped, RecordingDetail, RecordingList, RecordingOut, Uploaded
+
+router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
+
+
+@router.post("/files", status_code=201)
+def upload(recordings: Recordings, file: Annotated[UploadFile, File()]) -> Uploaded:
+    """Keep a file of measurements, once whatever its name, and guess its mapping; unless imported from, for a day."""
+    return recordings.upload(file.file, file.filename or "")
+
+
+@router.get("/files/{sha256}")
+def uploaded(sha256: str, recordings: Recordings) -> Uploaded:
+    return recordings.uploaded(sha256)
+
+
+@router.get("/roles")
+def roles() -> dict[str, Any]:
+    """What a column can be, and the units it can be in."""
+    return shown.roles()
+
+
+@router.get("/mappings")
+def mappings(recordings: Recordings) -> dict[str, list[EarlierMapping]]:
+    """The mappings of earlier imports, each once."""
+    return {"mappings": recordings.mappings()}
+
+
+@router.post("/preview")
+def preview(asked: Annotated[Mapped, Body()], recordings: Recordings) -> dict[str, Any]:
+    """The channels of an uploaded file by a mapping, decimated, with what the checks find; nothing is stored."""
+    return recordings.preview(asked)
+
+
+@router.post("", status_code=201)
+def add(asked: Annotated[Import, Body()], recordings: Recordings) -> RecordingDetail:
+    """Import an uploaded file by a mapping, as JSON or as text in YAML."""
+    return RecordingDetail.model_validate(recordings.import_(asked))
+
+
+@router.get("")
+def listed(
+    recordings: Recordings,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+) -> RecordingList:
+    """Newest first."""
+    found, total = recordings.list(limit, offset)
+    return RecordingList(recordings=[RecordingOut.model_validate(one) for one in found], total=total)
+
+
+@router.get("/{recording_id}")
+def one(recording_id: str, recordings: Recordings) -> RecordingDetail:
+    return RecordingDetail.model_validate(recordings.get(recording_id))
+
+
+@router.get("/{recording_id}/preview")
+def channels(recording_id: str, recordings: Recordings) -> dict[str, Any]:
+    """The channels, decimated, in the units shown."""
+    return recordings.channels(recording_id)
+
+
+@router.get("/{recording_id}/recording.h5")
+def hdf5(recording_id: str, recordings: Recordings) -> FileResponse:
+    return FileResponse(recordings.hdf5(recording_id), media_type="application/x-hdf5", filename=f"{recording_id}.h5")
+
+
+@router.get("/{recording_id}/raw")
+def raw(recording_id: str, recordings: Recordings) -> FileResponse:
+    """The file as it was uploaded."""
+    path, filename = recordings.raw(recording_id)
+    headers = {"X-Content-Type-Options": "nosniff"}
+    return FileResponse(path, media_type="application/octet-stream", filename=filename, headers=headers)
+
+
+@router.get("/{recording_id}/mapping.yaml")
+def mapping(recording_id: str, recordings: Recordings) -> PlainTextResponse:
+    headers = {"Content-Disposition": f'attachment; filename="{recording_id}.yaml"'}
+    return PlainTextResponse(recordings.mapping_text(recording_id), media_type="application/yaml", headers=headers)
+
+
+@router.delete("/{recording_id}", status_code=204)
+def remove(recording_id: str, recordings: Recordings) -> None:
+    """Remove a recording that nothing refers to, and the uploaded file when no other recording came from it."""
+    recordings.remove(recording_id)

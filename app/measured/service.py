@@ -1,0 +1,192 @@
+"""Rules of measured recordings: upload, look, import, remove. No SQL, no HTTP."""
+
+from __future__ import annotations
+
+import re
+import uuid
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from sqlalchemy.exc import IntegrityError
+from sqlalchemy.orm import Session
+
+from app.db import afterwards
+from app.measured import shown
+from app.measured.raw_files import RawFiles
+from app.measured.repository import MeasuredRepository
+from app.measured.schemas import EarlierMapping, Import, Mapped, Uploaded
+from app.models import MeasuredRecording, RawFile
+from app.problems import Conflict, NotFound
+from app.text import refuse_unstorable
+from rths_engine import __version__, files
+from rths_engine.errors import MeasuredError
+from rths_engine.measured import Mapping, Table, examine, guess, imported, load, mapping_yaml, save
+
+KEPT_UNUSED = timedelta(days=1)  # a file from which nothing is imported
+EARLIER = 200  # imports among which a mapping is looked for
+NOBODY = "unnamed"
+
+
+class MeasuredService:
+    def __init__(self, session: Session, folder: Path):
+        self.session, self.folder = session, folder
+        self.rows, self.raw_files = MeasuredRepository(session), RawFiles(folder / "raw")
+
+    def upload(self, stream: BinaryIO, filename: str) -> Uploaded:
+        """Keep a file that can be read. Raises MeasuredError for one that can't, and keeps nothing of it."""
+        name = _storable(filename)
+        sha256, size = self.raw_files.keep(stream)
+        if self.rows.raw(sha256) is None:
+            afterwards(self.session, "after_rollback", lambda: self.raw_files.path(sha256).unlink(missing_ok=True))
+        table = self.raw_files.table(sha256, name)
+        self.rows.keep_raw(sha256, size, name)
+        for old in self.rows.abandoned(datetime.now(UTC) - KEPT_UNUSED):
+            self._forget_raw(old)
+        return self._described(sha256, size, name, table)
+
+    def uploaded(self, sha256: str) -> Uploaded:
+        raw = self._raw(sha256)
+        return self._described(sha256, raw.size, raw.filename, self.raw_files.table(sha256, raw.filename))
+
+    def preview(self, asked: Mapped) -> dict[str, Any]:
+        """The channels by a mapping, decimated, with everything found. Raises MeasuredError for a mapping that does not fit."""
+        raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
+        return shown.examined(examine(self.raw_files.table(raw.sha256, raw.filename), mapping), mapping)
+
+    def import_(self, asked: Import) -> MeasuredRecording:
+        """Write the recording, then its row. Raises MeasuredError with every error found."""
+        raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
+        measured = imported(self.raw_files.table(raw.sha256, raw.filename), mapping, raw.filename, raw.sha256)
+        name = asked.name.strip() or mapping.title or raw.filename
+        recording_id = str(uuid.uuid4())
+        path = self.path(recording_id)
+        afterwards(self.session, "after_rollback", lambda: path.unlink(missing_ok=True))
+        save(path, replace(measured, title=name))
+        if not self.rows.locked_raw(raw.sha256):
+            raise NotFound(f"The file {raw.filename} was removed meanwhile; upload it again.")
+        recording = MeasuredRecording(
+            id=recording_id,
+            name=name,
+            test=measured.test,
+            raw_sha256=raw.sha256,
+            filename=raw.filename,
+            mapping=mapping.as_dict(),
+            channels=[shown.described(channel) for channel in measured.channels],
+            warnings=[warning.as_dict() for warning in measured.warnings],
+            dt_s=measured.dt,
+            start_s=measured.start,
+            samples=measured.samples,
+            imported_by=asked.imported_by.strip() or NOBODY,
+            imported_at=datetime.now(UTC),
+            code_version=__version__,
+            sha256=files.checksum(path),
+            size=path.stat().st_size,
+        )
+        self.rows.add(recording)
+        return recording
+
+    def get(self, recording_id: str) -> MeasuredRecording:
+        recording = self.rows.get(recording_id)
+        if recording is None:
+            raise NotFound(f"There is no recording {recording_id}.")
+        return recording
+
+    def list(self, limit: int, offset: int) -> tuple[list[MeasuredRecording], int]:
+        return self.rows.list(limit, offset)
+
+    def channels(self, recording_id: str) -> dict[str, Any]:
+        """The channels of a recording, decimated."""
+        return shown.preview(load(self.hdf5(recording_id)))
+
+    def hdf5(self, recording_id: str) -> Path:
+        return _there(self.path(self.get(recording_id).id))
+
+    def raw(self, recording_id: str) -> tuple[Path, str]:
+        """The file that a recording came from, and its name."""
+        recording = self.get(recording_id)
+        return _there(self.raw_files.path(recording.raw_sha256)), recording.filename
+
+    def mapping_text(self, recording_id: str) -> str:
+        return mapping_yaml.write(Mapping.read(self.get(recording_id).mapping))
+
+    def remove(self, recording_id: str) -> None:
+        """Raises Conflict while something refers to the recording."""
+        recording = self.get(recording_id)
+        self.rows.locked_raw(recording.raw_sha256)
+        uses = self.rows.uses(recording)
+        if uses:
+            told = ", ".join(f"{count} × {name.replace('_', ' ')}" for name, count in uses.items())
+            raise Conflict(f"The recording {recording.name} is in use ({told}); remove what uses it first.")
+        try:
+            self.rows.remove(recording)
+        except IntegrityError:
+            raise Conflict(f"The recording {recording.name} has just come into use.") from None
+        path = self.path(recording.id)
+        afterwards(self.session, "after_commit", lambda: path.unlink(missing_ok=True))
+        self._forget_raw(recording.raw_sha256)
+
+    def mappings(self) -> list[EarlierMapping]:
+        """The mappings of earlier imports, newest first, each once."""
+        found: list[EarlierMapping] = []
+        for one in self.rows.list(EARLIER, 0)[0]:
+            if all(one.mapping != other.mapping for other in found):
+                found.append(EarlierMapping(recording=one.id, name=one.name, imported_at=one.imported_at, mapping=one.mapping))
+        return found
+
+    def path(self, recording_id: str) -> Path:
+        return self.folder / f"{recording_id}.h5"
+
+    def _raw(self, sha256: str) -> RawFile:
+        raw = self.rows.raw(sha256)
+        if raw is None:
+            raise NotFound(f"There is no uploaded file with SHA-256 {sha256}; upload it, again after a day without an import.")
+        return raw
+
+    def _forget_raw(self, sha256: str) -> None:
+        if self.rows.forget_raw(sha256):
+            afterwards(self.session, "after_commit", lambda: self.raw_files.path(sha256).unlink(missing_ok=True))
+
+    def _described(self, sha256: str, size: int, filename: str, table: Table) -> Uploaded:
+        return Uploaded(
+            sha256=sha256,
+            size=size,
+            filename=filename,
+            format=table.format,
+            columns=[shown.column(one) for one in table.columns],
+            mappings=[one for one in self.mappings() if _fits(one.mapping, table)],
+            **_guessed(table),
+        )
+
+
+def _guessed(table: Table) -> dict[str, Any]:
+    try:
+        found = guess(table)
+    except MeasuredError as error:
+        return {"guess": None, "reasons": {}, "left_out": {}, "notes": [*table.notes, f"{error}."]}
+    told = {"reasons": found.reasons, "left_out": found.left_out, "notes": list(found.notes)}
+    return {"guess": found.mapping.as_dict(), **told}
+
+
+def _mapping(given: dict[str, Any] | str) -> Mapping:
+    mapping = Mapping.from_yaml(given) if isinstance(given, str) else Mapping.read(given)
+    refuse_unstorable({"mapping": mapping.as_dict()})
+    return mapping
+
+
+def _fits(mapping: dict[str, Any], table: Table) -> bool:
+    wanted = [one[name] for one in mapping["channels"] for name in ("column", "time") if one.get(name) is not None]
+    return all(one in table.names or (isinstance(one, int) and one <= len(table.columns)) for one in wanted)
+
+
+def _there(path: Path) -> Path:
+    if not path.exists():
+        raise Conflict(f"The file {path.name} is missing from the data folder.")
+    return path
+
+
+def _storable(filename: str) -> str:
+    """A file's name without its folder and without signs that no database or header holds."""
+    name = re.split(r"[/\\]", filename)[-1]
+    return re.sub("[\x00-\x1f\x7f\ud800-\udfff]", "", name).strip()[-255:] or "measurements"

@@ -1,0 +1,82 @@
+"""What people see of a table and of a recording: statistics and decimated channels, in the units that are shown."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from app.reports.decimate import extremes
+from rths_engine.arrays import Array
+from rths_engine.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel
+from rths_engine.measured.roles import ROLES, UNITS, dimension, shown
+
+BUCKETS = 700  # a plot's pixels, about
+DIGITS = 7
+
+
+def roles() -> dict[str, Any]:
+    """The roles a column can have, each with the units that fit without a gain, and all units by their dimension."""
+    units: dict[str, list[str]] = {}
+    for unit in UNITS:
+        units.setdefault(dimension(unit), []).append(unit)
+    fields = {name: {"label": role.label, "counts": role.counts, "dimensions": role.dimensions} for name, role in ROLES.items()}
+    return {"roles": fields, "units": units}
+
+
+def column(one: Column) -> dict[str, Any]:
+    known = one.values[np.isfinite(one.values)]
+    missing = len(one.values) - len(known)
+    return {"name": one.name, "unit": one.unit, "samples": len(one.values), "missing": missing, **_statistics(known)}
+
+
+def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:
+    """The channels by a mapping, and what was found wrong with them; no channels where the time or the values can't be used."""
+    told = [{**one.as_dict(), "column": _column(one, mapping)} for one in found.findings]
+    return {"mapping": mapping.as_dict(), "findings": told, **preview(found.measured)}
+
+
+def preview(measured: Measured | None) -> dict[str, Any]:
+    if measured is None:
+        return {"channels": [], "samples": None, "dt_s": None, "start_s": None}
+    channels = [_decimated(one, measured) for one in measured.channels]
+    return {"channels": channels, "samples": measured.samples, "dt_s": measured.dt, "start_s": measured.start}
+
+
+def described(one: MeasuredChannel) -> dict[str, Any]:
+    """A channel without its samples; `unit` and statistics as shown."""
+    values, unit = shown(one.values, one.unit)
+    named = {"key": one.key, "role": one.role, "number": one.number, "label": one.label, "column": one.column}
+    return {**named, "unit": unit, **_statistics(values)}
+
+
+def _decimated(one: MeasuredChannel, measured: Measured) -> dict[str, Any]:
+    values, _ = shown(one.values, one.unit)
+    kept = extremes(values[:, None], BUCKETS)
+    times = measured.start + kept * measured.dt
+    return {**described(one), "time": _rounded(times, 9), "values": _rounded(values[kept], DIGITS)}
+
+
+def _statistics(values: Array) -> dict[str, float | None]:
+    if not len(values):
+        return {"smallest": None, "largest": None, "mean": None}
+    with np.errstate(over="ignore"):
+        found = {"smallest": np.min(values), "largest": np.max(values), "mean": np.mean(values)}
+    return {name: _finite(float(value)) for name, value in found.items()}
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _rounded(values: Array, digits: int) -> list[float | None]:
+    return [_finite(float(f"{value:.{digits}g}")) for value in values]
+
+
+def _column(finding: Finding, mapping: Mapping) -> str | int | None:
+    """The column that a finding is about; a clock's findings name theirs."""
+    for channel in mapping.channels:
+        if finding.channel in {channel.key, f"t ({channel.column})"}:
+            return channel.column
+    return None
