@@ -27,7 +27,7 @@ class Import(Mapped):
 
 
 class RecordingOut(BaseModel):
-    """A recording without its samples; channels in SI, `rths-measured/1`."""
+    """A recording without its samples. Its channels' statistics are in their `unit`, as shown; the HDF5 is in SI."""
 
     model_config = ConfigDict(from_attributes=True)
 

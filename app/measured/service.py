@@ -97,8 +97,11 @@ class MeasuredService:
         return self.rows.list(limit, offset)
 
     def channels(self, recording_id: str) -> dict[str, Any]:
-        """The channels of a recording, decimated."""
-        return shown.preview(load(self.hdf5(recording_id)))
+        """The channels of a recording, decimated, in the order of its mapping."""
+        order = [one["key"] for one in self.get(recording_id).channels]
+        measured = load(self.hdf5(recording_id))
+        channels = sorted(measured.channels, key=lambda one: order.index(one.key))
+        return shown.preview(replace(measured, channels=tuple(channels)))
 
     def hdf5(self, recording_id: str) -> Path:
         return _there(self.path(self.get(recording_id).id))

@@ -13,6 +13,7 @@ from rths_engine.measured import Column, Examined, Finding, Mapping, Measured, M
 from rths_engine.measured.roles import ROLES, UNITS, dimension, shown
 
 BUCKETS = 700  # a plot's pixels, about
+LOOP_POINTS = 4000
 DIGITS = 7
 
 
@@ -39,9 +40,11 @@ def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:
 
 def preview(measured: Measured | None) -> dict[str, Any]:
     if measured is None:
-        return {"channels": [], "samples": None, "dt_s": None, "start_s": None}
+        return {"channels": [], "loops": [], "samples": None, "dt_s": None, "start_s": None}
     channels = [_decimated(one, measured) for one in measured.channels]
-    return {"channels": channels, "samples": measured.samples, "dt_s": measured.dt, "start_s": measured.start}
+    loops = [_loop(measured, number) for number in measured.numbers("station") if _moved(measured, number)]
+    clock = {"samples": measured.samples, "dt_s": measured.dt, "start_s": measured.start}
+    return {"channels": channels, "loops": loops, **clock}
 
 
 def described(one: MeasuredChannel) -> dict[str, Any]:
@@ -56,6 +59,19 @@ def _decimated(one: MeasuredChannel, measured: Measured) -> dict[str, Any]:
     kept = extremes(values[:, None], BUCKETS)
     times = measured.start + kept * measured.dt
     return {**described(one), "time": _rounded(times, 9), "values": _rounded(values[kept], DIGITS)}
+
+
+def _moved(measured: Measured, number: int) -> bool:
+    return measured.has("x_meas", number) and measured.has("f_meas", number)
+
+
+def _loop(measured: Measured, number: int) -> dict[str, Any]:
+    """Force against displacement, every n-th sample."""
+    every = -(-measured.samples // LOOP_POINTS)
+    x, x_unit = shown(measured.get("x_meas", number)[::every], "m")
+    y, y_unit = shown(measured.get("f_meas", number)[::every], "N")
+    points = {"x": _rounded(x, DIGITS), "y": _rounded(y, DIGITS)}
+    return {"station": number, **points, "x_unit": x_unit, "y_unit": y_unit}
 
 
 def _statistics(values: Array) -> dict[str, float | None]:

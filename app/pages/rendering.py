@@ -28,6 +28,11 @@ def fixed(value: Any, decimals: int = 1) -> str:
     return "–" if value is None or isinstance(value, Undefined) else f"{value:.{decimals}f}"
 
 
+def brief(value: float | None) -> str:
+    """A number with four significant digits; a dash where there is none."""
+    return "–" if value is None else f"{value:.4g}"
+
+
 def ago(moment: datetime | None) -> str:
     """How long ago, in the two largest units: `3 min 20 s`."""
     if moment is None:
@@ -62,7 +67,7 @@ def pace(plan: dict[str, Any]) -> str:
 
 
 templates = Jinja2Templates(directory=FRONTEND / "templates")
-templates.env.filters |= {"fixed": fixed, "ago": ago, "clock": clock, "kind": kind, "pace": pace}
+templates.env.filters |= {"fixed": fixed, "brief": brief, "ago": ago, "clock": clock, "kind": kind, "pace": pace}
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:

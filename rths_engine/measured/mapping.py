@@ -70,7 +70,7 @@ class ColumnMap(Value):
             hint = (
                 f"; for a voltage give a gain such as '2.5 {_example(role.dimensions[0])}/V'" if result in {"V", "mV"} else ""
             )
-            raise ValueError(f"{result} is no unit of {' or '.join(role.dimensions)}, as {self.role} needs{hint}")
+            raise ValueError(f"needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {result}{hint}")
         if self.time is not None and self.rate is not None:
             raise ValueError("gives both a time column and a rate; give one")
         return self

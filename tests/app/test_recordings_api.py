@@ -144,7 +144,7 @@ def test_everything_of_a_recording_can_be_downloaded(client: TestClient, tmp_pat
     assert raw.headers["content-type"] == "application/octet-stream"  # never shown as a page
     assert Mapping.from_yaml(client.get(f"{base}/mapping.yaml").text) == Mapping.read(made.mapping(title="Sine of 25 mm"))
     channels = client.get(f"{base}/preview").json()["channels"]
-    assert [one["key"] for one in channels] == ["f_meas.1", "v_meas.1", "x_meas.1"]
+    assert [one["key"] for one in channels] == ["x_meas.1", "v_meas.1", "f_meas.1"]
 
 
 def test_the_list_is_newest_first_and_by_pages(client: TestClient) -> None:
@@ -227,3 +227,14 @@ def test_a_file_that_is_gone_from_the_folder_is_told_and_comes_back_by_uploading
     upload(client, raw)
     assert post(client, "/preview", sent["sha256"], sent["guess"]).status_code == 200
     assert len(other) == 2
+
+
+def test_the_pages_list_recordings_and_show_one_and_say_where_there_is_none(client: TestClient) -> None:
+    assert "Nothing was imported yet" in client.get("/recordings").text
+    recording = add(client, title="Sine <b>of</b> 25 mm")
+    assert "Sine &lt;b&gt;of&lt;/b&gt; 25 mm" in client.get("/recordings").text
+    assert "Measured displacement, station 1" in client.get(f"/recordings/{recording['id']}").text
+    assert "past the last of 1" in client.get("/recordings", params={"page": 9}).text
+    for path, status in (("/recordings/nothing", 404), ("/recordings?page=0", 422)):
+        answer = client.get(path)
+        assert answer.status_code == status and answer.headers["content-type"].startswith("text/html")

@@ -23,6 +23,8 @@ CONTENT = {
     "/stability/table3-04": "#map .plot-container",
     "/stability/{run}": "#map .plot-container",
     "/table4": ".table4 tbody tr",
+    "/recordings": "tbody tr",
+    "/recordings/{recording}": "#plots canvas",
 }
 
 
@@ -31,19 +33,29 @@ def run(service: Service) -> str:
     return service.completed()
 
 
+@pytest.fixture(scope="module")
+def recording(service: Service) -> str:
+    rows = "".join(f"{k / 100},{k % 50},{k % 25}\n" for k in range(400))
+    sent = service.http.post(
+        "/api/v1/recordings/files", files={"file": ("saw.csv", f"t (s),disp (mm),force (kN)\n{rows}")}
+    ).json()
+    imported: str = service.post("/recordings", {"file": sent["sha256"], "mapping": sent["guess"]})["id"]
+    return imported
+
+
 @pytest.mark.parametrize("look", LOOKS)
 @pytest.mark.parametrize("path", CONTENT)
-def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, run: str, opened: Opener) -> None:
-    page = opened(path.format(run=run), **LOOKS[look])
+def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, run: str, recording: str, opened: Opener) -> None:
+    page = opened(path.format(run=run, recording=recording), **LOOKS[look])
     expect(page.locator(CONTENT[path]).first).to_be_visible()
-    _expect_accessible(page)
+    expect_accessible(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
 
 
 def test_an_unknown_page_says_so_and_leads_back(opened: Opener) -> None:
     page = opened("/nowhere", allow=("404",))
     expect(page.get_by_role("heading", name="Not found")).to_be_visible()
-    _expect_accessible(page)
+    expect_accessible(page)
     page.get_by_role("link", name="To the Lab").click()
     expect(page).to_have_title("Lab · RTHS control room")
 
@@ -84,6 +96,6 @@ def test_runs_are_filtered_and_sorted_by_the_address(service: Service, opened: O
     assert "q=Brace" in page.url and "sort=name" in page.url and "order=asc" in page.url
 
 
-def _expect_accessible(page: Page) -> None:
+def expect_accessible(page: Page) -> None:
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()

@@ -131,7 +131,7 @@ def test_every_error_is_told_at_once() -> None:
     ("mapped", "told"),
     [
         ({"channels": []}, "mapping.channels: needs at least 1 item"),
-        ({"channels": [{"column": "x", "role": "x_meas", "unit": "kN"}]}, "kN is no unit of length, as x_meas needs"),
+        ({"channels": [{"column": "x", "role": "x_meas", "unit": "kN"}]}, "needs a unit of length as x_meas, not kN"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "V"}]}, "give a gain such as '2.5 mm/V'"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "V", "gain": "2 mm/A"}]}, "the column being in V"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "furlong"}]}, "unknown unit"),

@@ -45,6 +45,8 @@ export const api = {
   get: async (path, signal) => (await request(path, { signal })).json(),
   /** @param {string} path @param {any} data @param {AbortSignal} [signal] @returns {Promise<any>} */
   post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
+  /** @param {string} path */
+  remove: async (path) => void (await request(path, { method: "DELETE" })),
   /** @param {string} path @param {any} data @returns {Promise<string>} */
   postForText: async (path, data) => (await request(path, json(data))).text(),
   /** @param {string} path @param {string} text @param {string} type @returns {Promise<any>} */

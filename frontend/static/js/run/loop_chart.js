@@ -83,11 +83,11 @@ const line = (label, colour, width) => ({
     { scale: "x", auto: true },
     { scale: "y", auto: true },
   ],
-  paths: loop,
+  paths: loopPath,
 });
 
 /** A path through all points in their order, leaving out those that fall on the pixel before. @param {any} u @param {number} series */
-function loop(u, series) {
+export function loopPath(u, series) {
   const [xs, ys] = u.data[series];
   const { left, top, width, height } = u.bbox;
   const [x, y] = [u.scales.x, u.scales.y];

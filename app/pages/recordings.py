@@ -1,0 +1,37 @@
+"""The pages of measured recordings: bringing one in, all of them, and one."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Request
+from fastapi.responses import HTMLResponse
+
+from app.config import MEGABYTE
+from app.dependencies import Configured
+from app.measured.dependency import Recordings
+from app.pages.errors import PageRoute
+from app.pages.rendering import page
+from rths_engine.measured import FORMATS
+
+LIMIT = 50
+
+router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
+
+
+@router.get("/recordings")
+def listed(
+    request: Request,
+    configured: Configured,
+    recordings: Recordings,
+    number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
+) -> HTMLResponse:
+    found, total = recordings.list(LIMIT, LIMIT * (number - 1))
+    part = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
+    offered = {"formats": FORMATS, "limit_mb": configured.measurements_limit // MEGABYTE}
+    return page(request, "recordings.html", **part, **offered)
+
+
+@router.get("/recordings/{recording_id}")
+def one(request: Request, recording_id: str, recordings: Recordings) -> HTMLResponse:
+    return page(request, "recording.html", recording=recordings.get(recording_id))

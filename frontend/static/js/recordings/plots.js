@@ -1,0 +1,74 @@
+// @ts-check
+import uPlot from "/static/vendor/uplot/uPlot.esm.js";
+import { el } from "../dom.js";
+import { chart } from "../form/preview.js";
+import { number } from "../format.js";
+import { loopPath } from "../run/loop_chart.js";
+import { axis, fit, padded, themed } from "../run/plot_style.js";
+import { meanOf } from "./column_row.js";
+
+/**
+ * @typedef {{key: string, role: string, label: string, unit: string, column: string, smallest: number, largest: number, mean: number, time: number[], values: number[]}} Channel
+ * @typedef {{station: number, x: number[], y: number[], x_unit: string, y_unit: string}} Loop
+ * @typedef {{channels: Channel[], loops: Loop[], samples: number | null, dt_s: number, start_s: number}} Preview
+ */
+
+const MOST = 24; // plots at a time
+const COLOURS = /** @type {Record<string, string>} */ ({ x: "--line-1", v: "--line-3", f: "--line-2" });
+
+/** Plots of a recording's channels, and of force against displacement. @param {Preview} preview @returns {HTMLElement} */
+export function plotsOf({ channels, loops }) {
+  const shown = channels.slice(0, MOST);
+  const rest = channels.length - shown.length;
+  return el(
+    "div",
+    { class: "preview" },
+    el("div", { class: "charts" }, ...loops.map(loopFigure), ...shown.map(plot)),
+    rest > 0 && el("p", { class: "muted" }, `${rest} more channels are imported but not plotted.`),
+  );
+}
+
+/** Number of samples, rate and duration. @param {Preview} preview */
+export function factsLine({ samples, dt_s, start_s }) {
+  const from = start_s ? `, from ${number(start_s)} s of the file` : "";
+  return `${samples} samples at ${short(1 / dt_s)} Hz, ${short((Number(samples) - 1) * dt_s)} s${from}`;
+}
+
+/** @param {number} value */
+const short = (value) => String(Number(value.toPrecision(6)));
+
+/** @param {Channel} channel */
+function plot({ role, label, unit, smallest, largest, mean, time, values }) {
+  const said = `${number(smallest)} to ${number(largest)} ${unit}, mean ${meanOf({ smallest, largest, mean })} ${unit}`;
+  return chart(`${label}, ${unit}`, said, "Time, s", time, values, COLOURS[role[0]] ?? "--line-4");
+}
+
+/** @param {Loop} loop */
+function loopFigure({ station, x, y, x_unit, y_unit }) {
+  const title = `Force against displacement, station ${station}, ${y_unit} and ${x_unit}`;
+  const box = el("div", { class: "plot", role: "img", tabindex: "0", "aria-label": title });
+  /** @type {any} */
+  let drawn = null;
+  const range = (/** @type {number[]} */ values) => padded(Math.min(...values), Math.max(...values));
+  fit(box, (width, height) => {
+    if (drawn) return drawn.setSize({ width, height });
+    const facets = [{ scale: "x", auto: true }, { scale: "y", auto: true }];
+    drawn = new uPlot(
+      {
+        mode: 2,
+        width,
+        height,
+        legend: { show: false },
+        cursor: { show: false },
+        scales: { x: { time: false, range: () => range(x) }, y: { range: () => range(y) } },
+        axes: [axis(`Displacement, ${x_unit}`, 34), axis(undefined, 52)],
+        series: [null, { stroke: () => themed("--line-2"), width: 1, facets, paths: loopPath }],
+      },
+      [null, [x, y]],
+      box,
+    );
+    const follow = () => (box.isConnected ? drawn.redraw(false) : document.removeEventListener("themechange", follow));
+    document.addEventListener("themechange", follow);
+  });
+  return el("figure", { class: "chart square" }, el("figcaption", {}, el("strong", {}, title)), box);
+}
