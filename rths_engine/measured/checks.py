@@ -9,6 +9,7 @@ from rths_engine.measured.finding import Finding
 from rths_engine.measured.roles import shown
 
 LONGEST_RUN = 10  # samples that are bridged by interpolation; longer runs refuse the file
+LARGEST = 1e30  # SI: beyond it, what is computed from values soon overflows
 CLIPPED_RUN = 4  # samples at exactly the extreme
 CLIPPED_SAMPLES = 8  # in all runs: fewer may be a coarse reading at one peak
 ABRUPT = 4.0  # of the resolution, over two samples: a smooth peak reaches its top in smaller steps
@@ -31,6 +32,21 @@ def filled(values: Array, times: Array, channel: str) -> tuple[Array, list[Findi
         return values, [Finding("error", channel, "has missing values (NaN)", value, at, fix)]
     bridged = np.interp(times, times[~bad], values[~bad])
     return bridged, [Finding("warning", channel, "has missing values (NaN); they were bridged by interpolation", value, at)]
+
+
+def too_large(values: Array, channel: str, unit: str) -> list[Finding]:
+    """Whether values, in the SI `unit`, are larger than any measurement."""
+    if float(np.nanmax(np.abs(values), initial=0.0)) < LARGEST:
+        return []
+    return [
+        Finding(
+            "error",
+            channel,
+            "comes out larger than any measurement",
+            f"above {LARGEST:g} {unit}",
+            fix="check its gain and unit",
+        )
+    ]
 
 
 def shape(values: Array, times: Array, channel: str, unit: str) -> list[Finding]:

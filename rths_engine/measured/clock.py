@@ -10,6 +10,7 @@ from rths_engine.arrays import Array
 from rths_engine.measured.finding import Finding
 
 LONGEST_GAP = 10  # steps that are bridged by interpolation; longer ones refuse the file
+LATEST = 1e12  # s: 30 000 years; dates in seconds are below, in milliseconds taken for seconds beyond
 JITTER = 0.02  # of a step: rounding of time stamps stays below
 DRIFT = 0.05  # of a step, over the whole record, by which the step is rounded
 UNEVEN = 0.25  # of a step: what a step may be late before a sample counts as missing, beyond one half
@@ -69,6 +70,8 @@ def _refused(times: Array, channel: str) -> Finding | None:
     if len(bad):
         fix = "mend the stamps, or leave the column out and give dt or rate"
         return Finding("error", channel, f"time stamp {bad[0] + 1} is missing or no number", fix=fix)
+    if np.max(np.abs(times)) > LATEST:
+        return Finding("error", channel, "holds time stamps out of all measure", f"beyond {LATEST:g} s", fix="check its unit")
     back = np.flatnonzero(np.diff(times) <= 0)
     if len(back):
         k = int(back[0])

@@ -47,6 +47,7 @@ class _Progress:
         return [one for one in self.table.columns if one.name not in self.taken and one.name not in self.left]
 
 
+@np.errstate(over="ignore", invalid="ignore")  # columns hold anything
 def guess(table: Table) -> Guess:
     """Raises MeasuredError where no column can be a measurement."""
     progress = _Progress(table)

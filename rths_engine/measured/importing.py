@@ -18,7 +18,7 @@ from rths_engine.measured.store import Measured, MeasuredChannel
 from rths_engine.measured.table import MOST_SAMPLES, Table
 
 LEAST = 8  # samples of a recording
-LARGEST = 1e30  # SI: beyond it squares, and what is computed from them, overflow soon
+SHORTEST, LONGEST = 1e-9, 1e9  # step, s
 LOST = 0.01  # share of a channel's time beyond the others' from which it is told
 
 
@@ -56,6 +56,7 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
         if own is None:
             continue
         values, found = checks.filled(_si(table.column(channel.column, "").values, channel), own.times, channel.key)
+        found += checks.too_large(values, channel.key, _unit(channel))
         findings += found
         if not any(one.severity == "error" for one in found):
             findings += checks.shape(values, own.times, channel.key, _unit(channel))
@@ -65,11 +66,6 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
     start, count, dt = _grid(mapping, [own for _, _, own in signals])
     findings += _lost(signals, start, start + (count - 1) * dt, mapping)
     channels = tuple(_channel(one, resampled(values, own, start, count, dt)) for one, values, own in signals)
-    huge = [one for one in channels if not float(np.max(np.abs(one.values))) < LARGEST]
-    if huge:
-        problem, fix = "comes out larger than any measurement", "check its gain and unit"
-        findings += [Finding("error", one.key, problem, f"above {LARGEST:g} {one.unit}", fix=fix) for one in huge]
-        return Examined(None, tuple(findings))
     findings += pairs.contradictions({one.key: one.values for one in channels}, dt)
     warnings = tuple(one for one in findings if one.severity == "warning")
     text = mapping_yaml.write(mapping)
@@ -112,6 +108,9 @@ def _clock(
     if step is None:
         fix = "map a column as t, or give dt (s) or rate (Hz)"
         raise MeasuredError(Issue("mapping.rate", "neither the file nor the mapping says the time step", fix=fix))
+    if not SHORTEST <= step <= LONGEST:
+        bound = f"needs a time step of {SHORTEST:g} to {LONGEST:g} s"
+        raise MeasuredError(Issue("mapping.rate", bound, f"{step:g} s", "check its unit"))
     if count < 2:
         raise MeasuredError(Issue(f"mapping.channels.{index}", f"has {count} samples; 2 is the least", column.name))
     return clock.of_step(step, count)
@@ -145,7 +144,12 @@ def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
         begin = clocks[0].start + np.ceil((mapping.start - clocks[0].start) / step - 1e-6) * step
     if mapping.stop is not None:
         end = min(end, mapping.stop)
-    count = int(np.floor((end - begin) / dt + 1e-3)) + 1
+    steps = (end - begin) / dt
+    if not np.isfinite(steps):
+        given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
+        problem = "time, step, start or stop is out of all measure"
+        raise MeasuredError(Issue("mapping", problem, given, "check their units"))
+    count = int(np.floor(steps + 1e-3)) + 1
     if count < LEAST:
         given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
         problem = f"leave {max(0, count)} samples; {LEAST} is the least"

@@ -84,6 +84,9 @@ def test_a_file_larger_than_other_requests_may_be_is_taken(client: TestClient, s
         (changed(gain="1e999"), "mapping.channels.1", "finite"),
         (changed(role="f_meas", unit="kN"), "mapping", "mapped twice"),
         (made.mapping(start=3.0, stop=2.0), "mapping", "after start"),
+        (made.mapping(start=-1e308, stop=1e308, target_rate=1e-310), "mapping.start, stop and target_rate", "8 is the least"),
+        (made.mapping(start=1e308), "mapping", "out of all measure"),
+        (changed(rate=1e-310), "mapping.rate", "needs a time step"),
         (made.mapping(start=4.999), "mapping.start, stop and target_rate", "8 is the least"),
         (made.mapping(target_rate=1e-9), "mapping.start, stop and target_rate", "8 is the least"),
         ("channels: [", "mapping", ""),
@@ -157,3 +160,5 @@ def test_no_value_in_a_mapping_causes_a_server_error(client: TestClient, name: s
 def test_no_file_causes_a_server_error(client: TestClient, raw: bytes, name: str) -> None:
     answer = client.post(f"{URL}/files", files={"file": (name or "file", raw)})
     assert answer.status_code in {201, 422}, answer.text
+    if answer.status_code == 201 and (guessed := answer.json()["guess"]):
+        assert post(client, "/preview", answer.json()["sha256"], guessed).status_code in {200, 422}

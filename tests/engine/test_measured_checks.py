@@ -46,6 +46,10 @@ def _backwards(columns: np.ndarray) -> None:
     columns[500, 0] = columns[498, 0]
 
 
+def _of_another_age(columns: np.ndarray) -> None:
+    columns[:, 0] += 1.7e12  # a date in ms
+
+
 def _missing_stamp(columns: np.ndarray) -> None:
     columns[500, 0] = np.nan
 
@@ -54,13 +58,14 @@ def _missing_stamp(columns: np.ndarray) -> None:
     ("change", "channel", "problem", "time_s"),
     [
         (_backwards, "t (Time (s))", "time does not increase at sample 501", T[499]),
+        (_of_another_age, "t (Time (s))", "out of all measure", None),
         (_missing_stamp, "t (Time (s))", "time stamp 501 is missing", None),
         (lambda c: c.__setitem__((slice(400, 450), 1), np.nan), "x_meas.1", "missing values", T[400]),
         (lambda c: c.__setitem__((slice(None), 3), np.nan), "f_meas.1", "holds no value", None),
         (lambda c: c.__setitem__((slice(None), 2), -c[:, 2]), "v_meas.1", "sign opposite to the derivative of x_meas.1", None),
         (lambda c: c.__setitem__((slice(None), 2), c[:, 2] / 1000), "v_meas.1", "a unit is wrong", None),
     ],
-    ids=["time goes back", "stamp missing", "long NaN", "all NaN", "reversed velocity", "m/s taken for mm/s"],
+    ids=["time goes back", "date in ms", "stamp missing", "long NaN", "all NaN", "reversed velocity", "m/s taken for mm/s"],
 )
 def test_what_makes_a_file_unusable_refuses_it(
     change: Callable[[np.ndarray], Any], channel: str, problem: str, time_s: float | None
