@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import chain
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from rths_engine.arrays import Array
 from rths_engine.errors import Issue, MeasuredError
 from rths_engine.measured import names, relations
 from rths_engine.measured.guess_units import Unit, by_hint, by_magnitude, by_partner
-from rths_engine.measured.mapping import ColumnMap, Mapping
+from rths_engine.measured.mapping import LARGEST_NUMBER, MOST_CHANNELS, ColumnMap, Mapping
 from rths_engine.measured.roles import ROLES, dimension, key
 from rths_engine.measured.table import Column, Table
 
@@ -151,10 +152,13 @@ def _lone(progress: _Progress) -> None:
 
 def _channels(progress: _Progress) -> list[ColumnMap]:
     keys: set[str] = set()
-    channels = []
+    channels: list[ColumnMap] = []
     for column in progress.table.columns:
         one = progress.taken.get(column.name)
         if one is None or column.name in progress.left:
+            continue
+        if len(channels) == MOST_CHANNELS:
+            progress.left[column.name] = f"{MOST_CHANNELS} channels are the most"
             continue
         number = _free(one, keys)
         if number is None and ROLES[one.role].counts == "" and one.role in keys:
@@ -174,10 +178,9 @@ def _free(one: _Taken, keys: set[str]) -> int | None:
     """The number in the name where it is free, else the next that is."""
     if not ROLES[one.role].counts:
         return None
-    number = one.number or 1
-    while key(one.role, number) in keys:
-        number += 1
-    return number
+    first = one.number or 1
+    numbers = chain(range(first, LARGEST_NUMBER + 1), range(1, first))
+    return next(number for number in numbers if key(one.role, number) not in keys)
 
 
 def _unit(progress: _Progress, column: Column, one: _Taken) -> Unit:

@@ -20,6 +20,7 @@ from rths_engine.part import Value, quantity, validated
 
 SCHEMA: Literal["rths-mapping/1"] = "rths-mapping/1"
 MOST_CHANNELS = 200
+LARGEST_NUMBER = 999  # of a station or floor
 _GAIN = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 
 RoleName = Literal[
@@ -37,7 +38,7 @@ class ColumnMap(Value):
 
     column: Annotated[str, Field(max_length=300)] | int = Field(title="Column")
     role: RoleName = Field(title="Role")
-    number: int | None = Field(None, ge=1, le=999, title="Station or floor")
+    number: int | None = Field(None, ge=1, le=LARGEST_NUMBER, title="Station or floor")
     unit: str = Field(title="Unit of the column", max_length=20)
     gain: Annotated[str | None, BeforeValidator(_gain)] = Field(
         None, title="Gain", max_length=60, description="a factor, or with units: 35.15 N/V"

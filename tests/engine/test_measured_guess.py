@@ -123,6 +123,13 @@ def test_columns_of_one_role_are_numbered_in_turn() -> None:
     assert [one.key for one in found.mapping.measurements] == ["x_meas.1", "x_meas.2"]
 
 
+def test_more_columns_than_a_mapping_holds_are_left_out_and_said_so() -> None:
+    found = guess(Table("test", tuple(Column(f"disp {k} (mm)", X) for k in range(990, 1190))))
+    assert found.mapping.channels[9].number == 999 and found.mapping.channels[10].number == 1
+    found = guess(Table("test", tuple(Column(f"disp {k} (mm)", X) for k in range(201))))
+    assert len(found.mapping.channels) == 200 and "are the most" in found.left_out["disp 200 (mm)"]
+
+
 def test_a_file_without_any_time_says_what_is_missing() -> None:
     found = guess(Table("test", (Column("disp (mm)", X),)))
     assert found.notes == ("the file does not say its step: give dt or rate",)

@@ -88,13 +88,14 @@ export class ColumnRow {
     if (role && this.roles.roles[role].counts) this.number.value = String(free(role));
     this.why.textContent = role ? "as you chose" : "";
     this.kept = {};
-    this.#offerUnits(this.unit.value);
+    this.#offerUnits(this.unit.value || this.column.unit);
     this.#show();
   }
 
   /** The units that fit the role first, then those that need a gain. @param {string} wanted */
   #offerUnits(wanted) {
-    const dimensions = this.roles.roles[this.role.value]?.dimensions ?? [];
+    if (!this.role.value) return this.unit.replaceChildren();
+    const { dimensions } = this.roles.roles[this.role.value];
     const fitting = dimensions.flatMap((one) => this.roles.units[one]);
     const others = Object.values(this.roles.units).flat().filter((unit) => !fitting.includes(unit));
     const options = (/** @type {string[]} */ units) => units.map((unit) => el("option", { value: unit }, unit));
