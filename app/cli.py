@@ -69,6 +69,9 @@ def parser() -> argparse.ArgumentParser:
     diagnose.add_argument("plan", metavar="PLAN.yaml", help="the plan whose models are doubted")
     diagnose.add_argument("recording", type=Path, metavar="REC.h5", help="a recording of the plan's stations")
     diagnose.add_argument("--holdout", type=Path, nargs="+", default=[], metavar="REC.h5", help="recordings to prove it on")
+    diagnose.add_argument(
+        "--with", dest="more", type=Path, nargs="+", default=[], metavar="REC.h5", help="recordings fitted too"
+    )
     diagnose.add_argument("--level", type=float, default=0.01, help="rate of false alarms (default %(default)s)")
     diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the diagnosis as one JSON object")
 

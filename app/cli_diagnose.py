@@ -27,7 +27,8 @@ def diagnose(given: Namespace) -> None:
         raise PlanError(Issue("--json", "there is no such folder", str(given.json.parent), "make it first"))
     plan = plan_at(given.plan)
     heldout = [measured.load(path) for path in given.holdout]
-    found = engine(plan, measured.load(given.recording), heldout, given.level).verdict
+    more = [measured.load(path) for path in given.more]
+    found = engine(plan, measured.load(given.recording), heldout, given.level, more=more).verdict
     if given.json:
         with files.temporary(given.json) as written:
             written.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", encoding="utf-8")

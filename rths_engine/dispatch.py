@@ -101,7 +101,7 @@ def resisted(code, parameters, state, flexibility, x, dt):
     state[:] = before
     force = resist(code, parameters, state, low, dt)
     below = low + flexibility * force - x
-    u, tolerance = low, 1e-9 * abs(above)
+    u, tolerance = low, 1e-8 * abs(above)
     for _ in range(40):
         if abs(below) <= tolerance or abs(above) <= tolerance or above == below:
             break

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.signal import butter, firwin, sosfiltfilt, upfirdn, welch
@@ -24,6 +25,7 @@ class Band:
     taps: Array
 
     @classmethod
+    @lru_cache(maxsize=16)
     def of(cls, dt: float) -> Band:
         factor = max(1, int(1 / (dt * ANALYSIS_RATE)))
         taps = firwin(2 * LENGTH * factor + 1, 0.8 / factor) if factor > 1 else np.ones(1)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import gamma, gumbel_r
+from scipy.stats import chi2, gamma, gumbel_r
 
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings
@@ -22,19 +22,20 @@ TINIEST = 1e-300
 @dataclass(frozen=True)
 class Detection:
     """Scores of the signatures, the largest, and how probable one as large is where nothing was left out; the same of the
-    general law's squared length, with the expected length without one."""
+    general law's squared length, with the expected length without one; and of how far the planned numbers left their plan."""
 
     scores: Array
     largest: float
     p_library: float
     p_general: float
+    p_planned: float
     explained: float  # squared length that a general law accounts for
     expected: float
 
     @property
     def p_value(self) -> float:
-        """Of either test."""
-        return min(1.0, 2 * min(self.p_library, self.p_general))
+        """Of all tests."""
+        return min(1.0, 3 * min(self.p_library, self.p_general, self.p_planned))
 
 
 def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array, random: np.random.Generator) -> Detection:
@@ -47,14 +48,20 @@ def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array
     explained = float(np.sum((misfit @ law) ** 2))
     p_general = _upper_tail(explained, lengths) if law.shape[1] else 1.0
     if not len(found.rows):
-        return Detection(np.zeros(0), 0.0, 1.0, p_general, explained, float(lengths.mean()))
+        return Detection(np.zeros(0), 0.0, 1.0, p_general, p_planned(fitted), explained, float(lengths.mean()))
     null = found.scores(drawn)
     centre, spread = null.mean(axis=0), np.maximum(null.std(axis=0), 1e-3)
     shift, variance = bias(recordings, fitted, found, random)
     scores = (found.scores(misfit, shift) - centre) / np.sqrt(spread**2 + variance)
     largest = float(scores.max())
     p_library = p_value(largest, ((null - centre) / spread).max(axis=1))
-    return Detection(scores, largest, p_library, p_general, explained, float(lengths.mean()))
+    return Detection(scores, largest, p_library, p_general, p_planned(fitted), explained, float(lengths.mean()))
+
+
+def p_planned(fitted: Fitted) -> float:
+    """That the planned numbers are as far off their plan by their spread alone."""
+    off = fitted.misfit[fitted.samples :]
+    return max(float(chi2.sf(float(off @ off), len(off))), TINIEST) if len(off) else 1.0
 
 
 def fitted_residual(fitted: Fitted) -> Array:

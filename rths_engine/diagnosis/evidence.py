@@ -11,11 +11,24 @@ from rths_engine.diagnosis.fitting import Fitted
 NORMAL_90 = 1.6448536269514722  # standard deviations each way
 
 
-def probabilities(tried: Sequence[Fitted]) -> list[float]:
+MATERIAL = 0.01  # of all that effects account for: models nearer than that are told apart by their numbers alone
+
+
+def weighed(tried: Sequence[Fitted], before: float) -> list[float]:
+    """BIC of each, where models err too: `before` is that of the planned parts alone. Models that account for nearly as much as
+    the best are alike but for ln N for each of their numbers."""
+    bic = [model.bic for model in tried]
+    level = min(bic) + MATERIAL * max(0.0, before - min(bic))
+    counts = [len(model.free) * float(np.log(model.samples)) for model in tried]
+    least = min(count for count, one in zip(counts, bic, strict=True) if one <= level)
+    return [max(one, level + count - least) for one, count in zip(bic, counts, strict=True)]
+
+
+def probabilities(weights: Sequence[float]) -> list[float]:
     """exp(-BIC/2) over their sum: equal chances beforehand. Source: Kass and Raftery (1995), JASA 90, 773-795."""
-    bic = np.array([model.bic for model in tried])
-    weights = np.exp(-(bic - bic.min()) / 2)
-    return [float(one) for one in weights / weights.sum()]
+    bic = np.array(weights)
+    chances = np.exp(-(bic - bic.min()) / 2)
+    return [float(one) for one in chances / chances.sum()]
 
 
 def intervals(fitted: Fitted) -> list[tuple[float, float]]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from rths_engine import physics
+from rths_engine.diagnosis.components.component import Loose
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.physics.effect import Effect
 from rths_engine.plan import Plan
@@ -31,11 +32,12 @@ def _station(plan: Plan, one: Judged) -> Plan:
     chosen = one.selection.chosen.parts
     update: dict[str, Any] = {}
     for part in chosen[: len(one.component.base)]:
-        update["actuator" if type(part) is type(station.actuator) else "specimen"] = part
+        if not isinstance(part, Effect | Loose):
+            update["actuator" if type(part) is type(station.actuator) else "specimen"] = part
     for field, kinds in _FIELDS.items():
-        added = tuple(effect for effect in one.effects if isinstance(effect, kinds))
-        if added:
-            update[field] = (*getattr(station, field), *added)[:MOST]
+        own = tuple(part for part in chosen if isinstance(part, kinds))
+        if own:
+            update[field] = (own if field != "sensor_physics" else (*station.sensor_physics, *own))[:MOST]
     stations[place] = station.model_copy(update=update)
     return plan.model_copy(update={"stations": tuple(stations)})
 

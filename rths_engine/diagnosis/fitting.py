@@ -18,6 +18,7 @@ from rths_engine.diagnosis.slopes import Slopes, differences
 from rths_engine.part import Part
 
 EVALUATIONS = 40
+RUNAWAY = 1e3  # times the largest measured value
 ROUGH = 12  # evaluations that tell the hopeless
 CLOSE = 1e-6  # of the squared misfit: far below the 1 that evidence weighs
 
@@ -34,7 +35,12 @@ class Recordings:
     weights: tuple[Array, ...]  # (channels, n) each
 
     def predicted(self, parts: Sequence[Part]) -> list[Array]:
-        return [self.component.predicted(parts, one) for one in self.data]
+        """Each recording's output, cut where a model runs away."""
+        found = []
+        for one in self.data:
+            largest = RUNAWAY * np.max(np.abs(one.measured), axis=1, keepdims=True)
+            found.append(np.clip(np.nan_to_num(self.component.predicted(parts, one)), -largest, largest))
+        return found
 
     def residuals(self, parts: Sequence[Part]) -> list[Array]:
         return [one.measured - found for one, found in zip(self.data, self.predicted(parts), strict=True)]

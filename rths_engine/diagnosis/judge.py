@@ -56,10 +56,13 @@ class Judged:
         """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike."""
         rows: list[tuple[Array, Array]] = []
         if fitted is False and self.heldout:
-            rows = [(other.measured, self.component.predicted(parts, other)) for other in self.heldout]
+            for other in self.heldout:
+                used = inner(other.measured.shape[1], other.step)
+                rows.append((other.measured[:, used], self.component.predicted(parts, other)[:, used]))
         else:
             for one, mask in zip(self.recordings.data, self.recordings.masks, strict=True):
-                used = np.ones(len(mask), dtype=bool) if fitted is None else mask if fitted else ~mask
+                inside = inner(len(mask), one.step)
+                used = inside if fitted is None else mask if fitted else inside & ~mask
                 rows.append((one.measured[:, used], self.component.predicted(parts, one)[:, used]))
         real, ours = (np.concatenate(one, axis=1) for one in zip(*rows, strict=True))
         spread = np.maximum(np.var(real, axis=1), 1e-300)
@@ -86,7 +89,7 @@ def judged(
     told: Callable[[float], None],
 ) -> Judged:
     masks = tuple(fitted_blocks(one.measured.shape[1], one.step) for one in data)
-    noises = tuple(Noise(np.ones(1), 1.0) for _ in data[0].measured)
+    noises = tuple(Noise.white(1.0) for _ in data[0].measured)
     weights = tuple(np.ones(one.measured.shape) for one in data)
     selection = select(Recordings(component, tuple(data), masks, noises, weights), level, random, told)
     first, last = selection.detections[0], selection.detections[-1]
@@ -101,10 +104,13 @@ def judged(
 
 def fitted_blocks(count: int, step: float) -> Any:
     """True where fitted."""
-    fitted = ~np.isin(np.arange(count) * BLOCKS // count, HELD_OUT)
-    ends = round(ENDS / step)
-    fitted[:ends] = fitted[count - ends :] = False
-    return fitted
+    return inner(count, step) & ~np.isin(np.arange(count) * BLOCKS // count, HELD_OUT)
+
+
+def inner(count: int, step: float) -> Any:
+    """True but at the ends."""
+    place = np.arange(count) * step
+    return (place >= ENDS) & (place < count * step - ENDS)
 
 
 def finite(value: float) -> float:

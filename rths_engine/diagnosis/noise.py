@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_toeplitz
+from scipy.linalg import solve_toeplitz, toeplitz
 from scipy.signal import lfilter
 
 from rths_engine.arrays import Array
@@ -16,14 +16,26 @@ ORDER = 12  # the stop band of the decimation takes as many
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """n[i] + a_1 n[i-1] + ... = sigma e[i], with e white and of unit variance."""
+    """n[i] + a_1 n[i-1] + ... = sigma e[i], with e white and of unit variance. `whitener`, likewise, is of the noise with a
+    white floor: by it no frequency counts for much more than the others."""
 
     coefficients: Array  # 1, a_1, ...
     sigma: float
+    whitener: Array
+    scale: float
+
+    @classmethod
+    def white(cls, sigma: float) -> Noise:
+        return cls(np.ones(1), sigma, np.ones(1), sigma)
+
+    def times(self, unit: float, least: float) -> Noise:
+        """In another unit, and no smaller than `least` of it."""
+        more = max(1.0, least / max(self.scale, 1e-300))
+        return Noise(self.coefficients, unit * more * self.sigma, self.whitener, unit * more * self.scale)
 
     def whitened(self, signals: Array) -> Array:
         """The signals (samples along the last axis) in units of the noise, made white."""
-        white: Array = lfilter(self.coefficients, [self.sigma], signals, axis=-1)
+        white: Array = lfilter(self.whitener, [self.scale], signals, axis=-1)
         return white
 
     def drawn(self, count: int, random: np.random.Generator) -> Array:
@@ -38,15 +50,27 @@ class Noise:
         return float(np.sqrt(np.sum(impulse**2)))
 
 
+FLOOR = 0.3  # of the noise's power, white beside it: no frequency counts for much more than the others, where models err too
+
+
 def autoregressive(stretches: Sequence[Array], order: int = ORDER) -> Noise:
-    """The autoregressive process of stretches of noise, by Yule and Walker."""
+    """The autoregressive process of stretches of noise, about their mean, by Yule and Walker."""
     count = sum(len(one) for one in stretches)
+    mean = sum(float(one.sum()) for one in stretches) / count
+    stretches = [one - mean for one in stretches]
     order = min(order, max(0, count // 20))
     covariance = np.zeros(order + 1)
     for one in stretches:
         covariance += [one[: len(one) - lag] @ one[lag:] / count for lag in range(order + 1)]
     if order == 0 or covariance[0] <= 0:
-        return Noise(np.ones(1), float(np.sqrt(max(covariance[0], np.finfo(float).tiny))))
-    weights = solve_toeplitz(covariance[:-1], -covariance[1:])
-    power = covariance[0] + covariance[1:] @ weights
-    return Noise(np.concatenate([[1.0], weights]), float(np.sqrt(max(power, 1e-12 * covariance[0]))))
+        return Noise.white(float(np.sqrt(max(covariance[0], np.finfo(float).tiny))))
+    return Noise(*_predictor(covariance, 0.0), *_predictor(covariance, FLOOR))
+
+
+def _predictor(covariance: Array, floor: float) -> tuple[Array, float]:
+    """Coefficients and the deviation of what they leave of the noise."""
+    held = covariance.copy()
+    held[0] *= 1 + floor
+    coefficients = np.concatenate([[1.0], solve_toeplitz(held[:-1], -held[1:])])
+    power = coefficients @ toeplitz(covariance) @ coefficients
+    return coefficients, float(np.sqrt(max(power, 1e-12 * covariance[0])))

@@ -25,7 +25,7 @@ CLEAR = 4.0  # standard deviations: a term so large is no noise
 
 def first_noise(recordings: Recordings) -> Recordings:
     spread = np.std(np.concatenate([one.measured for one in recordings.data], axis=1), axis=1)
-    return replace(recordings, noises=tuple(Noise(np.ones(1), max(FIRST_GUESS * float(one), 1e-300)) for one in spread))
+    return replace(recordings, noises=tuple(Noise.white(max(FIRST_GUESS * float(one), 1e-300)) for one in spread))
 
 
 def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Recordings:
@@ -88,8 +88,7 @@ def _clear(misfit: Array, known: Array, offered: Array, taken: list[int]) -> lis
 def _noises(plain: Recordings, misfit: Array) -> tuple[Noise, ...]:
     found = []
     for rows, white in zip(plain.channels(misfit), plain.noises, strict=True):
-        noise = autoregressive(rows)
-        found.append(Noise(noise.coefficients, white.sigma * max(noise.sigma, LEAST_NOISE / FIRST_GUESS)))
+        found.append(autoregressive(rows).times(white.sigma, LEAST_NOISE / FIRST_GUESS))
     return tuple(found)
 
 

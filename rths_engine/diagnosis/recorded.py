@@ -14,6 +14,7 @@ from rths_engine.diagnosis.components import (
     ActuatorData,
     Chain,
     ChainData,
+    ClockSkew,
     Component,
     Specimen,
     SpecimenData,
@@ -76,21 +77,22 @@ def _same_rate(plan: Plan, recording: Measured) -> bool:
 
 def _stations(plan: Plan, recording: Measured) -> list[Pair]:
     found: list[Pair] = []
+    skew = () if recording.of_run else (ClockSkew(),)
+    base = (recording.dt, recording.start, recording.of_run)
     for number, station in enumerate(plan.stations, start=1):
         x, force = _moving(recording, "x_meas", number), _moving(recording, "f_meas", number)
         command = _command(plan, station, recording, number)
         if x is not None and command is not None and _same_rate(plan, recording):
-            actuator = station.actuator
-            moved = Actuator(f"actuator:{number}", (actuator,), tuple(station.actuator_physics))
-            found.append((moved, ActuatorData(recording.dt, recording.start, command, x, force)))
+            moved = Actuator(f"actuator:{number}", (station.actuator, *station.actuator_physics))
+            found.append((moved, ActuatorData(*base, command, x, force)))
         if force is not None and x is not None:
-            pressed = Specimen(f"specimen:{number}", (station.specimen,), tuple(station.specimen_physics))
+            pressed = Specimen(f"specimen:{number}", (station.specimen, *station.specimen_physics, *skew))
             current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))
-            found.append((pressed, SpecimenData(recording.dt, recording.start, x, force, current)))
+            found.append((pressed, SpecimenData(*base, x, force, current)))
         if force is not None and x is None and command is not None:
-            known = (*station.actuator_physics, *station.specimen_physics)
-            chain = Chain(f"specimen:{number}", (station.actuator, station.specimen), known)
-            found.append((chain, ChainData(recording.dt, recording.start, command, command, force)))
+            planned = (station.actuator, station.specimen, *station.actuator_physics, *station.specimen_physics)
+            chain = Chain(f"specimen:{number}", planned)
+            found.append((chain, ChainData(*base, command, command, force)))
     return found
 
 
@@ -138,7 +140,7 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
         problem = "the floors move, but neither ground acceleration nor force was recorded, and they start at rest"
         raise RecordingError(Issue(where, problem, None, "map ag or force_ext"))
     data = StructureData(
-        recording.dt, recording.start, ground, forces, tuple(floors), released, plan.substeps if recording.of_run else 0
+        recording.dt, recording.start, recording.of_run, ground, forces, tuple(floors), released, plan.substeps
     )
     return [(Structure("structure", based(plan, released is not None and not recording.of_run), plan), data)]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.digital import Replayed
-from rths_engine.diagnosis.evidence import intervals, probabilities
+from rths_engine.diagnosis.evidence import intervals
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.diagnosis.locate import place
@@ -83,7 +83,7 @@ def _effects(one: Judged, remains: Law | None, level: float) -> list[dict[str, A
     if one.unknown:
         return [_unknown(one, remains, level)]
     chosen = one.selection.chosen
-    likely = probabilities(one.selection.tried)
+    likely = one.selection.chances
     ranges = intervals(chosen)
     found = []
     for owner, effect in enumerate(chosen.parts):
@@ -141,8 +141,8 @@ def _unknown(one: Judged, remains: Law | None, level: float) -> dict[str, Any]:
 
 
 def _candidates(one: Judged) -> list[dict[str, Any]]:
-    best = one.selection.tried[0].bic
-    ranked = list(zip(one.selection.tried, probabilities(one.selection.tried), strict=True))[:SHOWN]
+    best = min(model.bic for model in one.selection.tried)
+    ranked = list(zip(one.selection.tried, one.selection.chances, strict=True))[:SHOWN]
     return [
         {
             "effects": _names(one, model),

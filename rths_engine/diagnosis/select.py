@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.detect import Detection, detect
+from rths_engine.diagnosis.evidence import MATERIAL, probabilities, weighed
 from rths_engine.diagnosis.fitting import ROUGH, Fitted, Recordings, compared, fit
 from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import Signatures, best_first, general, signatures
 from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
+from rths_engine.physics.sensor.offset import ForceOffset
 
-MOST_EFFECTS = 3
+MOST_EFFECTS = 3  # beside the load cell's zero
 TRIED = 8
 WEAK = 0.25  # of the best score: weaker effects are not tried
 HOPELESS = 60.0  # of BIC behind the best
@@ -32,6 +34,7 @@ class Selection:
     baseline: Fitted
     chosen: Fitted
     tried: tuple[Fitted, ...]
+    chances: tuple[float, ...]  # of each tried
     detections: tuple[Detection, ...]
 
     @property
@@ -48,33 +51,40 @@ def select(
     plain = weighted(plain, rough, random)
     recordings = with_noise(plain, rough)
     chosen = fit(recordings, rough.parts)
+    first = chosen.bic
     tried: list[Fitted] = []
     detections: list[Detection] = []
     base = len(recordings.component.base)
-    for stage in range(MOST_EFFECTS + 1):
-        told((0.3 + 1.7 * stage) / (1.7 * MOST_EFFECTS + 2))
+    for stage in range(MOST_EFFECTS + 2):
+        told((1 + stage) / (MOST_EFFECTS + 4))
         found = signatures(recordings, chosen)
         detections.append(detect(recordings, chosen, found, general(recordings, chosen), random))
-        if detections[-1].p_value > level or len(chosen.parts) == base + MOST_EFFECTS:
+        counted = [part for part in chosen.parts[base:] if not isinstance(part, ForceOffset)]
+        if detections[-1].p_value > level or len(counted) == MOST_EFFECTS:
             break
-        fits = _extended(recordings, chosen, found, detections[-1])
+        fits = _extended(recordings, chosen, found, detections[-1], level)
         fits += _swapped(recordings, chosen, fits)
-        best = min(fits, key=_bic, default=chosen)
-        if best.bic > chosen.bic - WORTH:
+        best = _best(fits or [chosen], chosen.bic)
+        if best.bic > chosen.bic - max(WORTH, MATERIAL * (first - best.bic)):
             break
         tried += fits
         recordings = with_noise(recordings, best)
         chosen = fit(recordings, best.parts)
+    tried += _simplified(recordings, chosen)
     told(0.9)
     return _compared(recordings, rough, chosen, tried, detections)
 
 
-def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detection: Detection) -> list[Fitted]:
+def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detection: Detection, level: float) -> list[Fitted]:
     """The chosen model with each promising effect: all roughly, then the best to the end."""
     places = best_first(found, detection.scores)
     near = [place for place in places if detection.scores[place] > WEAK * detection.largest][:TRIED]
-    effects: list[Effect] = [found.effects[place] for place in near]
-    rough = each(lambda effect: fit(recordings, [*chosen.parts, effect], ROUGH), effects)
+    starts = [[*chosen.parts, found.effects[place]] for place in near]
+    if detection.p_planned <= level:
+        base = recordings.component.base
+        instead = best_first(found, found.instead)[:TRIED]
+        starts += [[*base, *chosen.parts[len(base) :], found.effects[place]] for place in instead]
+    rough = each(lambda parts: fit(recordings, parts, ROUGH), starts)
     best = min((one.bic for one in rough), default=0.0)
     return each(lambda one: fit(recordings, one.parts) if one.bic < best + HOPELESS else one, rough)
 
@@ -89,18 +99,48 @@ def _swapped(recordings: Recordings, chosen: Fitted, fits: list[Fitted]) -> list
     return each(lambda parts: fit(recordings, [*parts, newest]), kept)
 
 
+def _simplified(recordings: Recordings, chosen: Fitted) -> list[Fitted]:
+    """The chosen model without one of its effects, or with a relative of fewer numbers instead."""
+    base = len(recordings.component.base)
+    if len(chosen.parts) == base:
+        return []
+    others: dict[str, Effect] = {}
+    for effect in recordings.component.hypotheses(recordings.data[0]):
+        others.setdefault(effect.id, effect)
+    models = []
+    for place, part in enumerate(chosen.parts[base:], start=base):
+        assert isinstance(part, Effect)
+        rest = [*chosen.parts[:place], *chosen.parts[place + 1 :]]
+        models += [rest] if len(rest) > base + 1 else []
+        for name in part.relatives:
+            relative = others.get(name)
+            if relative is None or key(relative) in {key(one) for one in rest}:
+                continue
+            if len(type(relative).model_fields) < len(type(part).model_fields):
+                models.append([*rest, relative])
+    return each(lambda parts: fit(recordings, parts), models)
+
+
 def _compared(
     recordings: Recordings, baseline: Fitted, chosen: Fitted, tried: list[Fitted], detections: list[Detection]
 ) -> Selection:
     """Every model once more under the final noise, so that their evidence compares."""
     base = len(recordings.component.base)
-    models = {tuple(sorted(str(key(part)) for part in one.parts[base:])): one for one in [baseline, *tried, chosen]}
-    others = each(lambda one: compared(recordings, one), [one for one in models.values() if one is not chosen])
+    kinds = {tuple(sorted(str(key(part)) for part in one.parts[base:])): one for one in [baseline, *tried, chosen]}
+    others = each(lambda one: compared(recordings, one), [one for one in kinds.values() if one is not chosen])
     near = [one for one in others if one.bic < chosen.bic + HOPELESS or len(one.parts) == base]
     again = each(lambda one: fit(recordings, one.parts, FINAL), near)
-    ranked = sorted([chosen, *again, *(one for one in others if all(one is not kept for kept in near))], key=_bic)
-    plain = next(one for one in ranked if len(one.parts) == base)
-    return Selection(recordings, plain, ranked[0], tuple(ranked), tuple(detections))
+    models = [chosen, *again, *(one for one in others if all(one is not kept for kept in near))]
+    plain = next(one for one in models if len(one.parts) == base)
+    weights = weighed(models, plain.bic)
+    order = sorted(range(len(models)), key=weights.__getitem__)
+    ranked = tuple(models[place] for place in order)
+    chances = tuple(probabilities([weights[place] for place in order]))
+    return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections))
+
+
+def _best(models: Sequence[Fitted], before: float) -> Fitted:
+    return models[int(np.argmin(weighed(models, before)))]
 
 
 def _bic(fitted: Fitted) -> float:

@@ -27,6 +27,7 @@ class Signatures:
     rows: Array
     sizes: Array  # (K) length of each before it was scaled
     two_sided: Array  # (K)
+    instead: Array  # (K) cosine, beside what the planned numbers did by leaving their plan
 
     def scores(self, misfits: Array, bias: Array | float = 0.0) -> Array:
         """The part of the misfit (N) or misfits (B, N) along each, standard normal where there is none but noise. `bias` (K) is
@@ -39,21 +40,34 @@ class Signatures:
 def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
     """Of every effect that the component may leave out, at its guesses, beside the fitted model."""
     component = recordings.component
-    present = {key(part) for part in fitted.parts[len(component.base) :]}
+    present = component.present(fitted.parts)
     guesses = [guess for guess in component.hypotheses(recordings.data[0]) if key(guess) not in present]
     before = recordings.joined(recordings.predicted(fitted.parts))
     absorbed = absorber(fitted.jacobian)
 
-    def left(guess: Effect) -> tuple[Array, float] | None:
-        return _beyond(recordings.joined(recordings.predicted([*fitted.parts, guess])) - before, absorbed)
+    moved = _moved(fitted)
+
+    def left(guess: Effect) -> tuple[Array, float, float] | None:
+        change = recordings.joined(recordings.predicted([*fitted.parts, guess])) - before
+        beyond = _beyond(change, absorbed)
+        return None if beyond is None else (*beyond, float(abs(change @ moved)) / float(np.linalg.norm(change)))
 
     found = [(guess, row) for guess, row in zip(guesses, each(left, guesses), strict=True) if row is not None]
     return Signatures(
         tuple(guess for guess, _ in found),
-        np.array([row for _, (row, _) in found]).reshape(len(found), -1),
-        np.array([size for _, (_, size) in found]),
+        np.array([row for _, (row, _, _) in found]).reshape(len(found), -1),
+        np.array([size for _, (_, size, _) in found]),
         np.array([_two_sided(guess) for guess, _ in found], dtype=bool),
+        np.array([along for _, (_, _, along) in found]),
     )
+
+
+def _moved(fitted: Fitted) -> Array:
+    """Unit vector of what the planned numbers did to the output by leaving their plan; zero where none has a plan to leave."""
+    known = np.isfinite([number.spread for number in fitted.free])
+    planned = np.array([number.planned for number in fitted.free])
+    change: Array = fitted.jacobian[: fitted.samples, known] @ (fitted.z - planned)[known]
+    return change / max(float(np.linalg.norm(change)), 1e-300)
 
 
 def bias(recordings: Recordings, fitted: Fitted, found: Signatures, random: np.random.Generator) -> tuple[Array, Array]:

@@ -12,6 +12,7 @@ from rths_engine.kernel import compiled
 from rths_engine.part import Part, quantity
 
 SATURATED = 20.0  # yield displacements of one move after which zeta is at its asymptote, within exp(-20 + 1)
+SLIPPING = 1.0 - 1e-9  # of the asymptote
 
 
 @compiled
@@ -35,6 +36,8 @@ def moved(zeta, ratio, n, eta):
         fourth = _slope(zeta + h * third, way, n, eta)
         zeta += h * (first + 2.0 * second + 2.0 * third + fourth) / 6.0
         zeta = min(max(zeta, -1.0), 1.0)
+        if zeta * way > SLIPPING:
+            break
     return zeta
 
 

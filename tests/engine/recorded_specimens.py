@@ -16,6 +16,7 @@ from rths_engine.shapes import BandNoise
 from rths_engine.specimens.linear import LinearSpecimen
 
 RATE, DURATION = 512.0, 12.0
+FINER = 16
 BASELINE = LinearSpecimen(stiffness=2.0e6, damping=8.0e5)
 
 
@@ -27,12 +28,13 @@ def plan(specimen: Part = BASELINE, **station: Any) -> Plan:
 
 
 def recording(seed: int, *left_out: Effect, amplitude: float = 0.04, noise: float = 0.01) -> Measured:
-    """With coloured noise on the force and 10 um on the displacement, of a specimen 4 % off its plan."""
+    """With coloured noise on the force and 10 um on the displacement, of a specimen 4 % off its plan, in fine steps."""
     random = np.random.default_rng(seed)
-    time = np.arange(int(DURATION * RATE)) / RATE
-    x = amplitude * BandNoise(low_frequency=0.1, high_frequency=2.5, duration=DURATION, seed=seed).sample(time)
+    time = np.arange(int(DURATION * RATE) * FINER) / RATE / FINER
+    fine = amplitude * BandNoise(low_frequency=0.1, high_frequency=2.5, duration=DURATION, seed=seed).sample(time)
     true = BASELINE.model_copy(update={"stiffness": 1.04 * BASELINE.stiffness, "damping": 0.96 * BASELINE.damping})
-    force = replay.specimen(true, left_out, x, np.ones(len(x)), 1 / RATE)
+    force = replay.specimen(true, left_out, fine, np.ones(len(fine)), 1 / RATE / FINER)[::FINER]
+    x = fine[::FINER]
     coloured = lfilter([np.sqrt(1 - 0.81)], [1, -0.9], random.standard_normal(len(x)))
     read = (x + 1e-5 * random.standard_normal(len(x)), force + noise * np.std(force) * coloured)
     return Measured(1 / RATE, (MeasuredChannel("x_meas", 1, read[0], "m"), MeasuredChannel("f_meas", 1, read[1], "N")))

@@ -50,17 +50,15 @@ class ActuatorData(Data):
 
 @dataclass(frozen=True)
 class Actuator(Component):
-    """Compensated command -> measured displacement of a station's actuator."""
+    """Compensated command -> measured displacement of an actuator. The base is the actuator with its planned effects."""
 
-    known: tuple[Effect, ...] = ()
     output: ClassVar[str] = "displacement"
 
     def spread(self, part: Part) -> float | None:
         return TOLERANCE
 
     def predicted(self, parts: Sequence[Any], data: ActuatorData) -> Array:
-        effects = [*self.known, *parts[1:]]
-        return data.reduced(replay.actuator(parts[0], effects, data.command, data.load, data.dt, data.start)[None])
+        return data.reduced(replay.actuator(parts[0], parts[1:], data.command, data.load, data.dt, data.start)[None])
 
     def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
         seen = data.seen()

@@ -28,16 +28,15 @@ class ChainData(ActuatorData):
 
 @dataclass(frozen=True)
 class Chain(Component):
-    """Compensated command -> force. `known` are the effects that the plan has."""
+    """Compensated command -> force. The base is actuator and specimen with the effects that the plan has."""
 
-    known: tuple[Effect, ...] = ()
     output: ClassVar[str] = "force"
 
     def spread(self, part: Part) -> float | None:
         return TOLERANCE if part in self.base[:1] else None
 
     def predicted(self, parts: Sequence[Any], data: ChainData) -> Any:
-        effects = [*self.known, *parts[2:]]
+        effects = parts[2:]
         moving = [effect for effect in effects if isinstance(effect, physics.ACTUATOR)]
         resisting = [effect for effect in effects if not isinstance(effect, physics.ACTUATOR)]
         x = replay.actuator(parts[0], moving, data.command, data.load, data.dt, data.start)

@@ -9,12 +9,15 @@ from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.band import Band
 from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
 from rths_engine.physics.sensor.channel import Reading
+
+REPLAY_RATE = 2048.0  # Hz
 
 
 class Signal(NamedTuple):
@@ -32,6 +35,7 @@ class Data(ABC):
 
     dt: float
     start: float
+    stepped: bool  # recorded by the loop of this program, whose steps a replay takes too
 
     @property
     @abstractmethod
@@ -66,6 +70,21 @@ class Data(ABC):
 
     def reduced(self, signals: Array) -> Array:
         return np.array([self.band.reduced(one) for one in signals])
+
+    @property
+    def finer(self) -> int:
+        """Replay steps of a sample. A part's velocity is a backward difference, half a step late: what was measured, and did
+        not come from such steps, is replayed in finer ones."""
+        return 1 if self.stepped else max(1, int(np.ceil(REPLAY_RATE * self.dt - 1e-9)))
+
+    def refined(self, signal: Array) -> Array:
+        """At the replay's steps, a quarter of one early: midway between what velocity and displacement need."""
+        if self.stepped:
+            return signal
+        n = self.finer
+        place = np.arange(len(signal))
+        at = np.clip(place[0] + np.arange(len(signal) * n) / n + 0.25 / n, 0, place[-1])
+        return np.asarray(CubicSpline(place, signal)(at))
 
 
 class Loose(Part):
@@ -112,6 +131,10 @@ class Component(ABC):
     @abstractmethod
     def signals(self, data: Any) -> tuple[Signal, Signal]:
         """Displacement and velocity, in the band of the comparison, that the output is told against."""
+
+    def present(self, parts: Sequence[Part]) -> set[tuple[type[Part], int]]:
+        """Keys of the effects that need no hypothesis, since the model has them."""
+        return {key(part) for part in parts if isinstance(part, Effect)}
 
     @property
     def station(self) -> str:

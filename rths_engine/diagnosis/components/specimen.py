@@ -12,8 +12,9 @@ import numpy as np
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.band import cut_of, filtered
-from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
 from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.part import Part, quantity
 from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfForce
 
@@ -41,6 +42,14 @@ class SpecimenData(Data):
         return filtered(self.x, self.dt, self.cut)
 
     @cached_property
+    def fine(self) -> Array:
+        return self.refined(self.smooth)
+
+    @cached_property
+    def fine_current(self) -> Array:
+        return np.repeat(self.current, self.finer)
+
+    @cached_property
     def input_noise(self) -> float:
         return float(np.std(self.x - self.smooth))
 
@@ -60,17 +69,35 @@ class SpecimenData(Data):
         return Seen(x, v, f, len(self.x) * self.dt, energy, self.dt)
 
 
+class ClockSkew(Loose):
+    """Force read late against displacement, as two channels of one recorder are."""
+
+    delay: float = quantity("Delay between the channels", "s", "ms", ge=-0.01, le=0.01, default=0.0)
+    scale: ClassVar[float] = 1e-3
+
+
+SKEW = 0.25  # ms, standard deviation
+
+
 @dataclass(frozen=True)
 class Specimen(Component):
-    """Displacement -> force of a station's specimen; `known` are the effects that its plan has."""
+    """Displacement -> force of a station's specimen. The base is the specimen with the effects that its plan has, and a skew
+    of the channels where the recording was measured."""
 
-    known: tuple[Effect, ...] = ()
     output: ClassVar[str] = "force"
 
+    def spread(self, part: Part) -> float | None:
+        return SKEW if isinstance(part, ClockSkew) else None
+
     def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
-        effects = [*self.known, *parts[1:]]
-        force = replay.specimen(parts[0], effects, data.smooth, data.current, data.dt, data.start)
-        return data.reduced(force[None])
+        n = data.finer
+        effects = [part for part in parts[1:] if isinstance(part, Effect)]
+        force = replay.specimen(parts[0], effects, data.fine, data.fine_current, data.dt / n, data.start)
+        late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
+        if late:
+            place = np.arange(0, len(force), n) - late
+            return data.reduced(np.interp(place, np.arange(len(force)), force)[None])
+        return data.reduced(force[None, ::n])
 
     def hypotheses(self, data: SpecimenData) -> Iterator[Effect]:
         seen = data.seen()

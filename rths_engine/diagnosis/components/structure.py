@@ -44,13 +44,13 @@ Kind = Literal["x", "v", "a"]
 class StructureData(Data):
     """Ground acceleration (m/s^2), forces (N) by floor, and what was measured of the floors: displacement and velocity against
     the ground, absolute acceleration. `released` are the displacements and velocities of all floors at the start, where it was
-    not at rest. `step_of_run` is the integration step where the recording is of a run."""
+    not at rest. `substeps` of an integration step are those of the run that it is a recording of."""
 
     ground: Array
     forces: dict[int, Array]
     floors: tuple[tuple[Kind, int, Array], ...]
     released: tuple[tuple[float, ...], tuple[float, ...]] | None
-    substeps_of_run: int = 0
+    substeps: int
 
     @property
     def raw(self) -> Array:
@@ -76,7 +76,7 @@ class Structure(Component):
         return self._shown(self.motion(parts, data), parts, data)
 
     def motion(self, parts: Sequence[Any], data: StructureData, extra: Array | None = None) -> Array:
-        """Displacements (samples, DOF), m; `extra` (samples, floors) are forces on every floor, N."""
+        """Displacements of the floors (samples, floors), m; `extra` (samples, floors) are forces on every floor, N."""
         ground = data.ground
         for effect in parts:
             if isinstance(effect, Effect) and effect.hook == GROUND:
@@ -91,10 +91,10 @@ class Structure(Component):
             "forces": tuple(FloorForce(floor=floor) for floor in on),
             "start": _start(parts, data),
         }
-        if data.substeps_of_run:
+        if data.stepped:
             plan = self.plan.model_copy(update=update)
-            n = data.substeps_of_run
-            at = replay.structure(plan, _at_steps(inputs, n), np.zeros((len(inputs) // n + 1, 0)))
+            n = data.substeps
+            at = self._floors(plan, _at_steps(inputs, n))
             share = np.arange(1, n + 1)[:, None] / n
             ramps = at[:-1, None] + share * (at[1:] - at[:-1])[:, None]
             moved: Array = ramps.reshape(-1, at.shape[1])
@@ -106,7 +106,11 @@ class Structure(Component):
             inputs = np.column_stack(
                 [np.interp(np.arange(0, len(inputs) - 1 + 1e-9, 1 / fine), whole, one) for one in inputs.T]
             )
-        return replay.structure(plan, inputs, np.zeros((len(inputs), 0)))[::fine]
+        return self._floors(plan, inputs)[::fine]
+
+    def _floors(self, plan: Plan, inputs: Array) -> Array:
+        x = replay.structure(plan, inputs, np.zeros((len(inputs), len(plan.stations))))
+        return x[:, self.built.floors]  # what effects add comes behind
 
     @cached_property
     def built(self) -> Any:
@@ -115,7 +119,7 @@ class Structure(Component):
     def _shown(self, x: Array, parts: Sequence[Any], data: StructureData) -> Array:
         rows = []
         for kind, floor, _ in data.floors:
-            row = x[:, self.built.floors[floor - 1]]
+            row = x[:, floor - 1]
             if kind == "v":
                 row = np.gradient(row, data.dt)
             elif kind == "a":
@@ -125,8 +129,7 @@ class Structure(Component):
 
     def drifts(self, data: StructureData) -> Array:
         """(storeys, samples), m, as planned."""
-        x = self.motion(self.base, data)
-        return np.array([x @ drift(self.built, storey) for storey in range(1, len(self.built.floors) + 1)])
+        return _drifts(self.motion(self.base, data))
 
     def hypotheses(self, data: StructureData) -> Iterator[Effect]:
         for storey, moved in enumerate(self.drifts(data), start=1):
@@ -144,7 +147,7 @@ class Structure(Component):
     def features(self, parts: Sequence[Any], data: StructureData) -> list[Feature]:
         plain = self.motion(parts, data)
         before = self._shown(plain, parts, data)
-        x = np.array([plain @ drift(self.built, storey) for storey in range(1, len(self.built.floors) + 1)])
+        x = _drifts(plain)
         found = []
         for storey, moved in enumerate(x[:MOST_STOREYS], start=1):
             v = np.gradient(moved, data.dt)
@@ -163,6 +166,10 @@ class Structure(Component):
         x, v = data.reduced(np.array([moved, np.gradient(moved, data.dt)]))
         return Signal("drift of storey 1 as planned", "m", "mm", x), Signal("its velocity", "m/s", "mm/s", v)
 
+    def present(self, parts: Sequence[Part]) -> set[tuple[type[Part], int]]:
+        """But for the base: what may be off a little may also be off by more."""
+        return super().present(parts[len(self.base) :])
+
     def place(self, effect: Effect) -> str:
         if effect.hook == GROUND:
             return "input"
@@ -175,6 +182,11 @@ def based(plan: Plan, released: bool) -> tuple[Part, ...]:
     stiff = [StiffnessError(storey=storey) for storey in floors]
     begun = [Release(floor=floor) for floor in floors] if released else []
     return (*stiff, DampingError(), *begun)
+
+
+def _drifts(x: Array) -> Array:
+    """(storeys, samples) of the floors' displacements (samples, floors)."""
+    return np.diff(x, axis=1, prepend=0.0).T
 
 
 def _start(parts: Sequence[Any], data: StructureData) -> Start:
