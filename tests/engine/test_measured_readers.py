@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import h5py
@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from rths_engine.errors import MeasuredError
 from rths_engine.measured import examine, guess, imported, read
+from rths_engine.measured.readers import apart
 from rths_engine.measured.table import MOST_SAMPLES
 from tests.engine import measurements as made
 from tests.engine.measurements import COLUMNS, NAMES, RATE, F, V, X, csv, text
@@ -121,6 +122,15 @@ def test_what_cant_be_read_is_refused_with_the_reason(raw: bytes, filename: str,
     assert told in str(refusal.value)
 
 
+@pytest.fixture(scope="module")
+def impatient() -> Iterator[None]:
+    """A damaged HDF5 file can hold its library for ever: about one in a thousand of those below."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(apart, "PATIENCE_S", 8.0)
+        yield
+
+
+@pytest.mark.usefixtures("impatient")
 @given(
     st.sampled_from([made.matlab5(), made.matlab73(), made.hdf5(), made.parquet(), made.json_nested(), csv()]),
     st.lists(st.tuples(st.integers(0, 10**9), st.integers(0, 255)), min_size=1, max_size=20),
@@ -137,6 +147,23 @@ def test_a_damaged_file_is_read_or_refused_but_never_an_error_of_the_program(
         examine(table, guess(table).mapping)
     except MeasuredError as refusal:
         assert refusal.issues
+
+
+def test_a_file_over_which_reading_does_not_end_is_refused_and_the_next_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    apart.stop()  # so that there is something to wait for
+    with monkeypatch.context() as patch:
+        patch.setattr(apart, "PATIENCE_S", 1e-6)
+        with pytest.raises(MeasuredError, match="crashes or does not end"):
+            read(made.hdf5(), "held.h5")
+    assert read(made.hdf5(), "next.h5").format == "HDF5"
+
+
+def test_a_reading_process_that_has_died_is_replaced() -> None:
+    read(made.parquet(), "first.parquet")
+    process = apart._READER._process
+    assert process is not None
+    process.kill()
+    assert read(made.parquet(), "next.parquet").format == "Parquet"
 
 
 def test_an_hdf5_file_can_name_no_other_file_of_the_machine(tmp_path: Path) -> None:

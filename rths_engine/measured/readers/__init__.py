@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rths_engine.errors import Issue, MeasuredError, MotionError
 from rths_engine.ground_motions.text import lines_of
-from rths_engine.measured.readers import ground_motion, hdf5, json_file, matlab, parquet, text
+from rths_engine.measured.readers import apart, binary, ground_motion, json_file, text
 from rths_engine.measured.table import Table, checked
 
 FORMATS = ("CSV, TSV or columns", "JSON", "MATLAB", "Parquet", "HDF5", "PEER AT2", "COSMOS V2")
@@ -18,12 +18,8 @@ def read(raw: bytes, filename: str) -> Table:
 def _read(raw: bytes, filename: str) -> Table:
     if not raw.strip():
         raise MeasuredError(Issue("file", "is empty", fix="choose a file of measurements"))
-    if parquet.looks_like(raw):
-        return parquet.read(raw)
-    if hdf5.looks_like(raw):
-        return hdf5.read(raw)
-    if matlab.looks_like(raw, filename):
-        return matlab.read(raw)
+    if binary.looks_like(raw, filename):
+        return apart.read(raw)
     if json_file.looks_like(raw):
         return json_file.read(raw)
     try:
