@@ -75,6 +75,15 @@ def parser() -> argparse.ArgumentParser:
     diagnose.add_argument("--level", type=float, default=0.01, help="rate of false alarms (default %(default)s)")
     diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the diagnosis as one JSON object")
 
+    prove = _command(commands, "prove", "app.cli_prove:prove", "prove diagnoses on recordings that conceal known physics")
+    prove.add_argument("--cases", type=int, default=100, metavar="N", help="recordings to make (default %(default)s)")
+    prove.add_argument("--seed", type=int, default=0, metavar="S", help="of the cases (default %(default)s)")
+    prove.add_argument("--workers", type=int, default=2, metavar="N", help="diagnoses at a time (default %(default)s)")
+    prove.add_argument("--only", metavar="KIND/LEVEL", help="cases of one kind of test, one level, or both")
+    prove.add_argument("--keep", type=Path, metavar="DIR", help="keep plans, recordings, truths and diagnoses here")
+    prove.add_argument("--json", type=Path, required=True, metavar="OUT", help="write every score as one JSON object")
+    prove.add_argument("--table", action="store_true", help="print a row for each effect as well")
+
     serve = _command(commands, "serve", "app.cli_serve:serve", "start the control room")
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")

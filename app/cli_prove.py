@@ -1,0 +1,44 @@
+"""`rths prove`: how well diagnoses find physics that was concealed in recordings made for it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from argparse import Namespace
+from importlib import import_module
+from pathlib import Path
+
+from rths_engine import files
+from rths_engine.errors import Issue, PlanError
+
+CHECKOUT = Path(__file__).parent.parent
+
+
+def prove(given: Namespace) -> None:
+    _checked(given)
+    sys.path.insert(0, str(CHECKOUT))
+    proving, table = import_module("tests.proof.proving"), import_module("tests.proof.table")
+    result = proving.prove(given.cases, given.seed, given.workers, given.only, given.keep, _told)
+    with files.temporary(given.json) as written:
+        written.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        written.replace(given.json)
+    print(table.scores(result))
+    if given.table:
+        print(table.effects(result["per_case"]))
+
+
+def _checked(given: Namespace) -> None:
+    if not (CHECKOUT / "tests" / "proof").is_dir():
+        fix = "run it in a checkout of the repository: the generator is not part of the installed package"
+        raise PlanError(Issue("rths prove", "its generator, tests/proof, is not here", str(CHECKOUT), fix))
+    for name, least in (("cases", 1), ("workers", 1), ("seed", 0)):
+        if getattr(given, name) < least:
+            raise PlanError(Issue(f"--{name}", f"needs to be at least {least}", getattr(given, name)))
+    if not given.json.parent.is_dir():
+        raise PlanError(Issue("--json", "there is no such folder", str(given.json.parent), "make it first"))
+    if given.keep and given.keep.exists() and any(given.keep.iterdir()):
+        raise PlanError(Issue("--keep", "is not empty", str(given.keep), "give a new folder"))
+
+
+def _told(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

@@ -1,0 +1,1 @@
+"""Diagnosis proved on sealed recordings whose left-out physics is known."""

@@ -1,0 +1,1 @@
+"""Sealed recordings: physics of its own, solved by SciPy at tight tolerance, without a line of the engine."""

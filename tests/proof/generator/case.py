@@ -1,0 +1,57 @@
+"""One sealed case as it is made."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from tests.proof.generator.files import write_arrays, write_plan, write_recording
+from tests.proof.generator.motion import Array
+
+KINDS = ("specimen",)
+LEVELS = ("clean", "plain", "noise", "small", "missing", "two", "outside", "compensated")
+
+
+@dataclass
+class Recorded:
+    """One recording: what is shown, and the noise-free channels, which are not."""
+
+    dt: float
+    shown: dict[str, Array]
+    quiet: dict[str, Array]
+
+
+@dataclass
+class Truth:
+    """What was concealed. `effects`: component, id, form and SI parameters under the names of the library where it has them."""
+
+    kind: str
+    level: str
+    seed: int
+    effects: list[dict[str, Any]]
+    outside: str | None
+    strength: float | None  # lambda against the refitted baseline, of the fitting recording
+    baseline: dict[str, Any]  # the true numbers of the plan's models
+    noise: dict[str, float]  # of the output: sigma, pole, share
+    output: str  # the channel that lambda is of
+    about: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass
+class Case:
+    plan: dict[str, Any]
+    fitting: Recorded
+    heldout: Recorded
+    truth: Truth
+
+    def write(self, shown: Path, sealed: Path) -> None:
+        """plan.yaml, fit.h5, heldout.h5 into `shown`; truth.json, fit.h5, heldout.h5 without noise into `sealed`."""
+        for folder in (shown, sealed):
+            folder.mkdir(parents=True)
+        write_plan(shown / "plan.yaml", self.plan)
+        for name, one in (("fit.h5", self.fitting), ("heldout.h5", self.heldout)):
+            write_recording(shown / name, self.truth.kind, one.dt, one.shown)
+            write_arrays(sealed / name, one.quiet)
+        (sealed / "truth.json").write_text(json.dumps(asdict(self.truth), indent=1) + "\n", encoding="utf-8")

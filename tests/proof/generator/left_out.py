@@ -1,0 +1,211 @@
+"""Effects to conceal in a specimen, as additions to a law: f -> force(...), s' = slopes(...). `series` ones act before it.
+
+Forms are of their own where two exist: LuGre friction (Canudas de Wit et al. 1995, IEEE Trans. Autom. Control 40, 419-425),
+soft contact for backlash, heat as a state of energy.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from tests.proof.generator.laws import Numbers
+
+
+@dataclass
+class At:
+    """Where a specimen is: time, displacement, rate, second rate, current."""
+
+    t: float
+    x: float
+    v: float
+    a: float
+    current: float
+
+
+class Effect:
+    states = 0
+
+    def start(self, current: float) -> list[float]:
+        return [0.0] * self.states
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        return []
+
+
+@dataclass
+class LuGre(Effect):
+    """f += F_c-scaled bristle: x_e z' = v - |v| z / g,  g = 1 + (F_s / F_c - 1) exp(-(v / v_s)^2)"""
+
+    friction: float
+    presliding: float
+    static: float = 0.0
+    stribeck_velocity: float = 1.0
+    states = 1
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f + self.friction * s[0]
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        ratio = at.v / self.stribeck_velocity
+        most = 1.0 + max(self.static / self.friction - 1.0, 0.0) * math.exp(-ratio * ratio)
+        return [(at.v - abs(at.v) * s[0] / most) / self.presliding]
+
+
+@dataclass
+class Heating(Effect):
+    """f (1 - phi E),  E' = f v - E / tau; s = phi E. tau = inf keeps the heat."""
+
+    fade: float
+    cooling: float = math.inf
+    states = 1
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f * max(1.0 - s[0], 0.05)
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        return [self.fade * after * at.v - s[0] / self.cooling]
+
+
+@dataclass
+class Spring(Effect):
+    """f + k x + k_3 x^3"""
+
+    stiffness: float = 0.0
+    cubic: float = 0.0
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f + self.stiffness * at.x + self.cubic * at.x**3
+
+
+@dataclass
+class Mass(Effect):
+    """f + m x''"""
+
+    mass: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f + self.mass * at.a
+
+
+@dataclass
+class Asymmetry(Effect):
+    """(1 + a sgn f) f"""
+
+    share: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f * (1.0 + math.copysign(self.share, f))
+
+
+@dataclass
+class Power(Effect):
+    """f |v / v_r|^e, levelling out below 5 % of v_r"""
+
+    exponent: float
+    reference_velocity: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return float(f * math.hypot(at.v / self.reference_velocity, 0.05) ** self.exponent)
+
+
+@dataclass
+class BoucWen(Effect):
+    """f + F z,  x_y z' = v - |v| |z|^(n-1) z eta - v |z|^n (1 - eta)"""
+
+    strength: float
+    yield_displacement: float
+    exponent: float
+    fullness: float
+    states = 1
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f + self.strength * s[0]
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        z = s[0]
+        turned = self.fullness * abs(at.v) * abs(z) ** (self.exponent - 1) * z
+        return [(at.v - turned - (1 - self.fullness) * at.v * abs(z) ** self.exponent) / self.yield_displacement]
+
+
+@dataclass
+class Pinch(Effect):
+    """f (1 - d exp(-(x / x_p)^2))"""
+
+    depth: float
+    width: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f * (1.0 - self.depth * math.exp(-((at.x / self.width) ** 2)))
+
+
+@dataclass
+class Drop(Effect):
+    """f (1 - d) from the moment t_d on"""
+
+    share: float
+    time: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f * (1.0 - self.share) if at.t > self.time else f
+
+
+@dataclass
+class CurrentLag(Effect):
+    """f (i_0 + i_f) / (i_0 + i),  tau i_f' = i - i_f"""
+
+    time_constant: float
+    zero_current: float
+    states = 1
+
+    def start(self, current: float) -> list[float]:
+        return [current]
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f * (self.zero_current + s[0]) / (self.zero_current + at.current)
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        return [(at.current - s[0]) / self.time_constant]
+
+
+@dataclass
+class Series:
+    """A massless connection before the specimen: `pulled(d)` is its force and tangent stiffness at the elongation d."""
+
+    def pulled(self, d: float) -> tuple[float, float]:
+        raise NotImplementedError
+
+
+@dataclass
+class Compliance(Series):
+    """f = d / phi"""
+
+    flexibility: float
+
+    def pulled(self, d: float) -> tuple[float, float]:
+        return d / self.flexibility, 1 / self.flexibility
+
+
+@dataclass
+class Play(Series):
+    """f = k_s r (ln(1 + e^((d - g/2) / r)) - ln(1 + e^((-d - g/2) / r))): contact springs on both sides, rounded over r."""
+
+    gap: float
+    stiffness: float
+
+    def pulled(self, d: float) -> tuple[float, float]:
+        rounding = 0.01 * self.gap
+        ahead, behind = (d - self.gap / 2) / rounding, (-d - self.gap / 2) / rounding
+        force = self.stiffness * rounding * (_soft(ahead) - _soft(behind))
+        return force, self.stiffness * (_step(ahead) + _step(behind))
+
+
+def _soft(z: float) -> float:
+    return z if z > 36.0 else math.log1p(math.exp(max(z, -700.0)))
+
+
+def _step(z: float) -> float:
+    return 1.0 / (1.0 + math.exp(min(-z, 700.0)))

@@ -1,0 +1,96 @@
+"""One case scored: what was said against what was concealed."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+QUIET = ("consistent", "recalibrate")
+NOTHING = ("none", "unknown")
+
+
+def scored(shown: Path, sealed: Path, found: dict[str, Any] | None, run: dict[str, Any]) -> dict[str, Any]:
+    """The row of a case. `found` is its diagnosis, None where there is none."""
+    truth = json.loads((sealed / "truth.json").read_text(encoding="utf-8"))
+    return {
+        "case": shown.name,
+        "kind": truth["kind"],
+        "level": truth["level"],
+        "about": truth["about"],
+        "truth": [named(one) for one in truth["effects"]],
+        "outside": truth["outside"],
+        "lambda": truth["strength"],
+        "exit": run["exit"],
+        "said": run["said"],
+        "seconds": run["seconds"],
+        **judged(truth, found or {}),
+    }
+
+
+def judged(truth: dict[str, Any], found: dict[str, Any]) -> dict[str, Any]:
+    """Scores that need only the truth and the diagnosis."""
+    verdict, true = found.get("verdict"), [named(one) for one in truth["effects"]]
+    effects = sorted(found.get("effects") or [], key=lambda one: -one["probability"])
+    claimed = [named(one) for one in effects if one["id"] not in NOTHING]
+    ranking = ranked(claimed, found)
+    clean, outside = not true and not truth["outside"], truth["outside"] is not None
+    unknown = any(one["id"] == "unknown" for one in effects) or (verdict == "undetermined" and not claimed)
+    where = located_at(found)
+    places = {one.partition("/")[0] for one in true} or {truth["about"].get("component", "specimen:1")}
+    parameters = [errors(one, effects) for one in truth["effects"] if named(one) in claimed]
+    return {
+        "verdict": verdict,
+        "claimed": claimed,
+        "ranked": ranking,
+        "probabilities": {named(one): one["probability"] for one in effects},
+        "false_alarm": verdict not in QUIET if clean else None,
+        "falsely_named": bool(claimed) if clean else None,
+        "located": where in places if not clean else None,
+        "named_first": ranking[:1] == true if len(true) == 1 else None,
+        "named_top3": true[0] in ranking[:3] if len(true) == 1 else None,
+        "honest": verdict in (*QUIET, "undetermined") or true[0] in ranking[:3] if len(true) == 1 else None,
+        "two_both": set(true) <= set(claimed) if len(true) == 2 else None,
+        "two_one": bool(set(true) & set(claimed)) if len(true) == 2 else None,
+        "unknown": unknown and not claimed if outside else None,
+        "misnamed": bool(claimed) if outside else None,
+        "parameters": [row for rows in parameters for row in rows],
+        "heldout": {key: (found.get("fit") or {}).get(key, {}).get("heldout_nrmse") for key in ("baseline", "extended")},
+    }
+
+
+def named(effect: dict[str, Any]) -> str:
+    return f"{effect['component']}/{effect['id']}"
+
+
+def ranked(claimed: list[str], found: dict[str, Any]) -> list[str]:
+    """Effects in the order in which they are believed: those claimed, then those of the candidates. Nothing is ranked where
+    nothing is claimed, unless a group that can't be told apart is."""
+    order = list(claimed)
+    if claimed or found.get("indistinguishable"):
+        for candidate in found.get("candidates") or []:
+            order += [one for one in candidate["effects"] if one not in order]
+    return order
+
+
+def located_at(found: dict[str, Any]) -> str | None:
+    """The component that is blamed: `where`, else the one whose mismatch is the least probable by chance."""
+    if found.get("where"):
+        return str(found["where"]["component"])
+    off = [one for one in found.get("components") or [] if one["mismatch"]]
+    return str(min(off, key=lambda one: one["p_value"])["component"]) if off else None
+
+
+def errors(effect: dict[str, Any], claimed: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Of each true number that was told: its relative error and whether the 90 % interval holds it."""
+    told = next(one for one in claimed if named(one) == named(effect))
+    rows = []
+    for one in told["parameters"]:
+        true = effect["parameters"].get(one["name"])
+        if true is not None and one.get("ci90"):
+            low, high = one["ci90"]
+            error = abs(one["value"] - true) / max(abs(true), 1e-30)
+            rows.append(
+                {"name": one["name"], "true": true, "told": one["value"], "error": error, "covered": low <= true <= high}
+            )
+    return rows

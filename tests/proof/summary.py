@@ -1,0 +1,94 @@
+"""Scores of many cases by class of lambda, each with its count and its Wilson 95 % interval."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import numpy as np
+
+CLASSES = {"<10": (0.0, 10.0), "10-25": (10.0, 25.0), "25-100": (25.0, 100.0), ">=100": (100.0, math.inf)}
+Row = dict[str, Any]
+RATES = {
+    "located_rate": "located",
+    "named_first_rate": "named_first",
+    "named_top3_rate": "named_top3",
+    "honest_rate": "honest",
+    "oracle_named_first_rate": "oracle_named_first",
+    "two_effects_both_rate": "two_both",
+    "two_effects_one_rate": "two_one",
+    "unknown_rate": "unknown",
+    "unknown_misnamed_rate": "misnamed",
+    "peer_named_first_rate": "peer_named_first",
+}
+NORMAL = 1.959964  # two-sided 95 %
+
+
+def wilson(hits: int, count: int) -> list[float] | None:
+    """(p + z^2/2n -+ z sqrt(p (1 - p) / n + z^2/4n^2)) / (1 + z^2/n)   (Wilson 1927, J. Am. Stat. Assoc. 22, 209-212)"""
+    if count == 0:
+        return None
+    p, z2 = hits / count, NORMAL**2
+    half = NORMAL * math.sqrt(p * (1 - p) / count + z2 / (4 * count**2))
+    middle = p + z2 / (2 * count)
+    return [(middle - half) / (1 + z2 / count), (middle + half) / (1 + z2 / count)]
+
+
+def rate(rows: Iterable[Row], key: str) -> Row:
+    hits = [bool(row[key]) for row in rows if row.get(key) is not None]
+    return {"value": sum(hits) / len(hits) if hits else None, "count": len(hits), "wilson95": wilson(sum(hits), len(hits))}
+
+
+def summary(rows: list[Row]) -> Row:
+    """The scores of OUT.json. Those of concealed effects have a part for each class of lambda, and one for `all`."""
+    clean = [row for row in rows if row["false_alarm"] is not None]
+    found: Row = {"cases": len(rows), "clean_cases": len(clean), "broken": sum(row["verdict"] is None for row in rows)}
+    found["false_alarm_rate"], found["falsely_named_rate"] = rate(clean, "false_alarm"), rate(clean, "falsely_named")
+    for name, key in RATES.items():
+        found[name] = by_class(rows, lambda some, key=key: rate(some, key))
+    found["heldout_gain_share_median"] = by_class(rows, lambda some: median(some, "gain_share"))
+    found["interval90_coverage"] = by_class(rows, coverage)
+    found["calibration_error"] = calibration(rows)
+    found["by_level"] = {level: one_level([row for row in rows if row["level"] == level]) for level in levels(rows)}
+    if all(row.get("peer_named_first") is None for row in rows):
+        found["peer_named_first_rate"] = None
+    return found
+
+
+def by_class(rows: list[Row], score: Callable[[list[Row]], Row]) -> Row:
+    concealed = [row for row in rows if row["lambda"] is not None]
+    parts = {name: [row for row in concealed if low <= row["lambda"] < high] for name, (low, high) in CLASSES.items()}
+    return {"all": score(concealed), **{name: score(some) for name, some in parts.items()}}
+
+
+def median(rows: Iterable[Row], key: str) -> Row:
+    values = [row[key] for row in rows if row.get(key) is not None]
+    return {"value": float(np.median(values)) if values else None, "count": len(values), "wilson95": None}
+
+
+def coverage(rows: Iterable[Row]) -> Row:
+    return rate([number for row in rows for number in row["parameters"]], "covered")
+
+
+def calibration(rows: Iterable[Row]) -> Row:
+    """Expected calibration error: |mean probability - share that is right| over tenths of the probability, by their counts."""
+    said = [
+        (p, name in row["truth"]) for row in rows for name, p in row["probabilities"].items() if not name.endswith("/unknown")
+    ]
+    total = 0.0
+    for tenth in range(10):
+        some = [(p, right) for p, right in said if min(int(10 * p), 9) == tenth]
+        if some:
+            chance, right = np.mean(np.array(some, dtype=float), axis=0)
+            total += abs(chance - right) * len(some)
+    return {"value": total / len(said) if said else None, "count": len(said), "wilson95": None}
+
+
+def levels(rows: Iterable[Row]) -> list[str]:
+    return sorted({row["level"] for row in rows})
+
+
+def one_level(rows: list[Row]) -> Row:
+    keys = ("false_alarm", "located", "named_first", "named_top3", "two_both", "two_one", "unknown", "misnamed")
+    return {key: rate(rows, key) for key in keys if any(row.get(key) is not None for row in rows)}
