@@ -14,7 +14,7 @@ PYTEST ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone check bench browser lock clean
+.PHONY: setup run test test-clone check bench prove browser lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -30,6 +30,10 @@ test-clone: setup
 # Times of one run on this machine, beside OpenSees where it is installed: docs/benchmarks.md.
 bench: setup
 	$(BIN)/python -m benchmarks
+
+# Diagnoses of recordings whose left-out physics is known: docs/proof.md. Takes about an hour.
+prove: setup
+	$(BIN)/rths prove --cases 300 --json proof.json --table
 
 check: setup
 	$(BIN)/ruff check .

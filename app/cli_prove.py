@@ -18,6 +18,10 @@ def prove(given: Namespace) -> None:
     _checked(given)
     sys.path.insert(0, str(CHECKOUT))
     proving, table = import_module("tests.proof.proving"), import_module("tests.proof.table")
+    try:
+        proving.specs(1, 0, given.only)
+    except ValueError as error:
+        raise PlanError(Issue("--only", "there is no such kind of case", given.only, str(error))) from None
     result = proving.prove(given.cases, given.seed, given.workers, given.only, given.keep, _told)
     with files.temporary(given.json) as written:
         written.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

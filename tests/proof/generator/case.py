@@ -10,9 +10,6 @@ from typing import Any
 from tests.proof.generator.files import write_arrays, write_plan, write_recording
 from tests.proof.generator.motion import Array
 
-KINDS = ("specimen",)
-LEVELS = ("clean", "plain", "noise", "small", "missing", "two", "outside", "compensated")
-
 
 @dataclass
 class Recorded:

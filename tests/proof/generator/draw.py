@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,8 +14,21 @@ from tests.proof.generator.draw_specimen import FACTORS, IDS, OWN, PLACED, speci
 
 CLEAN = 0.3  # of the cases
 STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
-SPECIMEN_LEVELS = {"plain": 0.4, "noise": 0.15, "small": 0.1, "two": 0.17, "outside": 0.18}
+TOLD = 25.0  # the least lambda of two effects, or of one outside the library: below, nothing could be asked of a diagnosis
 SENSORS = ("sensor_offset", "sensor_drift", "sensor_time_skew", "sensor_clipping", "sensor_dropout")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of test: its share of the cases, its levels with their shares, its effects, and what makes a case of them."""
+
+    share: float
+    levels: dict[str, float]
+    single: tuple[str, ...]
+    pairs: tuple[tuple[str, str], ...]
+    strange: tuple[str, ...]
+    made: Callable[..., Case]
+    choice: Callable[[np.random.Generator, tuple[str, ...]], dict[str, Any]]  # what else a case is made of
 
 
 @dataclass(frozen=True)
@@ -29,19 +42,23 @@ class Spec:
     made: dict[str, Any]
 
     def case(self) -> Case:
-        return specimen_case(self.seed, self.level, **self.made)
+        return KINDS[self.kind].made(self.seed, self.level, **self.made)
 
 
 def specs(count: int, seed: int, only: str | None = None) -> list[Spec]:
-    """`only` is KIND, LEVEL or KIND/LEVEL."""
+    """`only` is KIND, LEVEL or KIND/LEVEL. Raises ValueError where there is none."""
     random = np.random.default_rng(seed)
-    kind, level = _wanted(only)
-    single, pairs, strange = _turns(random, [*IDS, *SENSORS]), _turns(random, _pairs()), _turns(random, [*outside.NAMES])
+    kinds, level = _wanted(only)
+    turns = {name: [_turns(random, some) for some in (one.single, one.pairs, one.strange)] for name, one in KINDS.items()}
+    shares = np.array([KINDS[name].share for name in kinds])
     made = []
     for number in range(count):
-        chosen = level or ("clean" if random.random() < CLEAN else _level(random))
-        low, high = STRENGTHS
-        wanted = float(np.exp(random.uniform(np.log(25.0 if chosen in ("two", "outside") else low), np.log(high))))
+        name = str(random.choice(kinds, p=shares / shares.sum()))
+        kind = KINDS[name]
+        chosen = level or ("clean" if random.random() < CLEAN else _drawn(random, kind.levels))
+        low = TOLD if chosen in ("two", "outside") else STRENGTHS[0]
+        wanted = float(np.exp(random.uniform(np.log(low), np.log(STRENGTHS[1]))))
+        single, pairs, strange = turns[name]
         match chosen:
             case "clean":
                 names: tuple[str, ...] = ()
@@ -51,38 +68,58 @@ def specs(count: int, seed: int, only: str | None = None) -> list[Spec]:
                 names = (next(strange),)
             case _:
                 names = (next(single),)
-        laws = [law for law in OWN if not OWN[law] & set(names) and not (law == "friction_slider" and PLACED & set(names))]
-        law = str(random.choice(laws))
-        what = {"law": law, "names": list(names), "wanted": wanted}
-        name = f"{number:04d}-{kind or 'specimen'}-{chosen}"
-        made.append(Spec(name, kind or "specimen", chosen, int(random.integers(2**31)), what))
+        what = {"names": list(names), "wanted": wanted, **kind.choice(random, names)}
+        made.append(Spec(f"{number:04d}-{name}-{chosen}", name, chosen, int(random.integers(2**31)), what))
     return made
 
 
-def _wanted(only: str | None) -> tuple[str | None, str | None]:
-    if only is None:
-        return None, None
-    first, _, second = only.partition("/")
-    return (first, second or None) if first == "specimen" else (None, first)
+def _law(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
+    """A law that the effects are not numbers of already; a slider is solved beforehand, and takes no connection."""
+    laws = [law for law in OWN if not OWN[law] & set(names) and not (law == "friction_slider" and PLACED & set(names))]
+    return {"law": str(random.choice(laws))}
 
 
-def _level(random: np.random.Generator) -> str:
-    return str(random.choice(list(SPECIMEN_LEVELS), p=list(SPECIMEN_LEVELS.values())))
-
-
-def _pairs() -> list[tuple[str, str]]:
+def _pairs() -> tuple[tuple[str, str], ...]:
     """Two effects that act independently: a connection takes only factors of the force beside it."""
-    return [
+    return tuple(
         (one, other)
         for place, one in enumerate(IDS)
         for other in IDS[place + 1 :]
         if not ({one, other} & PLACED and not {one, other} & FACTORS)
         and {one, other} != {"coulomb_friction", "stribeck_friction"}
         and "current_lag" not in (one, other)
-    ]
+    )
 
 
-def _turns(random: np.random.Generator, values: list[Any]) -> Iterator[Any]:
+KINDS = {
+    "specimen": Kind(
+        0.5,
+        {"plain": 0.4, "noise": 0.15, "small": 0.1, "two": 0.17, "outside": 0.18},
+        (*IDS, *SENSORS),
+        _pairs(),
+        outside.NAMES,
+        specimen_case,
+        _law,
+    )
+}
+
+
+def _wanted(only: str | None) -> tuple[list[str], str | None]:
+    first, _, second = (only or "").partition("/")
+    kind, level = (first, second) if first in KINDS else ("", second or first)
+    kinds = [kind] if kind else [name for name, one in KINDS.items() if not level or level in (*one.levels, "clean")]
+    known = not level or all(level in (*KINDS[name].levels, "clean") for name in kinds)
+    if not kinds or not known or (second and not kind):
+        levels = sorted({level for one in KINDS.values() for level in one.levels} | {"clean"})
+        raise ValueError(f"kinds are {', '.join(KINDS)}; levels are {', '.join(levels)}")
+    return kinds, level or None
+
+
+def _drawn(random: np.random.Generator, shares: dict[str, float]) -> str:
+    return str(random.choice(list(shares), p=np.array(list(shares.values())) / sum(shares.values())))
+
+
+def _turns(random: np.random.Generator, values: tuple[Any, ...]) -> Iterator[Any]:
     while True:
         for place in random.permutation(len(values)):
             yield values[place]

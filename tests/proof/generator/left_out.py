@@ -195,9 +195,10 @@ class Play(Series):
 
     gap: float
     stiffness: float
+    rounding: float  # r: far below the elongation under load, else the play is shorter by several r
 
     def pulled(self, d: float) -> tuple[float, float]:
-        rounding = 0.01 * self.gap
+        rounding = self.rounding
         ahead, behind = (d - self.gap / 2) / rounding, (-d - self.gap / 2) / rounding
         force = self.stiffness * rounding * (_soft(ahead) - _soft(behind))
         return force, self.stiffness * (_step(ahead) + _step(behind))

@@ -60,7 +60,8 @@ def random_motion(random: np.random.Generator, kind: str, peak: float, duration:
         wave = np.sin(2 * np.pi * (low * time + (high - low) * time**2 / (2 * duration))) * (1 - 0.6 * time / duration)
     else:
         frequency = random.uniform(0.4, 1.2)
-        wave = np.sin(2 * np.pi * frequency * time) * (0.25 + 0.75 * np.floor(4 * time / duration + 1e-9) / 3)
+        levels = np.interp(4 * time / duration, [0.85, 1.15, 1.85, 2.15, 2.85, 3.15], [0.25, 0.5, 0.5, 0.75, 0.75, 1.0])
+        wave = np.sin(2 * np.pi * frequency * time) * levels
     wave = np.asarray(wave) * tapered(time, duration)
     return Motion(peak * wave / np.max(np.abs(wave)))
 

@@ -111,7 +111,7 @@ def drawn(random: np.random.Generator, name: str, size: float, scale: dict[str, 
             gap = x * random.uniform(0.3, 0.6)
             return DampedStop(size * f / (x - gap) ** 1.5, gap, v * random.uniform(0.3, 1.0))
         case "cubic_memory":
-            return CubicMemory(size * f / v**3, random.uniform(0.05, 0.3))
+            return CubicMemory(size * f / v**3, random.uniform(0.03, 0.1))
         case _:
             return PumpRipple(size, random.uniform(3.0, 7.0) / duration)
 
