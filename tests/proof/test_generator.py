@@ -91,9 +91,9 @@ def test_lambda_is_what_the_baseline_can_not_take_up() -> None:
     """In white noise: the energy of the effect beside the baseline's own response, over sigma^2."""
     noise = Colour(100.0, 1 / 256, 1e6, 0.0)
     spring = WAVE.sample(TIME)
-    absorbed = Absorbed(lambda numbers: numbers["k"] * spring, {"k": 1e6}, noise)
+    absorbed = Absorbed(lambda numbers: [numbers["k"] * spring], {"k": 1e6}, [noise])
     beside = 50 * np.cos(6 * np.pi * TIME)
-    assert absorbed.strength(1.1e6 * spring + beside) == pytest.approx(float(beside @ beside) / 1e4, rel=1e-3)
+    assert absorbed.strength([1.1e6 * spring + beside]) == pytest.approx(float(beside @ beside) / 1e4, rel=1e-3)
 
 
 LAW = HyperbolicTangent(1e5, 0.02, 0.05, 2e5, 8e4)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
+from tests.proof.generator import draw_structure as of_structure
 from tests.proof.generator import outside
 from tests.proof.generator.case import Case
 from tests.proof.generator.draw_specimen import FACTORS, IDS, OWN, PLACED, specimen_case
@@ -16,6 +18,7 @@ CLEAN = 0.3  # of the cases
 STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
 TOLD = 25.0  # the least lambda of two effects, or of one outside the library: below, nothing could be asked of a diagnosis
 SENSORS = ("sensor_offset", "sensor_drift", "sensor_time_skew", "sensor_clipping", "sensor_dropout")
+GROUND = tuple(f"input_{name}" for name in of_structure.INPUT)
 
 
 @dataclass(frozen=True)
@@ -79,6 +82,11 @@ def _law(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
     return {"law": str(random.choice(laws))}
 
 
+def _release(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
+    """A free vibration, unless the ground's error or the mass is to be seen."""
+    return {"free": bool(random.random() < 0.15 and not {*GROUND, "mass_error"} & set(names))}
+
+
 def _pairs() -> tuple[tuple[str, str], ...]:
     """Two effects that act independently: a connection takes only factors of the force beside it."""
     return tuple(
@@ -100,7 +108,20 @@ KINDS = {
         outside.NAMES,
         specimen_case,
         _law,
-    )
+    ),
+    "structure": Kind(
+        0.25,
+        {"plain": 0.4, "noise": 0.12, "small": 0.08, "missing": 0.12, "two": 0.14, "outside": 0.14},
+        (*of_structure.IDS, *GROUND),
+        tuple(
+            pair
+            for pair in combinations(of_structure.IDS, 2)
+            if "base_flexibility" not in pair and pair != ("cubic_stiffness", "gap_contact")
+        ),
+        of_structure.OUTSIDE,
+        of_structure.structure_case,
+        _release,
+    ),
 }
 
 

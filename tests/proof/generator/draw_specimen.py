@@ -221,7 +221,7 @@ def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: flo
     displacement_noise = float(random.uniform(3e-6, 2e-5))
     taken = displacement_noise * stiffness_against_noise(bench)
     noise = Colour(float(share * np.std(plain)), 1 / bench.rate, corner, flicker, taken)
-    absorbed = Absorbed(lambda numbers: bench.force([], bench.motion, numbers), bench.numbers, noise)
+    absorbed = Absorbed(lambda numbers: [bench.force([], bench.motion, numbers)], bench.numbers, [noise])
 
     def left(name: str, size: float) -> Left:
         if name in outside.NAMES:
@@ -231,11 +231,13 @@ def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: flo
 
     lefts = []
     for name in names:
-        size = sized(
-            lambda size, name=name: absorbed.strength(bench.force([left(name, size)], bench.motion)), wanted, FIRST, most(name)
-        )
+
+        def strength_of(size: float, name: str = name) -> float:
+            return absorbed.strength([bench.force([left(name, size)], bench.motion)])
+
+        size = sized(strength_of, wanted, FIRST, most(name))
         lefts.append(left(name, size))
-    strength = absorbed.strength(bench.force(lefts, bench.motion)) if lefts else None
+    strength = absorbed.strength([bench.force(lefts, bench.motion)]) if lefts else None
     other = bench.moved(float(random.uniform(0.6, 1.4)))
     fitting, heldout = (recorded(bench, lefts, one, noise, displacement_noise) for one in (bench.motion, other))
     planned = {name: value * (1 + random.uniform(-0.04, 0.04)) for name, value in bench.numbers.items()}
