@@ -36,8 +36,8 @@ def judged(truth: dict[str, Any], found: dict[str, Any]) -> dict[str, Any]:
     ranking = ranked(claimed, found)
     clean, outside = not true and not truth["outside"], truth["outside"] is not None
     unknown = any(one["id"] == "unknown" for one in effects) or (verdict == "undetermined" and not claimed)
-    where = located_at(found)
-    places = {one.partition("/")[0] for one in true} or {truth["about"].get("component", "specimen:1")}
+    where = place(located_at(found))
+    places = {place(one.partition("/")[0]) for one in true} or {place(truth["about"].get("component") or "specimen:1")}
     parameters = [errors(one, effects) for one in truth["effects"] if named(one) in claimed]
     return {
         "verdict": verdict,
@@ -79,6 +79,11 @@ def located_at(found: dict[str, Any]) -> str | None:
         return str(found["where"]["component"])
     off = [one for one in found.get("components") or [] if one["mismatch"]]
     return str(min(off, key=lambda one: one["p_value"])["component"]) if off else None
+
+
+def place(component: str | None) -> str | None:
+    """A component as it is located: a structure is one, whichever its storey."""
+    return "structure" if component and component.startswith("structure") else component
 
 
 def errors(effect: dict[str, Any], claimed: list[dict[str, Any]]) -> list[dict[str, Any]]:

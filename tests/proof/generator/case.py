@@ -18,6 +18,7 @@ class Recorded:
     dt: float
     shown: dict[str, Array]
     quiet: dict[str, Array]
+    start: float = 0.0
 
 
 @dataclass
@@ -49,6 +50,6 @@ class Case:
             folder.mkdir(parents=True)
         write_plan(shown / "plan.yaml", self.plan)
         for name, one in (("fit.h5", self.fitting), ("heldout.h5", self.heldout)):
-            write_recording(shown / name, self.truth.kind, one.dt, one.shown)
+            write_recording(shown / name, self.truth.kind, one.dt, one.shown, one.start)
             write_arrays(sealed / name, one.quiet)
         (sealed / "truth.json").write_text(json.dumps(asdict(self.truth), indent=1) + "\n", encoding="utf-8")

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.proof.generator import draw_rig as of_rig
 from tests.proof.generator import draw_structure as of_structure
 from tests.proof.generator import outside
 from tests.proof.generator.case import Case
@@ -19,6 +20,7 @@ STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
 TOLD = 25.0  # the least lambda of two effects, or of one outside the library: below, nothing could be asked of a diagnosis
 SENSORS = ("sensor_offset", "sensor_drift", "sensor_time_skew", "sensor_clipping", "sensor_dropout")
 GROUND = tuple(f"input_{name}" for name in of_structure.INPUT)
+SINGLE_PISTON = {"force_compliance", "backlash", "stick_friction"}  # the rig's piston has one of them
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,15 @@ def _law(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
     return {"law": str(random.choice(laws))}
 
 
+def _rig(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
+    """A rig that the effects are not numbers of already; oil gives way only under a damper that bears it without ringing."""
+    laws = ["mr_damper"] if "force_compliance" in names else [law for law, own in of_rig.OWN.items() if not own & set(names)]
+    second = bool(
+        random.random() < 0.4 and not set(names) & {"second_order_lag", "delay_error", "uneven_speed", "wandering_speed"}
+    )
+    return {"law": str(random.choice(laws)), "second": second}
+
+
 def _release(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
     """A free vibration, unless the ground's error or the mass is to be seen."""
     return {"free": bool(random.random() < 0.15 and not {*GROUND, "mass_error"} & set(names))}
@@ -101,7 +112,7 @@ def _pairs() -> tuple[tuple[str, str], ...]:
 
 KINDS = {
     "specimen": Kind(
-        0.5,
+        0.35,
         {"plain": 0.4, "noise": 0.15, "small": 0.1, "two": 0.17, "outside": 0.18},
         (*IDS, *SENSORS),
         _pairs(),
@@ -109,8 +120,21 @@ KINDS = {
         specimen_case,
         _law,
     ),
+    "actuator": Kind(
+        0.2,
+        {"plain": 0.45, "noise": 0.1, "small": 0.1, "missing": 0.1, "two": 0.1, "outside": 0.15},
+        (*of_rig.ACTUATOR, "sensor_offset", "sensor_drift", "sensor_clipping", "sensor_dropout"),
+        tuple(pair for pair in combinations(of_rig.ACTUATOR, 2) if not set(pair) <= SINGLE_PISTON),
+        of_rig.OUTSIDE,
+        of_rig.actuator_case,
+        _rig,
+    ),
+    "chain": Kind(0.05, {"missing": 1.0}, (*of_rig.SPECIMEN, *of_rig.ACTUATOR[:4]), (), (), of_rig.chain_case, _rig),
+    "hybrid": Kind(
+        0.2, {"compensated": 0.8, "small": 0.2}, (*of_rig.SPECIMEN, *of_rig.ACTUATOR), (), (), of_rig.hybrid_case, _rig
+    ),
     "structure": Kind(
-        0.25,
+        0.2,
         {"plain": 0.4, "noise": 0.12, "small": 0.08, "missing": 0.12, "two": 0.14, "outside": 0.14},
         (*of_structure.IDS, *GROUND),
         tuple(

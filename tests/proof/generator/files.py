@@ -21,7 +21,7 @@ def write_plan(path: Path, plan: dict[str, Any]) -> None:
         yaml.dump(plan, file)
 
 
-def write_recording(path: Path, test: str, dt: float, channels: dict[str, Array]) -> None:
+def write_recording(path: Path, test: str, dt: float, channels: dict[str, Array], start: float = 0.0) -> None:
     """`rths-measured/1` (docs/importing.md). Keys: `x_meas.1`, `ag`, ..."""
     with h5py.File(path, "w") as file:
         for key, values in channels.items():
@@ -30,7 +30,7 @@ def write_recording(path: Path, test: str, dt: float, channels: dict[str, Array]
             unit = UNITS[role] if role in UNITS else UNITS[role.split("_")[0]]
             dataset.attrs.update(role=role, number=int(number or 0), unit=unit, label=key, column=key)
         empty = dict.fromkeys(("source", "source_sha256", "mapping"), "")
-        file.attrs.update(schema="rths-measured/1", code_version="", dt=dt, start_s=0.0, test=test, title=path.stem, **empty)
+        file.attrs.update(schema="rths-measured/1", code_version="", dt=dt, start_s=start, test=test, title=path.stem, **empty)
         file.attrs["warnings"] = json.dumps([])
 
 

@@ -4,7 +4,8 @@
 
 y the noise-free outputs, y_0 those of the baseline, S the spectrum of each output's noise: N_eff times the squared misfit over
 sigma^2, with the noise's colour instead of an N_eff. d is how far a planned number may be off, infinite where it is free.
-The numbers are refitted to first order, which holds while the effect is small. S holds the noise of the displacement as the
+The numbers are refitted by REFITS steps of Gauss and Newton with the derivatives at the true numbers; the best of them counts,
+which makes lambda rather too large than too small where the effect is large. S holds the noise of the displacement as the
 baseline takes it to the output (`noise.Colour`).
 """
 
@@ -20,35 +21,44 @@ from tests.proof.generator.noise import Colour
 Outputs = list[Array]
 Output = Callable[[dict[str, float]], Outputs]
 SHIFT = 1e-3  # of a number, for its derivative
+REFITS = 3
+NEGLIGIBLE = 0.03  # of lambda
 
 
 class Absorbed:
-    """What the baseline's own numbers can take up of a misfit, by their derivatives. `tolerances` d are shares; none: free."""
+    """What the baseline's own numbers can take up of a misfit. `tolerances` d are shares of the numbers; none: free."""
 
     def __init__(
         self, output: Output, numbers: dict[str, float], noises: Sequence[Colour], tolerances: Sequence[float] = ()
     ) -> None:
-        self.noises, self.plain = noises, output(numbers)
-        moved = {name: value for name, value in numbers.items() if value}
-        columns = []
-        for name, value in moved.items():
-            shifted = output({**numbers, name: value * (1 + SHIFT)})
-            columns.append(self._white([(one - plain) / SHIFT for one, plain in zip(shifted, self.plain, strict=True)]))
-        self.held = len(tolerances)
-        rows = np.column_stack(columns)
-        if tolerances:
-            rows = np.vstack([rows, np.diag(1 / np.array(tolerances))])
-        self.basis = np.linalg.qr(rows / np.linalg.norm(rows, axis=0))[0]
-
-    def _white(self, signals: Outputs) -> Array:
-        return np.concatenate([noise.whitened(one) for noise, one in zip(self.noises, signals, strict=True)])
+        self.output, self.noises = output, noises
+        self.numbers = {name: value for name, value in numbers.items() if value}
+        self.fixed = {name: value for name, value in numbers.items() if not value}
+        self.held = 1 / np.array(tolerances) if tolerances else np.zeros(0)
+        plain, shifts = self._at(np.zeros(len(self.numbers))), SHIFT * np.eye(len(self.numbers))
+        columns = [self._white(self._at(shift), plain) / SHIFT for shift in shifts]
+        self.rows = np.vstack([np.column_stack(columns), np.diag(self.held) if tolerances else np.zeros((0, len(columns)))])
 
     def strength(self, outputs: Outputs) -> float:
         """lambda of the outputs."""
-        white = self._white([one - plain for one, plain in zip(outputs, self.plain, strict=True)])
-        white = np.concatenate([white, np.zeros(self.held)])
-        left = white - self.basis @ (self.basis.T @ white)
-        return float(left @ left)
+        shares = np.zeros(len(self.numbers))
+        best = np.inf
+        for _ in range(REFITS):
+            misfit = np.concatenate([self._white(outputs, self._at(shares)), -self.held * shares if len(self.held) else []])
+            best = min(best, float(misfit @ misfit))
+            step = np.linalg.lstsq(self.rows, misfit, rcond=1e-10)[0]
+            left = misfit - self.rows @ step
+            if best - left @ left < NEGLIGIBLE * best:
+                break
+            shares = np.clip(shares + step, -0.8, 4.0)
+        return best
+
+    def _at(self, shares: Array) -> Outputs:
+        moved = {name: value * (1 + share) for (name, value), share in zip(self.numbers.items(), shares, strict=True)}
+        return self.output({**self.fixed, **moved})
+
+    def _white(self, signals: Outputs, plain: Outputs) -> Array:
+        return np.concatenate([noise.whitened(one - two) for noise, one, two in zip(self.noises, signals, plain, strict=True)])
 
 
 def sized(strength: Callable[[float], float], wanted: float, first: float, most: float) -> float:
