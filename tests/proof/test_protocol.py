@@ -135,7 +135,7 @@ def test_the_same_seed_makes_the_same_cases_and_a_quarter_is_clean() -> None:
 
 
 def test_a_case_is_readable_diagnosed_and_its_truth_is_not_shown(tmp_path: Path) -> None:
-    spec = next(one for one in specs(60, 3) if one.level == "plain" and one.made.get("law") == "linear")
+    spec = next(one for one in specs(60, 3, "specimen/plain") if one.made["law"] == "linear")
     shown, sealed = tmp_path / "shown" / spec.name, tmp_path / "sealed" / spec.name
     spec.case().write(shown, sealed)
     plan, recording = Plan.from_yaml((shown / "plan.yaml").read_text()), load(shown / "fit.h5")
