@@ -74,6 +74,7 @@ def parser() -> argparse.ArgumentParser:
     )
     diagnose.add_argument("--level", type=float, default=0.01, help="rate of false alarms (default %(default)s)")
     diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the diagnosis as one JSON object")
+    diagnose.add_argument("--report", type=Path, metavar="OUT.html", help="write the diagnosis as one HTML file")
 
     prove = _command(commands, "prove", "app.cli_prove:prove", "prove diagnoses on recordings that conceal known physics")
     prove.add_argument("--cases", type=int, default=100, metavar="N", help="recordings to make (default %(default)s)")

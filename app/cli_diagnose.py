@@ -4,40 +4,50 @@ from __future__ import annotations
 
 import json
 from argparse import Namespace
+from pathlib import Path
 from typing import Any
 
 from app.cli_stability import plan_at
+from app.reports.diagnosis import report_html
+from app.shown import VERDICTS
 from rths_engine import files, measured
 from rths_engine.diagnosis import diagnose as engine
+from rths_engine.diagnosis.pictures import pictures
 from rths_engine.errors import Issue, PlanError
-
-WORDS = {
-    "consistent": "The recording is what the plan's models simulate, up to noise.",
-    "recalibrate": "The plan's models fit once their own parameters are moved: no new physics.",
-    "undetermined": "Something beyond noise remains, too small to tell what it is.",
-    "mismatch": "The models leave physics out.",
-    "configuration_error": "What the controller computed is not what the plan computes.",
-}
 
 
 def diagnose(given: Namespace) -> None:
     if not 0 < given.level < 1:
         raise PlanError(Issue("--level", "needs a rate of false alarms between 0 and 1", given.level, "0.01 is usual"))
-    if given.json and not given.json.parent.is_dir():
-        raise PlanError(Issue("--json", "there is no such folder", str(given.json.parent), "make it first"))
+    for option, path in (("--json", given.json), ("--report", given.report)):
+        if path and not path.parent.is_dir():
+            raise PlanError(Issue(option, "there is no such folder", str(path.parent), "make it first"))
     plan = plan_at(given.plan)
     heldout = [measured.load(path) for path in given.holdout]
     more = [measured.load(path) for path in given.more]
-    found = engine(plan, measured.load(given.recording), heldout, given.level, more=more).verdict
+    diagnosis = engine(plan, measured.load(given.recording), heldout, given.level, more=more)
+    found = diagnosis.verdict
     if given.json:
-        with files.temporary(given.json) as written:
-            written.write_text(json.dumps(found, indent=2, allow_nan=False) + "\n", encoding="utf-8")
-            written.replace(given.json)
+        _write(given.json, json.dumps(found, indent=2, allow_nan=False) + "\n")
+    if given.report:
+        _write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis)))
     print(_text(found))
 
 
+def _write(path: Path, text: str) -> None:
+    with files.temporary(path) as written:
+        written.write_text(text, encoding="utf-8")
+        written.replace(path)
+
+
+def _facts(given: Namespace) -> list[tuple[str, str]]:
+    heldout = [("Held out", ", ".join(path.name for path in given.holdout))] if given.holdout else []
+    more = [("Fitted too", ", ".join(path.name for path in given.more))] if given.more else []
+    return [("Recording", given.recording.name), *more, *heldout, ("Rate of false alarms", f"{given.level:g}")]
+
+
 def _text(found: dict[str, Any]) -> str:
-    lines = [WORDS[found["verdict"]]]
+    lines = [VERDICTS[found["verdict"]]]
     for one in found["components"]:
         off, noise = 100 * one["residual_nrmse"], 100 * one["noise_nrmse"]
         lines.append(f"{one['component']}: off by {off:.3g} % as planned, noise {noise:.2g} %, p = {one['p_value']:.2g}")

@@ -8,3 +8,11 @@ KINDS = {
 }
 # without a structure there is no energy to be fed into it
 SILENT = {"specimen": ("mti_mm2", "mee_kNm", "energy_error_percent"), "actuator": ("mee_kNm", "energy_error_percent")}
+# verdict of a diagnosis -> what it says
+VERDICTS = {
+    "consistent": "The recording is what the plan's models simulate, up to noise.",
+    "recalibrate": "The plan's models fit once their own parameters are moved: no new physics.",
+    "undetermined": "Something beyond noise remains, too small to tell what it is.",
+    "mismatch": "The models leave physics out.",
+    "configuration_error": "What the controller computed is not what the plan computes.",
+}

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from app.reports.decimate import extremes
 from rths_engine.arrays import Array
+from rths_engine.decimate import extremes
 from rths_engine.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel
 from rths_engine.measured.roles import ROLES, UNITS, dimension, shown
 

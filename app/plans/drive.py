@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from app.reports.decimate import extremes
+from rths_engine.decimate import extremes
 from rths_engine.errors import PlanError
 from rths_engine.excitation import Drive
 from rths_engine.part import Value, quantity, validated

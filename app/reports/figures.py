@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from app.reports.decimate import Samples, extremes, packed
+from app.reports.packed import Samples, packed
+from rths_engine.decimate import extremes
 from rths_engine.plan import Station
 
 POINTS = 130_000  # of all traces together: 2 x 4 bytes a point in base64 make 1.4 MB

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
-from functools import cache
-from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
+from app.reports import page
 from app.reports.excitation import excitation
 from app.reports.figures import Figures, Panel, station_panels
 from app.reports.plan_tables import Group, groups
@@ -21,7 +17,6 @@ from rths_engine.plan import Plan
 from rths_engine.recording import Recording
 from rths_engine.templates import PAPER
 
-_TEMPLATES = Path(__file__).parents[2] / "frontend" / "templates"
 Measure = tuple[str, str, str, int]  # field of the summary, heading, what it is, decimals
 _MEASURES = (
     ("mte_mm", "MTE, mm", "maximum tracking error", 2),
@@ -48,7 +43,8 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
         (number, station.name, station_panels(figures, f"s{number}", station, recording.plan.test))
         for number, station in enumerate(recording.plan.stations, start=1)
     ]
-    return _template().render(
+    return page.render(
+        "report.html",
         plan=recording.plan,
         verdict=_verdict(run, recording),
         facts=_facts(run, recording),
@@ -64,7 +60,6 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
         decay=_decay(recording),
         parts=_parts(recording),
         origin=_origin(run, recording),
-        plotly=_plotly(),
         fixed=_fixed,
     )
 
@@ -182,17 +177,3 @@ def _clock(moment: str | None) -> str:
     if not moment:
         return "–"
     return datetime.fromisoformat(moment).strftime("%Y-%m-%d %H:%M:%S UTC")
-
-
-@cache
-def _plotly() -> str:
-    """plotly.min.js of the installed wheel."""
-    return (files("plotly") / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
-
-
-@cache
-def _template() -> Any:
-    environment = Environment(
-        loader=FileSystemLoader(_TEMPLATES), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    return environment.get_template("report.html")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from app.cli import main
+from app.reports.page import plotly
 from rths_engine import recording
 from rths_engine.ground_motions import MotionLibrary
 from rths_engine.plan import Plan
@@ -91,3 +93,19 @@ def test_what_cant_be_diagnosed_is_refused_with_the_reason(
     assert main(["diagnose", *arguments]) == 2
     assert told in capsys.readouterr().err
     assert not list(folder.glob(".*.tmp"))
+
+
+def test_the_report_is_one_file_with_the_verdict_its_tables_and_its_plots(folder: Path) -> None:
+    out = folder / "report.html"
+    assert main(["diagnose", str(folder / "plan.yaml"), str(folder / "played.h5"), "--report", str(out)]) == 0
+    html = out.read_text(encoding="utf-8")
+    assert not re.search(r"<(script|link|img)[^>]+(src|href)=\"(?!data:)", html)
+    assert len(html.encode()) - len(plotly().encode()) < 1e6
+    assert "backlash was left out" in html.partition("<main>")[0]
+    for heading in ("Where recording and simulation differ", "What was left out", "Proof on what was not fitted"):
+        assert heading in html
+    specs = [json.loads(text) for text in re.findall(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)]
+    assert [row["name"] for row in specs[0]["rows"]] == ["actuator:1", "specimen:1"]
+    assert [trace["name"] for trace in specs[1]["traces"]] == ["Recording", "Before", "After"]
+    assert len(specs[1]["spans"]) == 3
+    assert "NaN" not in "".join(json.dumps(spec) for spec in specs)

@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.reports.decimate import extremes, packed
+from app.reports.packed import packed
 from app.reports.plan_tables import groups
 from app.reports.service import report_html
 from rths_engine import recording as recordings
 from rths_engine import templates
+from rths_engine.decimate import extremes
 from rths_engine.ground_motions import Motion, MotionLibrary, spectral_acceleration
 from rths_engine.plan import Plan, Station
 from rths_engine.recording import Recording
@@ -241,19 +242,19 @@ def test_the_report_needs_no_address_outside_itself(fourth: tuple[Recording, str
 
 
 def test_the_report_is_plotly_once_and_less_than_2_mb_besides(fourth: tuple[Recording, str]) -> None:
-    from app.reports.service import _plotly
+    from app.reports.page import plotly
 
-    assert fourth[1].count(_plotly()) == 1
-    assert len(fourth[1].encode()) - len(_plotly().encode()) < 2e6
+    assert fourth[1].count(plotly()) == 1
+    assert len(fourth[1].encode()) - len(plotly().encode()) < 2e6
 
 
 def test_many_stations_share_the_points_of_the_plots(tmp_path: Path) -> None:
-    from app.reports.service import _plotly
+    from app.reports.page import plotly
 
     station = templates.template("table3-04").stations[0]
     stations = tuple(station.model_copy(update={"name": f"S{j}", "dampers": 1}) for j in range(12))
     html = report_html(RUN, recorded(tmp_path, shortened("table3-04", stations=stations)))
-    assert len(html.encode()) - len(_plotly().encode()) < 2.5e6  # twelve stations' tables and alternative texts come on top
+    assert len(html.encode()) - len(plotly().encode()) < 2.5e6  # twelve stations' tables and alternative texts come on top
 
 
 def test_headings_descend_without_gaps_and_every_plot_and_table_is_named(fourth: tuple[Recording, str]) -> None:

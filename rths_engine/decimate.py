@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import base64
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-Samples = NDArray[np.floating[Any]]
+from rths_engine.arrays import Array
 
 
-def extremes(signals: Samples, buckets: int) -> NDArray[np.int64]:
+def extremes(signals: Array, buckets: int) -> NDArray[np.int64]:
     """Rows, in order, where a column of `signals` (samples, columns) is extreme in its bucket; all rows of a short signal."""
     count, columns = signals.shape
     size = -(-count // max(1, buckets))
@@ -24,8 +21,3 @@ def extremes(signals: Samples, buckets: int) -> NDArray[np.int64]:
         padded = np.pad(column, (0, -count % size), mode="edge").reshape(-1, size)
         kept += [starts + padded.argmin(axis=1), starts + padded.argmax(axis=1)]
     return np.unique(np.minimum(np.concatenate(kept), count - 1))
-
-
-def packed(values: Samples) -> dict[str, str]:
-    """A typed array as Plotly reads it out of JSON: base64 of little-endian float32."""
-    return {"dtype": "f4", "bdata": base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")}

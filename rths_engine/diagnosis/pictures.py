@@ -1,0 +1,177 @@
+"""What there is to see of a diagnosis as `rths-diagnosis-pictures/1`: recording, simulation before and after, what is left.
+
+SI throughout; `factor` and `shown` beside a unit tell how people read it (SI = factor * shown). Numbers that are not finite are
+null. "Before" is the planned model with its own numbers refitted, "after" the model chosen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from scipy.signal import welch
+
+from rths_engine.arrays import Array
+from rths_engine.decimate import extremes
+from rths_engine.diagnosis.components.structure import StructureData
+from rths_engine.diagnosis.judge import BLOCKS, ENDS, HELD_OUT, Judged
+from rths_engine.diagnosis.locate import BEYOND, place
+from rths_engine.diagnosis.noise import Noise
+from rths_engine.diagnosis.result import ORDER
+from rths_engine.diagnosis.verdict import Diagnosis
+from rths_engine.measured.roles import SHOWN, dimension, to_si
+
+SCHEMA = "rths-diagnosis-pictures/1"
+POINTS = 3000  # of a plot
+MOST_CHANNELS = 4  # of a component
+SEGMENTS = 8  # of a spectrum
+DIGITS = 6
+WELL = ("consistent", "recalibrate")
+MOTIONS = {"x": ("displacement", "m"), "v": ("velocity", "m/s"), "a": ("acceleration", "m/s^2")}
+
+
+def pictures(diagnosis: Diagnosis) -> dict[str, Any]:
+    """Every component over time; those whose models leave something out, at least the worst, in detail."""
+    worst = max(diagnosis.judged, key=lambda one: (ORDER.index(one.verdict), one.gain))
+    found = [_component(one, one is worst or one.verdict not in WELL) for one in diagnosis.judged]
+    return {"schema": SCHEMA, "components": found}
+
+
+def _component(one: Judged, detailed: bool) -> dict[str, Any]:
+    found = place(one)
+    return {
+        "component": one.component.name,
+        "title": one.name,
+        "output": one.component.output,
+        "verdict": one.verdict,
+        "mismatch": one.verdict not in WELL,
+        "over_time": {"time_s": _numbers(found.middle), "level": _numbers(found.level), "beyond": BEYOND},
+        "detail": _detail(one) if detailed else None,
+    }
+
+
+def _detail(one: Judged) -> dict[str, Any]:
+    data = one.recordings.data[0]
+    before, after = (one.recordings.predicted(model.parts)[0] for model in (one.selection.baseline, one.selection.chosen))
+    left = np.mean((data.measured - before) ** 2, axis=1) / np.maximum(np.var(data.measured, axis=1), 1e-300)
+    shown = sorted(np.argsort(-left)[:MOST_CHANNELS])
+    weights = one.recordings.weights[0]
+    return {
+        "channels": [
+            _channel(
+                _named(one, row),
+                data,
+                (data.measured[row], before[row], after[row]),
+                (one.recordings.noises[row], weights[row]),
+            )
+            for row in shown
+        ],
+        "state": _state(one, data, shown[0], before[shown[0]], after[shown[0]]),
+        "blocks": _blocks(data, before, after),
+        "held_out_recordings": [_whole(one, other) for other in one.heldout],
+        "noise_nrmse": _number(one.noise),
+    }
+
+
+def _named(one: Judged, row: int) -> dict[str, Any]:
+    data = one.recordings.data[0]
+    if isinstance(data, StructureData):
+        kind, floor, _ = data.floors[row]
+        name, unit = MOTIONS[kind]
+        return {"label": f"{name} of floor {floor}", **_unit(unit)}
+    return {"label": one.component.output, **_unit("N" if one.component.output == "force" else "m")}
+
+
+def _unit(unit: str) -> dict[str, Any]:
+    shown = SHOWN[dimension(unit)]
+    return {"unit": unit, "shown": shown, "factor": to_si(shown)[0]}
+
+
+def _channel(
+    named: dict[str, Any], data: Any, signals: tuple[Array, Array, Array], noise: tuple[Noise, Array]
+) -> dict[str, Any]:
+    measured, before, after = signals
+    residuals = np.array([measured - before, measured - after])
+    return {
+        **named,
+        "signals": _over_time(data.time, ("measured", "before", "after"), np.array(signals)),
+        "residuals": _over_time(data.time, ("before", "after"), residuals),
+        "spectra": _spectra(residuals, *noise, data.step),
+    }
+
+
+def _over_time(time: Array, names: Sequence[str], signals: Array) -> dict[str, Any]:
+    kept = extremes(signals.T, POINTS // (2 * len(names)))
+    return {"time_s": _numbers(time[kept]), **{name: _numbers(row[kept]) for name, row in zip(names, signals, strict=True)}}
+
+
+def _spectra(residuals: Array, noise: Noise, weights: Array, step: float) -> dict[str, Any]:
+    """Power spectral densities (unit^2/Hz) by Welch, and that of the noise model, larger where it reaches further."""
+    length = max(16, residuals.shape[1] // SEGMENTS)
+    frequency, power = welch(np.nan_to_num(residuals), 1 / step, nperseg=min(length, residuals.shape[1]))
+    turns = np.exp(-2j * np.pi * step * np.outer(frequency, np.arange(len(noise.coefficients))))
+    modelled = 2 * step * noise.sigma**2 / np.abs(turns @ noise.coefficients) ** 2 * np.mean(weights**-2.0)
+    lines = {"before": power[0], "after": power[1], "noise": modelled}
+    return {"frequency_hz": _numbers(frequency[1:]), **{name: _numbers(line[1:]) for name, line in lines.items()}}
+
+
+def _state(one: Judged, data: Any, row: int, before: Array, after: Array) -> dict[str, Any]:
+    """Output and residuals against displacement and velocity, every n-th sample."""
+    every = slice(None, None, -(-data.measured.shape[1] // POINTS))
+    axes = [{"label": signal.label, **_unit(signal.unit), "values": signal.values} for signal in one.component.signals(data)]
+    measured = data.measured[row]
+    lines = {
+        "measured": measured,
+        "before": before,
+        "after": after,
+        "residual_before": measured - before,
+        "residual_after": measured - after,
+    }
+    return {
+        "axes": [{**axis, "values": _numbers(axis["values"][every])} for axis in axes],
+        "output": _named(one, row),
+        **{name: _numbers(line[every]) for name, line in lines.items()},
+    }
+
+
+def _blocks(data: Any, before: Array, after: Array) -> list[dict[str, Any]]:
+    """NRMSE of each block in a row, over the RMS about the mean of the whole."""
+    count = data.measured.shape[1]
+    number, used = np.arange(count) * BLOCKS // count, _inner(count, data.step)
+    found = []
+    for block in range(BLOCKS):
+        rows = np.flatnonzero(number == block)
+        here = rows[used[rows]]
+        ends = {"from_s": _number(data.time[rows[0]]), "to_s": _number(data.time[rows[-1]] + data.step)}
+        errors = {
+            name: _nrmse(data.measured, model, here) if len(here) else None
+            for name, model in (("before", before), ("after", after))
+        }
+        found.append({**ends, "held_out": block in HELD_OUT, **errors})
+    return found
+
+
+def _whole(one: Judged, other: Any) -> dict[str, Any]:
+    rows = np.flatnonzero(_inner(other.measured.shape[1], other.step))
+    models = {"before": one.selection.baseline, "after": one.selection.chosen}
+    return {name: _nrmse(other.measured, one.component.predicted(model.parts, other), rows) for name, model in models.items()}
+
+
+def _inner(count: int, step: float) -> Any:
+    """True but at the ends, which the filters blur."""
+    place = np.arange(count) * step
+    return (place >= ENDS) & (place < count * step - ENDS)
+
+
+def _nrmse(measured: Array, simulated: Array, rows: Any) -> float | None:
+    spread = np.maximum(np.var(measured, axis=1), 1e-300)
+    return _number(float(np.sqrt(np.mean(np.mean((measured - simulated)[:, rows] ** 2, axis=1) / spread))))
+
+
+def _numbers(values: Array) -> list[float | None]:
+    return [_number(float(value)) for value in values]
+
+
+def _number(value: float) -> float | None:
+    return float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None
