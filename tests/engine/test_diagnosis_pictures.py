@@ -74,6 +74,6 @@ def test_pictures_are_light_and_hold_no_nan(shown: dict[str, Any]) -> None:
 
 
 def test_a_clean_recording_shows_its_worst_component_in_detail() -> None:
-    found = pictures(diagnose(made.plan(), made.recording(3)))
+    found = pictures(diagnose(made.plan(), made.recording(3), level=1e-9))
     (specimen,) = found["components"]
     assert not specimen["mismatch"] and specimen["detail"] is not None
