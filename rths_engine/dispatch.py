@@ -87,36 +87,36 @@ extend_storey = _extending(physics.STRUCTURE)
 
 
 @compiled
-def resisted(code, parameters, state, flexibility, x, dt):
+def resisted(code, parameters, state, flexibility, x, dt, before, last):
     """Displacement u and force f of a specimen behind a series flexibility: u + flexibility f(u) = x.
 
-    f rises with u within a substep, so that u lies between x and x - flexibility f(x): false position, Illinois variant.
+    f rises with u within a substep, so that u lies between x and x - flexibility f(x). Secants from the force `last`, kept
+    within the bracket that they find; `before` is room for the state.
     """
     if flexibility <= 0.0:
         return x, resist(code, parameters, state, x, dt)
-    before = state.copy()
-    force = resist(code, parameters, state, x, dt)
-    high, above = x, flexibility * force
-    low = x - above
-    state[:] = before
-    force = resist(code, parameters, state, low, dt)
-    below = low + flexibility * force - x
-    u, tolerance = low, 1e-8 * abs(above)
-    for _ in range(40):
-        if abs(below) <= tolerance or abs(above) <= tolerance or above == below:
-            break
-        u = (low * above - high * below) / (above - below)
-        state[:] = before
+    for k in range(state.size):
+        before[k] = state[k]
+    low, high = -np.inf, np.inf
+    u, u_old, left_old, force = x - flexibility * last, 0.0, 0.0, last
+    for turn in range(60):
+        for k in range(state.size):
+            state[k] = before[k]
         force = resist(code, parameters, state, u, dt)
         left = u + flexibility * force - x
-        if abs(left) <= tolerance:
+        if abs(left) <= 1e-8 * abs(flexibility * force) + 1e-16:
             break
-        if left * above > 0.0:
-            high, above = u, left
-            below *= 0.5
+        if left > 0.0:
+            high = min(high, u)
         else:
-            low, below = u, left
-            above *= 0.5
+            low = max(low, u)
+        slope = (left - left_old) / (u - u_old) if turn > 0 and u != u_old else 2.0
+        u_old, left_old = u, left
+        u -= left / max(slope, 1.0)
+        if not low < u < high:
+            u = 0.5 * (low + high) if np.isfinite(low) and np.isfinite(high) else u_old - left
+        if turn > 20 and np.isfinite(low) and np.isfinite(high):
+            u = 0.5 * (low + high)
     return u, force
 
 

@@ -120,7 +120,8 @@ def _extended_rig(j, setup, state, left_out, x_comp, noise, t):
     v = (x - before) / dt
     u = extend_specimen(INPUT, effects, x, x, v, force, t, dt)
     flexibility = extend_specimen(SERIES, effects, 0.0, x, v, force, t, dt)
-    u, force = resisted(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], flexibility, u, dt)
+    own_state = parts[SPECIMEN, j]
+    u, force = resisted(codes[SPECIMEN], parameters[SPECIMEN, j], own_state, flexibility, u, dt, own_state.copy(), force)
     force = extend_specimen(FORCE, effects, force, u, (u - memory[X_END]) / dt, 1.0, t, dt)
     memory[X_TRUE], memory[V_TRUE], memory[X_SENT], memory[X_END], memory[F_TRUE] = x, v, sent, u, force
     x_meas = extend_sensor(X_SENSOR, effects, x + noise[0], x, v, x, t, dt)

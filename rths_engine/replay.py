@@ -72,14 +72,16 @@ def _stepping(extended: Sequence[Effect]) -> list[Effect]:
 
 @entry
 def _specimen(x, current, start, dt, code, parameters, state, extended, force):
-    f, last, last_u = 0.0, x[0], x[0]
+    f, inner, last, last_u = 0.0, 0.0, x[0], x[0]
+    before = np.empty(state.size)
     for q in range(x.size):
         t = start + q * dt
         v = (x[q] - last) / dt
         last = x[q]
         u = extend_specimen(INPUT, extended, x[q], x[q], v, f, t, dt)
         flexibility = extend_specimen(SERIES, extended, 0.0, x[q], v, f, t, dt)
-        u, f = resisted(code, parameters, state, flexibility, u, dt)
+        u, f = resisted(code, parameters, state, flexibility, u, dt, before, inner)
+        inner = f
         f = extend_specimen(FORCE, extended, f, u, (u - last_u) / dt, current[q], t, dt)
         last_u = u
         force[q] = extend_sensor(F_SENSOR, extended, f, x[q], v, f, t, dt)

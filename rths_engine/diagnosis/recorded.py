@@ -18,6 +18,7 @@ from rths_engine.diagnosis.components import (
     Component,
     Specimen,
     SpecimenData,
+    StepError,
     Structure,
     StructureData,
     based,
@@ -77,7 +78,7 @@ def _same_rate(plan: Plan, recording: Measured) -> bool:
 
 def _stations(plan: Plan, recording: Measured) -> list[Pair]:
     found: list[Pair] = []
-    skew = () if recording.of_run else (ClockSkew(),)
+    skew = () if recording.of_run else (ClockSkew(), StepError())
     base = (recording.dt, recording.start, recording.of_run)
     for number, station in enumerate(plan.stations, start=1):
         x, force = _moving(recording, "x_meas", number), _moving(recording, "f_meas", number)

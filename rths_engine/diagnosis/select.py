@@ -19,7 +19,7 @@ from rths_engine.physics.effect import Effect
 from rths_engine.physics.sensor.offset import ForceOffset
 
 MOST_EFFECTS = 3  # beside the load cell's zero
-TRIED = 8
+TRIED = 6
 WEAK = 0.25  # of the best score: weaker effects are not tried
 HOPELESS = 60.0  # of BIC behind the best
 FINAL = 8  # evaluations of a fit that only the noise has changed
@@ -48,6 +48,7 @@ def select(
     """`told` hears the share of the work done."""
     plain = first_noise(recordings)
     rough = fit(plain, recordings.component.base)
+    recordings.component.settle(rough.parts, recordings.data)
     plain = weighted(plain, rough, random)
     recordings = with_noise(plain, rough)
     chosen = fit(recordings, rough.parts)
@@ -68,6 +69,7 @@ def select(
         if best.bic > chosen.bic - max(WORTH, MATERIAL * (first - best.bic)):
             break
         tried += fits
+        recordings.component.settle(best.parts, recordings.data)
         recordings = with_noise(recordings, best)
         chosen = fit(recordings, best.parts)
     tried += _simplified(recordings, chosen)

@@ -16,6 +16,8 @@ from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
 
 DRAWS = 4
+ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
+ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan
 NOTHING = 1e-9  # of the misfit: a signature so small says nothing
 
 
@@ -49,8 +51,11 @@ def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
 
     def left(guess: Effect) -> tuple[Array, float, float] | None:
         change = recordings.joined(recordings.predicted([*fitted.parts, guess])) - before
-        beyond = _beyond(change, absorbed)
-        return None if beyond is None else (*beyond, float(abs(change @ moved)) / float(np.linalg.norm(change)))
+        beyond, size = _beyond(change, absorbed), float(np.linalg.norm(change))
+        along = float(abs(change @ moved)) / max(size, 1e-300)
+        if beyond is None or (beyond[1] < ABSORBED * size and along < ALONG):
+            return None
+        return *beyond, along
 
     found = [(guess, row) for guess, row in zip(guesses, each(left, guesses), strict=True) if row is not None]
     return Signatures(

@@ -3,7 +3,7 @@
 from rths_engine.diagnosis.components.actuator import Actuator, ActuatorData
 from rths_engine.diagnosis.components.chain import Chain, ChainData
 from rths_engine.diagnosis.components.component import Component, Data
-from rths_engine.diagnosis.components.specimen import ClockSkew, Specimen, SpecimenData
+from rths_engine.diagnosis.components.specimen import ClockSkew, Specimen, SpecimenData, StepError
 from rths_engine.diagnosis.components.structure import Structure, StructureData, based
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "Data",
     "Specimen",
     "SpecimenData",
+    "StepError",
     "Structure",
     "StructureData",
     "based",

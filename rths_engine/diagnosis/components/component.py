@@ -17,7 +17,7 @@ from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
 from rths_engine.physics.sensor.channel import Reading
 
-REPLAY_RATE = 2048.0  # Hz
+REPLAY_RATE = 1024.0  # Hz
 
 
 class Signal(NamedTuple):
@@ -77,11 +77,12 @@ class Data(ABC):
         not come from such steps, is replayed in finer ones."""
         return 1 if self.stepped else max(1, int(np.ceil(REPLAY_RATE * self.dt - 1e-9)))
 
-    def refined(self, signal: Array) -> Array:
-        """At the replay's steps, a quarter of one early: midway between what velocity and displacement need."""
+    def refined(self, signal: Array, more: int = 1) -> Array:
+        """At the replay's steps, or `more` times as fine, a quarter of one early: midway between what velocity and
+        displacement need."""
         if self.stepped:
             return signal
-        n = self.finer
+        n = self.finer * more
         place = np.arange(len(signal))
         at = np.clip(place[0] + np.arange(len(signal) * n) / n + 0.25 / n, 0, place[-1])
         return np.asarray(CubicSpline(place, signal)(at))
@@ -119,6 +120,10 @@ class Component(ABC):
     @abstractmethod
     def predicted(self, parts: Sequence[Any], data: Any) -> Array:
         """(channels, n) of the output in the band of the comparison, of the base parts and the effects that follow."""
+
+    def settle(self, parts: Sequence[Any], data: Sequence[Any]) -> None:
+        """Find what the replay's steps do to the output, once the parts are nearly fitted."""
+        return None
 
     @abstractmethod
     def hypotheses(self, data: Any) -> Iterator[Effect]:

@@ -46,8 +46,9 @@ class SpecimenData(Data):
         return self.refined(self.smooth)
 
     @cached_property
-    def fine_current(self) -> Array:
-        return np.repeat(self.current, self.finer)
+    def step_error(self) -> Array | None:
+        """(1, n) of what steps half as long do to the force; None until it is found."""
+        return None
 
     @cached_property
     def input_noise(self) -> float:
@@ -57,6 +58,7 @@ class SpecimenData(Data):
         noise = filtered(self.input_noise * random.standard_normal(len(self.x)), self.dt, self.cut)
         drawn = replace(self)
         drawn.__dict__["smooth"] = self.smooth + noise
+        drawn.__dict__["step_error"] = self.step_error
         return drawn
 
     @cached_property
@@ -76,7 +78,14 @@ class ClockSkew(Loose):
     scale: ClassVar[float] = 1e-3
 
 
-SKEW = 0.25  # ms, standard deviation
+class StepError(Loose):
+    """Share of the difference that steps half as long make."""
+
+    share: float = quantity("Error of the replay's steps", ge=-5, le=5, default=0.0)
+    scale: ClassVar[float] = 1.0
+
+
+SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 2.0}  # ms; of the difference, 2 if of first order
 
 
 @dataclass(frozen=True)
@@ -87,17 +96,24 @@ class Specimen(Component):
     output: ClassVar[str] = "force"
 
     def spread(self, part: Part) -> float | None:
-        return SKEW if isinstance(part, ClockSkew) else None
+        return SPREADS.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
         n = data.finer
-        effects = [part for part in parts[1:] if isinstance(part, Effect)]
-        force = replay.specimen(parts[0], effects, data.fine, data.fine_current, data.dt / n, data.start)
+        force = _force(parts, data.fine, np.repeat(data.current, n), data.dt / n, data.start)
         late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
-        if late:
-            place = np.arange(0, len(force), n) - late
-            return data.reduced(np.interp(place, np.arange(len(force)), force)[None])
-        return data.reduced(force[None, ::n])
+        place = np.arange(0, len(force), n) - late
+        found = data.reduced(np.interp(place, np.arange(len(force)), force)[None] if late else force[None, ::n])
+        share = sum(part.share for part in parts if isinstance(part, StepError))
+        return found if data.step_error is None else found + share * data.step_error
+
+    def settle(self, parts: Sequence[Any], data: Sequence[SpecimenData]) -> None:
+        for one in data:
+            if not one.stepped:
+                n = one.finer
+                half = _force(parts, one.refined(one.smooth, 2), np.repeat(one.current, 2 * n), one.dt / (2 * n), one.start)
+                whole = _force(parts, one.fine, np.repeat(one.current, n), one.dt / n, one.start)
+                one.__dict__["step_error"] = one.reduced((half[:: 2 * n] - whole[::n])[None])
 
     def hypotheses(self, data: SpecimenData) -> Iterator[Effect]:
         seen = data.seen()
@@ -114,3 +130,7 @@ class Specimen(Component):
     def signals(self, data: SpecimenData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.smooth, data.velocity]))
         return Signal("displacement", "m", "mm", x), Signal("velocity", "m/s", "mm/s", v)
+
+
+def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, start: float) -> Array:
+    return replay.specimen(parts[0], [part for part in parts[1:] if isinstance(part, Effect)], x, current, dt, start)
