@@ -11,7 +11,7 @@ from rths_engine.diagnosis.fitting import Fitted
 NORMAL_90 = 1.6448536269514722  # standard deviations each way
 
 
-MATERIAL = 0.01  # of all that effects account for: models nearer than that are told apart by their numbers alone
+MATERIAL = 0.02  # of all that effects account for: models nearer than that are told apart by their numbers alone
 
 
 def weighed(tried: Sequence[Fitted], before: float) -> list[float]:
