@@ -6,6 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from tests.proof import oracle
+
 QUIET = ("consistent", "recalibrate")
 NOTHING = ("none", "unknown")
 
@@ -13,18 +15,23 @@ NOTHING = ("none", "unknown")
 def scored(shown: Path, sealed: Path, found: dict[str, Any] | None, run: dict[str, Any]) -> dict[str, Any]:
     """The row of a case. `found` is its diagnosis, None where there is none."""
     truth = json.loads((sealed / "truth.json").read_text(encoding="utf-8"))
+    row = judged(truth, found or {})
+    known = oracle.judged(shown, sealed, row["heldout"])
+    strengths = [one for one in (truth["strength"], known["lambda_rival"]) if one is not None]
     return {
         "case": shown.name,
-        "kind": truth["kind"],
+        "kind": shown.name.split("-")[1],
         "level": truth["level"],
         "about": truth["about"],
         "truth": [named(one) for one in truth["effects"]],
         "outside": truth["outside"],
-        "lambda": truth["strength"],
+        "lambda": min(strengths, default=None),
+        "lambda_baseline": truth["strength"],
         "exit": run["exit"],
         "said": run["said"],
         "seconds": run["seconds"],
-        **judged(truth, found or {}),
+        **known,
+        **row,
     }
 
 
