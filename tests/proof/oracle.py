@@ -1,4 +1,4 @@
-"""An oracle: it knows the right structure and the inputs without noise, and fits it and its rivals to the true output.
+"""An oracle: it knows the right structure, the inputs without noise and the noise that a reader has to reckon with (S of lambda).
 
 lambda_rival = min over rivals r of chi^2_r - chi^2_true, both at their best fit to the noise-free output, in the noise's units.
 It names an effect first where chi^2 + k ln N of the right structure on the noisy output is below that of the baseline and of
@@ -7,7 +7,6 @@ every rival: the effect's relatives in the library, on the same storey.
 
 from __future__ import annotations
 
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -26,18 +25,18 @@ WORTHWHILE = 0.02  # of the baseline's error: a gain below is no gain to share i
 
 
 class Fit:
-    """A model's best fit to the noise-free output."""
+    """A model's best fit to an output, that without noise unless another is given."""
 
-    def __init__(self, of: Oracle, parts: tuple[Any, ...]) -> None:
+    def __init__(self, of: Oracle, parts: tuple[Any, ...], output: list[Array] | None = None) -> None:
         self.of, self.parts, self.free = of, parts, _numbers(parts, len(of.model.base))
         start = np.zeros(len(self.free))
         held = np.array(of.model.tolerances[: sum(place < len(of.model.base) for place, *_ in self.free)])
 
         def misfit(z: Array) -> Array:
-            return np.concatenate([of.white(of.model.out(self.at(z), 0), of.quiet[0]), z[: len(held)] / held])
+            return np.concatenate([of.white(of.model.out(self.at(z), 0), output or of.quiet[0]), z[: len(held)] / held])
 
         solved = least_squares(misfit, start, diff_step=1e-3, x_scale="jac", max_nfev=EVALUATIONS, ftol=1e-4)
-        self.fitted, self.squared = self.at(solved.x), float(solved.fun @ solved.fun)
+        self.fitted, self.squared, self.jacobian = self.at(solved.x), float(solved.fun @ solved.fun), solved.jac
 
     def at(self, z: Array) -> tuple[Any, ...]:
         changes: list[dict[str, float]] = [{} for _ in self.parts]
@@ -66,13 +65,12 @@ class Oracle:
         found = model(case)
         assert found is not None
         self.case, self.model = case, found
-        known = {one.name for one in fields(Colour)}
-        noise = Colour(**{key: value for key, value in case.truth["noise"].items() if key in known} | {"taken": 0.0})
+        noise = Colour(**case.truth["noise"])
         self.quiet = [[one[key] for key in found.keys] for one in case.quiet]
         self.noisy = [[one[key] for key in found.keys] for one in case.shown]
         first = float(np.std(self.quiet[0][0]))
         scales = [float(np.std(one)) / first for one in self.quiet[0]]
-        self.noises = [Colour(noise.sigma * scale, noise.step, noise.corner, noise.share) for scale in scales]
+        self.noises = [Colour(noise.sigma * scale, noise.step, noise.corner, noise.share, noise.taken) for scale in scales]
 
     def white(self, ours: list[Array], real: list[Array]) -> Array:
         rows = [noise.whitened(true - one) for noise, one, true in zip(self.noises, ours, real, strict=True)]

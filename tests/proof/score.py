@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from tests.proof import oracle
+from tests.proof import oracle, peer
 
 QUIET = ("consistent", "recalibrate")
 NOTHING = ("none", "unknown")
@@ -31,6 +31,7 @@ def scored(shown: Path, sealed: Path, found: dict[str, Any] | None, run: dict[st
         "said": run["said"],
         "seconds": run["seconds"],
         **known,
+        **peer.judged(shown, sealed, truth),
         **row,
     }
 

@@ -51,8 +51,9 @@ def summary(rows: list[Row]) -> Row:
     found["interval90_coverage"] = by_class(rows, coverage)
     found["calibration_error"] = calibration(rows)
     found["by_level"] = {level: one_level([row for row in rows if row["level"] == level]) for level in levels(rows)}
-    if all(row.get("peer_named_first") is None for row in rows):
-        found["peer_named_first_rate"] = None
+    met = [row for row in rows if row.get("peer_named_first") is not None]
+    found["named_first_rate_where_peer"] = by_class(met, lambda some: rate(some, "named_first")) if met else None
+    found["peer_named_first_rate"] = found["peer_named_first_rate"] if met else None
     return found
 
 

@@ -6,13 +6,15 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from app.cli import main
 from rths_engine.measured.store import load
 from rths_engine.plan import Plan
-from tests.proof import score, seals, summary, table
+from tests.proof import oracle, peer, score, seals, summary, table
 from tests.proof.generator.draw import specs
+from tests.proof.generator.draw_specimen import specimen_case
 from tests.proof.proving import diagnosed
 
 TRUTH: dict[str, Any] = {"effects": [], "outside": None, "about": {}}
@@ -151,6 +153,28 @@ def test_a_case_is_readable_diagnosed_and_its_truth_is_not_shown(tmp_path: Path)
         f"{one['component']}/{one['id']}" for one in json.loads((sealed / "truth.json").read_text())["effects"]
     ]
     assert row["lambda"] > 0 and row["verdict"] == found["verdict"]
+
+
+def test_an_oracle_names_a_strong_effect_and_has_all_of_its_own_gain(tmp_path: Path) -> None:
+    case = specimen_case(4, "plain", law="linear", names=["pinching"], wanted=300.0)
+    case.write(tmp_path / "shown", tmp_path / "sealed")
+    known = oracle.judged(tmp_path / "shown", tmp_path / "sealed", {"baseline": None, "extended": None})
+    assert known["oracle_named_first"] is True
+    assert 25 < known["lambda_rival"] <= 1.05 * case.truth.strength  # the baseline is one of the rivals, refitted once more
+    assert oracle.gain_share(0.05, 0.01, {"baseline": 0.06, "extended": 0.02}) == pytest.approx(1.0)
+    assert oracle.gain_share(0.05, 0.0499, {"baseline": 0.06, "extended": 0.02}) is None
+
+
+@pytest.mark.skipif(not peer.installed(), reason="PySINDy is not installed (pip install '.[peer]')")
+def test_the_peer_finds_the_term_that_is_there_and_none_in_noise() -> None:
+    random = np.random.default_rng(1)
+    rows, noise = random.standard_normal((400, 3)), random.standard_normal(400)
+    assert peer.chosen(rows, 2 * rows[:, 1] + noise, ["one", "two 5", "three"]) == "two"
+    assert peer.chosen(rows, noise, ["one", "two", "three"]) == "none"
+
+
+def test_a_stop_yields_at_its_reach() -> None:
+    assert peer.stop(np.array([0.0, 0.5, 2.0, 1.5, -3.0]), 1.0).tolist() == [0.0, 0.5, 1.0, 0.5, -1.0]
 
 
 @pytest.mark.parametrize(
