@@ -1,4 +1,4 @@
-"""An oracle: it knows the right structure, the inputs without noise and the noise that a reader has to reckon with (S of lambda).
+"""An oracle: it knows the right structure, the inputs without noise and the spectrum of the noise (S of lambda).
 
 lambda_rival = min over rivals r of chi^2_r - chi^2_true, both at their best fit to the noise-free output, in the noise's units.
 It names an effect first where chi^2 + k ln N of the right structure on the noisy output is below that of the baseline and of
