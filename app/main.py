@@ -15,6 +15,7 @@ from fastapi.staticfiles import StaticFiles
 from app import db, pages, problems
 from app import queue as durable
 from app.config import Settings, from_environment
+from app.diagnoses.endpoints import router as diagnoses
 from app.guard import Guard
 from app.health import router as health
 from app.live.endpoints import router as live
@@ -48,7 +49,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = configured
     app.state.hub = Hub()
     problems.install(app)
-    for router in (runs, motions, plans, stability, table4, health, live):
+    for router in (runs, motions, plans, diagnoses, stability, table4, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")

@@ -134,6 +134,59 @@ class MeasuredRecording(Base):
         return (self.samples - 1) * self.dt_s
 
 
+class Diagnosis(Base):
+    """What a recording says of a plan's models: a job of the queue, and its result once it is done."""
+
+    __tablename__ = "diagnosis"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    name: Mapped[str] = mapped_column(sa.String(200))
+    plan: Mapped[dict[str, Any]] = mapped_column(deferred=True)
+    level: Mapped[float]
+    code_version: Mapped[str] = mapped_column(sa.String(40))
+    state: Mapped[State] = mapped_column(sa.Enum(State, native_enum=False, length=16, values_callable=State.values), index=True)
+    submitted_by: Mapped[str] = mapped_column(sa.String(80))
+    submitted_at: Mapped[datetime]
+    started_at: Mapped[datetime | None]
+    finished_at: Mapped[datetime | None]
+    cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
+    attempt: Mapped[int] = mapped_column(default=0)
+    worker: Mapped[str | None] = mapped_column(sa.String(80))
+    reason: Mapped[str | None] = mapped_column(sa.Text)
+    doing: Mapped[str] = mapped_column(sa.String(200), default="")
+    share: Mapped[float] = mapped_column(default=0.0)
+    found: Mapped[str | None] = mapped_column(sa.String(24))
+    sentence: Mapped[str | None] = mapped_column(sa.Text)
+    verdict: Mapped[dict[str, Any] | None] = mapped_column(sa.JSON(none_as_null=True), deferred=True)
+    pictures: Mapped[dict[str, Any] | None] = mapped_column(sa.JSON(none_as_null=True), deferred=True)
+    before_id: Mapped[str | None] = mapped_column(sa.ForeignKey("run.id"))
+    after_id: Mapped[str | None] = mapped_column(sa.ForeignKey("run.id"))
+    inputs: Mapped[list[DiagnosisInput]] = relationship(
+        order_by="DiagnosisInput.place", cascade="all, delete-orphan", lazy="selectin"
+    )
+
+    @property
+    def recording(self) -> DiagnosisInput:
+        return self.inputs[0]
+
+    @property
+    def heldout(self) -> list[DiagnosisInput]:
+        return self.inputs[1:]
+
+
+class DiagnosisInput(Base):
+    """A recording that a diagnosis reads, imported or of a run: the first is fitted, the others are held out."""
+
+    __tablename__ = "diagnosis_input"
+
+    diagnosis_number: Mapped[int] = mapped_column(sa.ForeignKey("diagnosis.number", ondelete="CASCADE"), primary_key=True)
+    place: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str] = mapped_column(sa.String(200))
+    recording_id: Mapped[str | None] = mapped_column(sa.ForeignKey("measured_recording.id"), index=True)
+    run_id: Mapped[str | None] = mapped_column(sa.ForeignKey("run.id"))
+
+
 class QueueState(Base):
     """Whether the queue is held: one row."""
 

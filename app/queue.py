@@ -1,16 +1,25 @@
-"""The durable queue: DBOS on the application's own database. Delivery is at least once; a run's row decides what counts."""
+"""The durable queue: DBOS on the application's own database. Delivery is at least once; a job's row decides what counts."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
+from typing import NamedTuple
 
 import sqlalchemy as sa
 from dbos import DBOS, DBOSClient, EnqueueOptions
 from sqlalchemy.orm import Session
 
-QUEUE = "tests"
-WORKFLOW = "run-test"
+
+class Work(NamedTuple):
+    """A kind of job: the queue it waits in and the workflow that does it."""
+
+    queue: str
+    workflow: str
+
+
+TESTS = Work("tests", "run-test")
+DIAGNOSES = Work("diagnoses", "diagnose")
 APPLICATION = "rths"
 VERSION = "1"  # pinned: editing the workflow must not strand tests that wait in the queue
 POLLING_S = 0.1
@@ -24,20 +33,20 @@ def migrate(url: str) -> None:
 
 
 class DurableQueue:
-    """The web's side of the queue: a run's workflow is enqueued in the transaction that inserts its row."""
+    """The web's side of the queue: a job's workflow is enqueued in the transaction that inserts its row."""
 
     def __init__(self, engine: sa.Engine):
         self.client = DBOSClient(system_database_engine=engine, application_name=APPLICATION)
 
-    def enqueue(self, session: Session, run_ids: Sequence[str]) -> None:
-        for run_id in run_ids:
+    def enqueue(self, session: Session, ids: Sequence[str], work: Work = TESTS) -> None:
+        for one in ids:
             options: EnqueueOptions = {
-                "workflow_name": WORKFLOW,
-                "queue_name": QUEUE,
-                "workflow_id": run_id,
+                "workflow_name": work.workflow,
+                "queue_name": work.queue,
+                "workflow_id": one,
                 "app_version": VERSION,
             }
-            self.client.enqueue_in_transaction(session, options, run_id)
+            self.client.enqueue_in_transaction(session, options, one)
 
     def purge(self) -> int:
         """Delete the records of workflows that ended long ago; returns how many."""

@@ -1,4 +1,4 @@
-"""A worker: takes tests from the queue and executes them. `python -m app.worker` starts one anywhere with the same database."""
+"""A worker: takes tests and diagnoses from their queues. `python -m app.worker` starts one anywhere with the same database."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app.config import Settings, from_environment
 from app.db import connect, sessions, unit_of_work
-from app.queue import APPLICATION, POLLING_S, QUEUE, VERSION, WORKFLOW
+from app.queue import APPLICATION, DIAGNOSES, POLLING_S, TESTS, VERSION
 from app.runs.repository import RunRepository
 from app.runs.service import MOST_ATTEMPTS, WORKER_SILENCE
+from app.worker.diagnoser import Diagnoser
 from app.worker.executor import Executor
 from app.worker.link import Link
 
@@ -57,7 +58,7 @@ def work(settings: Settings, web: str, name: str) -> None:
     maker = sessions(engine)
     link = Link(f"{web}/api/v1/worker", settings.worker_token)
     executor = Executor(settings, maker, link, name)
-    _register(executor)
+    _register(executor, Diagnoser(settings, maker, name))
     DBOS(
         config={
             "name": APPLICATION,
@@ -69,24 +70,35 @@ def work(settings: Settings, web: str, name: str) -> None:
         }
     )
     DBOS.launch()
-    DBOS.register_queue(
-        QUEUE, worker_concurrency=settings.worker_concurrency, polling_interval_sec=POLLING_S, on_conflict="always_update"
-    )
+    for work, at_a_time in ((TESTS, settings.worker_concurrency), (DIAGNOSES, 1)):
+        DBOS.register_queue(
+            work.queue, worker_concurrency=at_a_time, polling_interval_sec=POLLING_S, on_conflict="always_update"
+        )
     _watch(executor, maker, name)
 
 
-def _register(executor: Executor) -> None:
-    @DBOS.step(name="execute", retries_allowed=True, max_attempts=MOST_ATTEMPTS + 1)  # the last one parks the run
+def _register(executor: Executor, diagnoser: Diagnoser) -> None:
+    attempts = MOST_ATTEMPTS + 1  # the last one parks the job
+
+    @DBOS.step(name="execute", retries_allowed=True, max_attempts=attempts)
     def execute(run_id: str) -> None:
         executor.execute(run_id)
 
-    @DBOS.workflow(name=WORKFLOW, max_recovery_attempts=None)
+    @DBOS.workflow(name=TESTS.workflow, max_recovery_attempts=None)
     def run_test(run_id: str) -> None:
         execute(run_id)
 
+    @DBOS.step(name="diagnose", retries_allowed=True, max_attempts=attempts)
+    def diagnose(diagnosis_id: str) -> None:
+        diagnoser.execute(diagnosis_id)
+
+    @DBOS.workflow(name=DIAGNOSES.workflow, max_recovery_attempts=None)
+    def run_diagnosis(diagnosis_id: str) -> None:
+        diagnose(diagnosis_id)
+
 
 def _watch(executor: Executor, maker: sessionmaker[Session], name: str) -> None:
-    """Pass on cancels, say that this worker is alive, and take over the tests of workers that are not."""
+    """Pass on cancels, say that this worker is alive, and take over the jobs of workers that are not."""
     beaten = 0.0
     while True:
         try:
@@ -106,7 +118,7 @@ def _beat(maker: sessionmaker[Session], name: str) -> None:
         silent = runs.silent_workers(datetime.now(UTC) - WORKER_SILENCE)
     for dead in silent:
         for workflow in DBOS.list_workflows(status="PENDING", executor_id=dead):
-            DBOS.resume_workflow(workflow.workflow_id, queue_name=QUEUE)
+            DBOS.resume_workflow(workflow.workflow_id, queue_name=workflow.queue_name)
         with unit_of_work(maker) as session:
             RunRepository(session).forget_worker(dead)
 

@@ -1,0 +1,23 @@
+"""The diagnoses' service of a request."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends, Request
+
+from app.dependencies import OneSession
+from app.diagnoses.service import DiagnosisService
+from app.diagnoses.sources import Sources
+from app.measured.dependency import Recordings
+from app.plans.dependency import Plans
+from app.runs.dependency import Runs
+
+
+def diagnosis_service(
+    request: Request, session: OneSession, runs: Runs, recordings: Recordings, plans: Plans
+) -> DiagnosisService:
+    return DiagnosisService(session, Sources(runs, recordings, plans), request.app.state.queue)
+
+
+Diagnoses = Annotated[DiagnosisService, Depends(diagnosis_service)]

@@ -1,0 +1,76 @@
+"""REST of diagnoses."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query
+from fastapi.responses import HTMLResponse
+
+from app.diagnoses import exports
+from app.diagnoses.dependency import Diagnoses
+from app.diagnoses.schemas import Asked, DiagnosisDetail, DiagnosisList, DiagnosisOut, Simulations
+from app.runs.schemas import Person, RunOut
+
+router = APIRouter(prefix="/api/v1/diagnoses", tags=["diagnoses"])
+NOBODY = Person()
+
+
+@router.post("", status_code=201)
+def submit(asked: Annotated[Asked, Body()], diagnoses: Diagnoses) -> DiagnosisOut:
+    """Queue a diagnosis: what a recording says of the models of a plan."""
+    return DiagnosisOut.model_validate(diagnoses.submit(asked))
+
+
+@router.get("")
+def listed(
+    diagnoses: Diagnoses,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
+) -> DiagnosisList:
+    """Newest first."""
+    found, total = diagnoses.list(limit, offset)
+    return DiagnosisList(diagnoses=[DiagnosisOut.model_validate(one) for one in found], total=total)
+
+
+@router.get("/{diagnosis_id}")
+def one(diagnosis_id: str, diagnoses: Diagnoses) -> DiagnosisDetail:
+    """State, progress (`doing`, `share` of the whole) and, once it is done, the verdict."""
+    return DiagnosisDetail.model_validate(diagnoses.get(diagnosis_id))
+
+
+@router.get("/{diagnosis_id}/verdict.json")
+def verdict(diagnosis_id: str, diagnoses: Diagnoses) -> dict[str, Any]:
+    """`rths-diagnosis/1`."""
+    return diagnoses.result(diagnosis_id)[1]
+
+
+@router.get("/{diagnosis_id}/pictures.json")
+def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> dict[str, Any]:
+    """`rths-diagnosis-pictures/1`: recording, simulation before and after, and what is left, decimated, SI."""
+    return diagnoses.result(diagnosis_id)[2]
+
+
+@router.get("/{diagnosis_id}/report.html")
+def report(diagnosis_id: str, diagnoses: Diagnoses) -> HTMLResponse:
+    """One self-contained page."""
+    return HTMLResponse(exports.report(*diagnoses.result(diagnosis_id)))
+
+
+@router.post("/{diagnosis_id}/cancel")
+def cancel(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Body()] = NOBODY) -> DiagnosisOut:
+    """End it, queued or running; nothing of it is kept but that it was cancelled."""
+    return DiagnosisOut.model_validate(diagnoses.cancel(diagnosis_id, person.by))
+
+
+@router.post("/{diagnosis_id}/simulations", status_code=201)
+def simulate(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Body()] = NOBODY) -> Simulations:
+    """Queue the plan and the extended plan as ordinary runs, to be laid over the recording."""
+    before, after = diagnoses.simulate(diagnosis_id, person.by)
+    return Simulations(before=RunOut.of(before), after=RunOut.of(after))
+
+
+@router.delete("/{diagnosis_id}", status_code=204)
+def remove(diagnosis_id: str, diagnoses: Diagnoses) -> None:
+    """Remove a diagnosis that has ended, with its result."""
+    diagnoses.remove(diagnosis_id)

@@ -1,0 +1,32 @@
+"""The report of a diagnosis, and what of it stands at its head."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.models import Diagnosis
+from app.reports.diagnosis import Facts, report_html
+
+
+def facts(diagnosis: Diagnosis) -> Facts:
+    heldout = ", ".join(one.name for one in diagnosis.heldout)
+    took = (diagnosis.finished_at - diagnosis.started_at).total_seconds() if _timed(diagnosis) else None  # type: ignore[operator]
+    found = [
+        ("Recording", diagnosis.recording.name),
+        ("Held out", heldout),
+        ("Plan", diagnosis.plan["name"]),
+        ("Rate of false alarms", f"{diagnosis.level:g}"),
+        ("Asked for", f"{diagnosis.submitted_at:%Y-%m-%d %H:%M} UTC by {diagnosis.submitted_by}"),
+        ("Took", "" if took is None else f"{took:.1f} s"),
+        ("Code version", diagnosis.code_version),
+    ]
+    return [(name, text) for name, text in found if text]
+
+
+def report(diagnosis: Diagnosis, verdict: dict[str, Any], pictures: dict[str, Any]) -> str:
+    """Self-contained HTML."""
+    return report_html(diagnosis.name, [*facts(diagnosis), ("Identifier", diagnosis.id)], verdict, pictures)
+
+
+def _timed(diagnosis: Diagnosis) -> bool:
+    return diagnosis.finished_at is not None and diagnosis.started_at is not None

@@ -1,0 +1,111 @@
+"""Rules of diagnoses as people ask for them: submit, look, cancel, simulate, remove. No SQL, no HTTP."""
+
+from __future__ import annotations
+
+import uuid
+from datetime import UTC, datetime
+from typing import Any
+
+from sqlalchemy.exc import IntegrityError
+from sqlalchemy.orm import Session
+
+from app import states
+from app.diagnoses.repository import DiagnosisRepository
+from app.diagnoses.schemas import Asked
+from app.diagnoses.sources import Sources
+from app.models import Diagnosis, Run
+from app.problems import Conflict, NotFound
+from app.queue import DIAGNOSES, DurableQueue
+from app.runs.service import NOBODY, RunService
+from app.states import State
+from rths_engine import __version__
+
+LONGEST_NAME = 200
+
+
+class DiagnosisService:
+    def __init__(self, session: Session, sources: Sources, queue: DurableQueue):
+        self.rows = DiagnosisRepository(session)
+        self.session, self.sources, self.queue = session, sources, queue
+
+    @property
+    def runs(self) -> RunService:
+        return self.sources.runs
+
+    def submit(self, asked: Asked) -> Diagnosis:
+        """Store and queue a diagnosis. Raises PlanError, RthsError, NotFound or Conflict, and stores nothing."""
+        plan = self.sources.plan(asked)
+        inputs = self.sources.inputs(asked, plan)
+        diagnosis = Diagnosis(
+            id=str(uuid.uuid4()),
+            name=asked.name.strip() or inputs[0].name,
+            plan=plan.as_dict(),
+            level=asked.level,
+            code_version=__version__,
+            state=State.QUEUED,
+            submitted_by=asked.submitted_by.strip() or NOBODY,
+            submitted_at=datetime.now(UTC),
+            inputs=inputs,
+        )
+        try:
+            self.rows.add(diagnosis)
+        except IntegrityError:
+            raise Conflict("A recording was removed meanwhile.") from None
+        self.queue.enqueue(self.session, [diagnosis.id], DIAGNOSES)
+        return diagnosis
+
+    def get(self, diagnosis_id: str) -> Diagnosis:
+        diagnosis = self.rows.get(diagnosis_id)
+        if diagnosis is None:
+            raise NotFound(f"There is no diagnosis {diagnosis_id}.")
+        return diagnosis
+
+    def list(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
+        return self.rows.list(limit, offset)
+
+    def result(self, diagnosis_id: str) -> tuple[Diagnosis, dict[str, Any], dict[str, Any]]:
+        """The diagnosis, its verdict and its pictures. Raises Conflict while there are none."""
+        diagnosis = self.get(diagnosis_id)
+        if diagnosis.verdict is None or diagnosis.pictures is None:
+            raise Conflict(f"The diagnosis is {diagnosis.state} and has no result.")
+        return diagnosis, diagnosis.verdict, diagnosis.pictures
+
+    def cancel(self, diagnosis_id: str, by: str) -> Diagnosis:
+        """End a queued one now; ask the worker to end a running one. Raises IllegalTransition for an ended one."""
+        diagnosis = self.rows.locked(diagnosis_id) or self.get(diagnosis_id)
+        by = by.strip() or NOBODY
+        states.check(diagnosis.state, State.CANCELLED)
+        diagnosis.cancel_requested_by = by
+        if diagnosis.state is State.QUEUED:
+            diagnosis.state, diagnosis.finished_at = State.CANCELLED, datetime.now(UTC)
+            diagnosis.reason = f"Cancelled by {by} before it started."
+        return diagnosis
+
+    def remove(self, diagnosis_id: str) -> None:
+        """Raises Conflict while it is under way."""
+        diagnosis = self.rows.locked(diagnosis_id) or self.get(diagnosis_id)
+        if not diagnosis.state.ended:
+            raise Conflict(f"The diagnosis is {diagnosis.state}; cancel it first.")
+        self.rows.remove(diagnosis)
+
+    def simulate(self, diagnosis_id: str, by: str) -> tuple[Run, Run]:
+        """Queue the plan and the extended plan as ordinary runs, once unless one of them came to nothing."""
+        diagnosis = self.rows.locked(diagnosis_id) or self.get(diagnosis_id)
+        extended = (diagnosis.verdict or {}).get("extended_plan")
+        if extended is None:
+            raise Conflict("There is no extended plan to run: the diagnosis names no effect that the plan has a place for.")
+        if any(not run.state.ended or run.recording_sha256 for run in self.simulations(diagnosis)):
+            raise Conflict("The plan and the extended plan are queued already.")
+        plans = [_called(diagnosis.plan, "before"), _called(extended, "after")]
+        before, after = self.runs.submit(plans, by, prefix="extended_plan.{}")
+        diagnosis.before_id, diagnosis.after_id = before.id, after.id
+        return before, after
+
+    def simulations(self, diagnosis: Diagnosis) -> list[Run]:
+        """The runs before and after, where they were queued."""
+        return [self.runs.get(run_id) for run_id in (diagnosis.before_id, diagnosis.after_id) if run_id]
+
+
+def _called(plan: dict[str, Any], word: str) -> dict[str, Any]:
+    ending = f", {word} diagnosis"
+    return {**plan, "name": f"{plan['name'][: LONGEST_NAME - len(ending)]}{ending}"}
