@@ -16,11 +16,10 @@ from scipy.optimize import least_squares
 from rths_engine.arrays import Array
 from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
-from tests.proof.generator.noise import Colour
+from tests.proof.generator.noise import TRUSTED, Colour
 from tests.proof.models import Case, model
 
 EVALUATIONS = 15
-BAND = 51.2  # Hz: errors are told below
 WORTHWHILE = 0.02  # of the baseline's error: a gain below is no gain to share in
 
 
@@ -52,7 +51,7 @@ class Fit:
         return float(white @ white) + len(self.free) * float(np.log(len(white)))
 
     def error(self) -> float:
-        """NRMSE on the held-out recording, below BAND."""
+        """NRMSE on the held-out recording, up to TRUSTED."""
         off, size = 0.0, 0.0
         for ours, real in zip(self.of.model.out(self.fitted, 1), self.of.noisy[1], strict=True):
             off += float(np.sum(self.of.below(real - ours) ** 2) / np.var(self.of.below(real)))
@@ -78,7 +77,7 @@ class Oracle:
 
     def below(self, signal: Array) -> Array:
         spectrum = np.fft.rfft(signal)
-        spectrum[np.fft.rfftfreq(len(signal), self.case.dt) > BAND] = 0.0
+        spectrum[np.fft.rfftfreq(len(signal), self.case.dt) > TRUSTED] = 0.0
         return np.asarray(np.fft.irfft(spectrum, len(signal)))
 
     def true(self) -> tuple[Effect, ...]:

@@ -84,7 +84,7 @@ def test_noise_has_the_spectrum_it_says() -> None:
     drawn = [noise.drawn(np.random.default_rng(seed), 4096) for seed in range(40)]
     assert np.mean(np.square(drawn)) == pytest.approx(9.0, rel=0.05)  # 40 draws of about 700 independent values
     energy = np.mean([float(np.sum(noise.whitened(one) ** 2)) for one in drawn])
-    assert energy == pytest.approx(4096, rel=0.02)  # 40 draws of 4096
+    assert energy == pytest.approx(4096 * 50 / 128, rel=0.02)  # 40 draws of 1600, up to 50 Hz of 128
 
 
 def test_lambda_is_what_the_baseline_can_not_take_up() -> None:

@@ -29,7 +29,7 @@ from tests.proof.generator.left_out import (
     Spring,
 )
 from tests.proof.generator.motion import STEP, Array, Motion, random_motion
-from tests.proof.generator.noise import BAND, Colour
+from tests.proof.generator.noise import SMOOTHED, Colour
 from tests.proof.generator.readings import READINGS, Reading, reading
 from tests.proof.generator.sizing import Absorbed, sized
 
@@ -249,11 +249,11 @@ def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: flo
 
 
 def stiffness_against_noise(bench: Bench) -> float:
-    """N/m: what a small random displacement below BAND adds to the force, root mean square over root mean square."""
+    """N/m: what a small random displacement below SMOOTHED adds to the force, root mean square over root mean square."""
     motion, time = bench.motion, bench.time(bench.motion)
     knots = np.arange(0.0, motion.duration + STEP / 2, STEP)
     white = np.fft.rfft(np.random.default_rng(bench.seed).standard_normal(len(knots)))
-    white[np.fft.rfftfreq(len(knots), STEP) > BAND] = 0.0
+    white[np.fft.rfftfreq(len(knots), STEP) > SMOOTHED] = 0.0
     moved = Motion(motion.sample(knots) + 1e-6 * np.fft.irfft(white, len(knots)))
     added = bench.force([], moved) - bench.force([], motion)
     return float(np.std(added) / np.std(moved.sample(time) - motion.sample(time)))

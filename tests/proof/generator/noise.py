@@ -8,7 +8,8 @@ import numpy as np
 
 from tests.proof.generator.motion import Array
 
-BAND = 20.0  # Hz: a reader can smooth a displacement above
+SMOOTHED = 20.0  # Hz: a reader can smooth a displacement above
+TRUSTED = 50.0  # Hz: what a rig records above is not taken for its specimen's
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Colour:
         flicker = 1 / np.maximum(np.arange(len(angle)), 1.0)
         flicker *= count / (2 * flicker.sum())
         own = self.sigma**2 * ((1 - self.share) * process + self.share * flicker)
-        below = angle / (2 * np.pi * self.step) < BAND
+        below = angle / (2 * np.pi * self.step) < SMOOTHED
         return np.asarray(own + whole * self.taken**2 * below)
 
     def drawn(self, random: np.random.Generator, count: int) -> Array:
@@ -41,11 +42,9 @@ class Colour:
         return np.asarray(np.fft.irfft(white * np.sqrt(self.power(count, whole=False)), count))
 
     def whitened(self, signal: Array) -> Array:
-        """Real vector whose squared length is the signal's energy over the noise's, frequency by frequency."""
+        """Real vector whose squared length is the signal's energy over the noise's, frequency by frequency up to TRUSTED."""
         count = len(signal)
-        weight = np.full(count // 2 + 1, 2.0)
-        weight[0] = 1.0
-        if count % 2 == 0:
-            weight[-1] = 1.0
-        found = np.fft.rfft(signal) * np.sqrt(weight / (count * self.power(count)))
+        used = np.fft.rfftfreq(count, self.step) <= TRUSTED
+        weight = np.where(np.arange(count // 2 + 1) % (count / 2), 2.0, 1.0)  # both ends are there once
+        found = (np.fft.rfft(signal) * np.sqrt(weight / (count * self.power(count))))[used]
         return np.concatenate([found.real, found.imag])

@@ -6,7 +6,7 @@ y the noise-free outputs, y_0 those of the baseline, S the spectrum of each outp
 sigma^2, with the noise's colour instead of an N_eff. d is how far a planned number may be off, infinite where it is free.
 The numbers are refitted by REFITS steps of Gauss and Newton with the derivatives at the true numbers; the best of them counts,
 which makes lambda rather too large than too small where the effect is large. S holds the noise of the displacement as the
-baseline takes it to the output (`noise.Colour`).
+baseline takes it to the output, and the sum ends at 50 Hz (`noise.Colour`).
 """
 
 from __future__ import annotations
