@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from tests.proof.generator import outside, specimen
-from tests.proof.generator.draw_specimen import IDS, effect, scales
+from tests.proof.generator.draw_specimen import scales
 from tests.proof.generator.laws import HyperbolicTangent, Linear, Slider, SliderMaxwell
 from tests.proof.generator.left_out import BoucWen, Compliance, Drop, Heating, LuGre, Mass, Play, Series
 from tests.proof.generator.motion import STEP, Motion, random_motion
 from tests.proof.generator.noise import Colour
 from tests.proof.generator.sizing import Absorbed
+from tests.proof.generator.specimen_effects import IDS, effect
 
 TIME = np.arange(0, 4.0, 1 / 256)
 KNOTS = np.arange(0, 4.0 + STEP / 2, STEP)

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from tests.proof.generator import structure as physics
 from tests.proof.generator.draw import KINDS, specs
-from tests.proof.generator.draw_structure import Ground, passed, shaking
+from tests.proof.generator.ground import Ground, passed, shaking
 from tests.proof.generator.rig import closed, driven, rig
 from tests.proof.generator.structure import Building, Element, Whole, response
 

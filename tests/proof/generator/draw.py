@@ -9,11 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from tests.proof.generator import draw_rig as of_rig
-from tests.proof.generator import draw_structure as of_structure
 from tests.proof.generator import outside
+from tests.proof.generator import rig_effects as of_rig
+from tests.proof.generator import structure_effects as of_structure
 from tests.proof.generator.case import Case
-from tests.proof.generator.draw_specimen import FACTORS, IDS, OWN, PLACED, specimen_case
+from tests.proof.generator.draw_hybrid import hybrid_case
+from tests.proof.generator.draw_rig import actuator_case, chain_case
+from tests.proof.generator.draw_specimen import specimen_case
+from tests.proof.generator.draw_structure import structure_case
+from tests.proof.generator.rig_bench import OWN as OWN_OF_RIG
+from tests.proof.generator.specimen_effects import FACTORS, IDS, OWN, PLACED
 
 CLEAN = 0.3  # of the cases
 STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
@@ -86,7 +91,7 @@ def _law(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
 
 def _rig(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
     """A rig that the effects are not numbers of already; oil gives way only under a damper that bears it without ringing."""
-    laws = ["mr_damper"] if "force_compliance" in names else [law for law, own in of_rig.OWN.items() if not own & set(names)]
+    laws = ["mr_damper"] if "force_compliance" in names else [law for law, own in OWN_OF_RIG.items() if not own & set(names)]
     second = bool(
         random.random() < 0.4 and not set(names) & {"second_order_lag", "delay_error", "uneven_speed", "wandering_speed"}
     )
@@ -126,13 +131,11 @@ KINDS = {
         (*of_rig.ACTUATOR, "sensor_offset", "sensor_drift", "sensor_clipping", "sensor_dropout"),
         tuple(pair for pair in combinations(of_rig.ACTUATOR, 2) if not set(pair) <= SINGLE_PISTON),
         of_rig.OUTSIDE,
-        of_rig.actuator_case,
+        actuator_case,
         _rig,
     ),
-    "chain": Kind(0.05, {"missing": 1.0}, (*of_rig.SPECIMEN, *of_rig.ACTUATOR[:4]), (), (), of_rig.chain_case, _rig),
-    "hybrid": Kind(
-        0.2, {"compensated": 0.8, "small": 0.2}, (*of_rig.SPECIMEN, *of_rig.ACTUATOR), (), (), of_rig.hybrid_case, _rig
-    ),
+    "chain": Kind(0.05, {"missing": 1.0}, (*of_rig.SPECIMEN, *of_rig.ACTUATOR[:4]), (), (), chain_case, _rig),
+    "hybrid": Kind(0.2, {"compensated": 0.8, "small": 0.2}, (*of_rig.SPECIMEN, *of_rig.ACTUATOR), (), (), hybrid_case, _rig),
     "structure": Kind(
         0.2,
         {"plain": 0.4, "noise": 0.12, "small": 0.08, "missing": 0.12, "two": 0.14, "outside": 0.14},
@@ -143,7 +146,7 @@ KINDS = {
             if "base_flexibility" not in pair and pair != ("cubic_stiffness", "gap_contact")
         ),
         of_structure.OUTSIDE,
-        of_structure.structure_case,
+        structure_case,
         _release,
     ),
 }
