@@ -27,7 +27,7 @@ from rths_engine.errors import Issue, RecordingError
 from rths_engine.measured import Measured
 from rths_engine.plan import Plan, Station
 
-LEAST = 512  # samples: fewer hold too little to tell noise from physics
+LEAST = 200  # samples: fewer hold too little to tell noise from physics
 MOST = 4_000_000  # samples of a channel
 FAR_OFF = 30.0  # times: units are off
 AT_REST = 0.02  # of the largest: below, the start is taken for rest
