@@ -3,7 +3,7 @@ law of motion, energy and time could account for."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,10 @@ from scipy.stats import chi2, gamma, gumbel_r
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
-from rths_engine.diagnosis.signatures import Signatures, absorber, bias
+from rths_engine.diagnosis.signatures import Signatures, absorber, bias, general
 
 REPLICATES = 99
-REDRAWN = 24
+REDRAWN = 16
 TINIEST = 1e-300
 
 
@@ -43,8 +43,7 @@ def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array
     displacement's size on the input, taken through the same smoothing, model and band. Each score is told in standard
     deviations of its own under that noise, which reaches some signatures more than others."""
     misfit = fitted_residual(fitted)
-    drawn = _null_misfits(recordings, fitted, random)
-    lengths = np.sum((drawn @ law) ** 2, axis=1)
+    drawn, lengths = _null_misfits(recordings, fitted, law, random)
     explained = float(np.sum((misfit @ law) ** 2))
     p_general = _upper_tail(explained, lengths) if law.shape[1] else 1.0
     if not len(found.rows):
@@ -85,34 +84,40 @@ def _upper_tail(length: float, null: Array) -> float:
     return max(float(gamma.sf(length, mean * mean / variance, scale=variance / mean)), TINIEST)
 
 
-def _null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Array:
+def _null_misfits(recordings: Recordings, fitted: Fitted, law: Array, random: np.random.Generator) -> tuple[Array, Array]:
+    """Misfits (B, N) where nothing was left out, and the squared length (B) of each that a general law accounts for. Noise on
+    the input is in the law's terms too."""
     absorbed = absorber(fitted.jacobian)
-    inputs = _input_noise(recordings, fitted, random)
+    inputs = _inputs(recordings, fitted, law, random)
     seeds = random.integers(2**63, size=REPLICATES)
     beyond = len(fitted.misfit) - fitted.samples
 
-    def drawn(place: int) -> Array:
+    def drawn(place: int) -> tuple[Array, float]:
         own = np.random.default_rng(seeds[place])
+        changes, terms = inputs[place % len(inputs)]
         found = []
-        for reached, weights in zip(inputs[place % len(inputs)], recordings.weights, strict=True):
+        for reached, weights in zip(changes, recordings.weights, strict=True):
             noise = np.array([model.drawn(weights.shape[1], own) for model in recordings.noises])
             found.append(noise / weights + reached)
         misfit = np.concatenate([recordings.joined(found), own.standard_normal(beyond)])
         left: Array = misfit - absorbed @ (absorbed.T @ misfit)
-        return left
+        return left, float(np.sum((left @ terms) ** 2))
 
-    return np.array(each(drawn, range(REPLICATES)))
+    rows = each(drawn, range(REPLICATES))
+    return np.array([left for left, _ in rows]), np.array([length for _, length in rows])
 
 
-def _input_noise(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> list[list[Array]]:
-    """What other noise on the input does to the residual of each recording, several times."""
+def _inputs(recordings: Recordings, fitted: Fitted, law: Array, random: np.random.Generator) -> list[tuple[list[Array], Array]]:
+    """What other noise on the input does to the residuals, with the general law's terms then, several times."""
     before = recordings.predicted(fitted.parts)
     if not any(one.input_noise > 0 for one in recordings.data):
-        return [[np.zeros_like(plain) for plain in before]]
-    draws = [[one.redrawn(random) for one in recordings.data] for _ in range(REDRAWN)]
-    component = recordings.component
+        return [([np.zeros_like(plain) for plain in before], law)]
+    draws = [tuple(one.redrawn(random) for one in recordings.data) for _ in range(REDRAWN)]
 
-    def reached(drawn: list[Any]) -> list[Array]:
-        return [plain - component.predicted(fitted.parts, one) for plain, one in zip(before, drawn, strict=True)]
+    def reached(drawn: tuple[Any, ...]) -> tuple[list[Array], Array]:
+        other = replace(recordings, data=drawn)
+        changes: list[Array] = [plain - found for plain, found in zip(before, other.predicted(fitted.parts), strict=True)]
+        terms: Array = general(other, fitted)
+        return list(changes), terms
 
     return each(reached, draws)

@@ -19,7 +19,7 @@ from rths_engine.part import Part
 BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, these are never fitted
 ENDS = 0.3  # s at either end, which the filters blur
 PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance
-NOT_WHOLE = 0.15  # of what is beyond the planned model: a named effect that leaves more is not what was left out
+NOT_WHOLE = 0.25  # of what is beyond the planned model: a named effect that leaves more is not what was left out
 
 
 @dataclass(frozen=True)
