@@ -22,6 +22,7 @@ from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.measured.endpoints import router as measured
 from app.motions.endpoints import router as motions
+from app.pages.diagnoses import router as diagnoses_page
 from app.pages.recordings import router as recordings_page
 from app.pages.stability import router as stability_page
 from app.pages.table4 import router as table4_page
@@ -56,6 +57,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(stability_page)
     app.include_router(recordings_page)
+    app.include_router(diagnoses_page)
     app.include_router(table4_page)
     app.include_router(pages.router)
     app.add_middleware(Guard, settings=configured)

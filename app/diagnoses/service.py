@@ -10,15 +10,17 @@ from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
 from app import states
+from app.config import Settings
 from app.diagnoses.repository import DiagnosisRepository
 from app.diagnoses.schemas import Asked
-from app.diagnoses.sources import Sources
+from app.diagnoses.sources import Sources, file_of
 from app.models import Diagnosis, Run
 from app.problems import Conflict, NotFound
 from app.queue import DIAGNOSES, DurableQueue
 from app.runs.service import NOBODY, RunService
 from app.states import State
 from rths_engine import __version__
+from rths_engine.measured import Measured, load
 
 LONGEST_NAME = 200
 
@@ -104,6 +106,14 @@ class DiagnosisService:
     def simulations(self, diagnosis: Diagnosis) -> list[Run]:
         """The runs before and after, where they were queued."""
         return [self.runs.get(run_id) for run_id in (diagnosis.before_id, diagnosis.after_id) if run_id]
+
+    def recordings(self, diagnosis: Diagnosis, settings: Settings) -> list[Measured]:
+        """The recording, and those of the runs before and after; none until both have run to their end."""
+        runs = self.simulations(diagnosis)
+        if len(runs) < 2 or any(run.state is not State.COMPLETED for run in runs):
+            return []
+        paths = [file_of(diagnosis.recording, settings), *(settings.recordings / f"{run.id}.h5" for run in runs)]
+        return [load(path) for path in paths]
 
 
 def _called(plan: dict[str, Any], word: str) -> dict[str, Any]:

@@ -21,6 +21,12 @@ HEADERS = {
     "Referrer-Policy": "same-origin",
     "Cache-Control": "no-cache",
 }
+# Plotly writes style elements and attributes
+PLOTLY = {
+    "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
+        "style-src 'self'", "style-src 'self' 'unsafe-inline'"
+    )
+}
 
 
 def fixed(value: Any, decimals: int = 1) -> str:
@@ -72,3 +78,10 @@ templates.env.filters |= {"fixed": fixed, "brief": brief, "ago": ago, "clock": c
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:
     return templates.TemplateResponse(request, template, context, status_code=status, headers=HEADERS)
+
+
+def plotted(request: Request, template: str, **context: Any) -> HTMLResponse:
+    """A page with plots by Plotly."""
+    shown = page(request, template, **context)
+    shown.headers.update(PLOTLY)
+    return shown

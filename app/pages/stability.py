@@ -6,17 +6,11 @@ from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse, RedirectResponse
 
 from app.pages.errors import PageRoute
-from app.pages.rendering import HEADERS, page
+from app.pages.rendering import plotted
 from app.plans.dependency import Plans
 from app.problems import NotFound
 from app.runs.dependency import Runs
 
-# Plotly writes style elements and attributes
-POLICY = {
-    "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
-        "style-src 'self'", "style-src 'self' 'unsafe-inline'"
-    )
-}
 FIRST = "table3-04"
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
@@ -38,6 +32,4 @@ def stability(request: Request, name: str, plans: Plans, runs: Runs) -> HTMLResp
             runs.get(name)
         except NotFound:
             raise NotFound(f"There is no run or template {name}.") from None
-    shown = page(request, "stability.html", name=name, source=source, templates=templates, known=known)
-    shown.headers.update(POLICY)
-    return shown
+    return plotted(request, "stability.html", name=name, source=source, templates=templates, known=known)

@@ -71,7 +71,7 @@ def _lines(title: str, channel: dict[str, Any], group: str, axis: str, spans: li
     given = channel[group]
     time = _array(given["time_s"])
     values = {name: _array(row) / channel["factor"] for name, row in given.items() if name != "time_s"}
-    traces = [_trace(name, time, row) for name, row in values.items()]
+    traces = [trace(name, time, row) for name, row in values.items()]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row, channel['shown'])}" for name, row in values.items())
     spec = {"traces": traces, "x": "Time, s", "y": axis, "from_zero": "", "spans": spans}
     return Panel(title, f"{title}: {said}. Shaded spans were held out of the fit.", spec, wide=True)
@@ -81,7 +81,7 @@ def _spectrum(channel: dict[str, Any]) -> Panel:
     given, unit = channel["spectra"], channel["shown"]
     frequency = _array(given["frequency_hz"])
     lines = {name: _array(given[name]) / channel["factor"] ** 2 for name in ("before", "after", "noise")}
-    traces = [_trace(name, frequency, np.where(row > 0, row, np.nan), name == "noise") for name, row in lines.items()]
+    traces = [trace(name, frequency, np.where(row > 0, row, np.nan), name == "noise") for name, row in lines.items()]
     title = f"Spectrum of the residual of the {channel['label']}"
     top = {name: frequency[int(np.argmax(np.nan_to_num(row)))] for name, row in lines.items()}
     said = f"largest before at {top['before']:.3g} Hz, after at {top['after']:.3g} Hz; the noise is dashed"
@@ -106,7 +106,7 @@ def _planes(state: dict[str, Any]) -> list[Panel]:
 
 def _plane(title: str, axis: dict[str, Any], lines: Sequence[tuple[str, Samples]], y: str, unit: str) -> Panel:
     x = _array(axis["values"]) / axis["factor"]
-    traces = [{**_trace(name, x, row), "thin": True} for name, row in lines]
+    traces = [{**trace(name, x, row), "thin": True} for name, row in lines]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row, unit)}" for name, row in lines)
     spec = {"traces": traces, "x": f"{_capital(axis['label'])}, {axis['shown']}", "y": y, "from_zero": ""}
     return Panel(title, f"{title}, over {_range(x, axis['shown'])}: {said}.", spec)
@@ -117,9 +117,9 @@ def _blocks(detail: dict[str, Any], spans: list[dict[str, Any]]) -> Panel:
     middle = np.array([0.5 * (one["from_s"] + one["to_s"]) for one in blocks])
     errors = {name: 100 * _array([one[name] for one in blocks]) for name in ("before", "after")}
     floor = 100 * (detail["noise_nrmse"] or 0.0)
-    traces = [{**_trace(name, middle, row), "bars": True} for name, row in errors.items()]
+    traces = [{**trace(name, middle, row), "bars": True} for name, row in errors.items()]
     ends = np.array([blocks[0]["from_s"], blocks[-1]["to_s"]])
-    traces.append(_trace("noise", ends, np.full(2, floor), True))
+    traces.append(trace("noise", ends, np.full(2, floor), True))
     spec = {"traces": traces, "x": "Time, s", "y": "Error, %", "from_zero": "", "spans": spans}
     kept = [place for place, one in enumerate(blocks) if one["held_out"]]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row[kept], '%')}" for name, row in errors.items())
@@ -127,7 +127,7 @@ def _blocks(detail: dict[str, Any], spans: list[dict[str, Any]]) -> Panel:
     return Panel(title, f"{title}; on the blocks held out of the fit {said}; noise floor {floor:.3g} %.", spec)
 
 
-def _trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, Any]:
+def trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, Any]:
     known = {"name": NAMES[name], "x": packed(x), "y": packed(y), "colour": COLOURS[name], "dash": dash}
     return {**known, "width": 2.4} if name == "measured" else known
 

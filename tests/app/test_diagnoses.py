@@ -31,6 +31,16 @@ def played(service: Service) -> str:
     return run
 
 
+@pytest.fixture(scope="module")
+def long(service: Service) -> dict[str, Any]:
+    """What is asked to diagnose a test so long that it can be stopped on the way."""
+    shape = {"kind": "band_noise", "low_frequency": 0.1, "high_frequency": 2.0, "duration": 40.0}
+    driven = {"drive": {"amplitude": 0.03, "shape": shape}}
+    run = service.post("/runs", {"plan": {**plan(specimen_physics=LEFT_OUT), **driven}})["runs"][0]["id"]
+    service.wait(run, "completed", within_s=PATIENCE_S)
+    return {"run": run, "plan": {**plan(), **driven}}
+
+
 def ask(service: Service, run: str, **more: Any) -> str:
     asked = {"recording": {"run": run}, "plan": plan(), "submitted_by": "Ana Ruiz", **more}
     diagnosis: str = service.post("/diagnoses", asked)["id"]
@@ -87,9 +97,9 @@ def test_the_extended_plan_and_the_plan_are_queued_once_as_ordinary_runs(service
         )
 
 
-def test_a_cancelled_diagnosis_leaves_nothing_behind(service: Service, played: str) -> None:
+def test_a_cancelled_diagnosis_leaves_nothing_behind(service: Service, long: dict[str, Any]) -> None:
     before, engines = files(service), set(processes(service, "spawn_main"))
-    diagnosis = ask(service, played)
+    diagnosis = ask(service, **long)
     until(lambda: service.get(f"/diagnoses/{diagnosis}"), lambda one: one["share"] > 0, PATIENCE_S)
     service.post(f"/diagnoses/{diagnosis}/cancel", {"by": "Bo"})
     found = until_state(service, diagnosis, "cancelled")
@@ -103,8 +113,8 @@ def test_a_cancelled_diagnosis_leaves_nothing_behind(service: Service, played: s
     assert service.http.get(f"/api/v1/diagnoses/{diagnosis}").status_code == 404
 
 
-def test_a_diagnosis_whose_worker_is_killed_is_done_again_and_stored_once(service: Service, played: str) -> None:
-    diagnosis = ask(service, played)
+def test_a_diagnosis_whose_worker_is_killed_is_done_again_and_stored_once(service: Service, long: dict[str, Any]) -> None:
+    diagnosis = ask(service, **long)
     until(lambda: service.get(f"/diagnoses/{diagnosis}"), lambda one: one["share"] > 0, PATIENCE_S)
     (worker,) = processes(service, "app.worker")
     os.kill(worker, signal.SIGKILL)

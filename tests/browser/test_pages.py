@@ -6,6 +6,8 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
+from tests.app.test_diagnoses import LEFT_OUT, ask, until_state
+from tests.app.test_diagnoses import plan as specimen
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 
@@ -25,6 +27,8 @@ CONTENT = {
     "/table4": ".table4 tbody tr",
     "/recordings": "tbody tr",
     "/recordings/{recording}": "#plots canvas",
+    "/diagnoses": "tbody tr",
+    "/diagnoses/{diagnosis}": "#detail-1 + .panels figure:last-child svg.main-svg",
 }
 
 
@@ -43,10 +47,24 @@ def recording(service: Service) -> str:
     return imported
 
 
+@pytest.fixture(scope="module")
+def diagnosis(service: Service) -> str:
+    run: str = service.post("/runs", {"plan": specimen(specimen_physics=LEFT_OUT)})["runs"][0]["id"]
+    service.wait(run, "completed")
+    return str(until_state(service, ask(service, run), "completed")["id"])
+
+
+@pytest.fixture(scope="module")
+def shown(run: str, recording: str, diagnosis: str) -> dict[str, str]:
+    return {"run": run, "recording": recording, "diagnosis": diagnosis}
+
+
 @pytest.mark.parametrize("look", LOOKS)
 @pytest.mark.parametrize("path", CONTENT)
-def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, run: str, recording: str, opened: Opener) -> None:
-    page = opened(path.format(run=run, recording=recording), **LOOKS[look])
+def test_a_page_is_whole_quiet_and_accessible(
+    path: str, look: str, run: str, recording: str, diagnosis: str, opened: Opener
+) -> None:
+    page = opened(path.format(run=run, recording=recording, diagnosis=diagnosis), **LOOKS[look])
     expect(page.locator(CONTENT[path]).first).to_be_visible()
     expect_accessible(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"

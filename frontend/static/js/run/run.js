@@ -68,6 +68,7 @@ function showActions() {
       : []),
     download("plan.yaml", "Plan, YAML"),
     ...(run.test === "specimen" || run.test === "actuator" ? [] : [el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability")]),
+    ...(run.recording ? [el("a", { href: `/diagnoses?run=${id}`, class: "button quiet" }, "Diagnose this run")] : []),
     el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Run again or edit as a new test"),
   );
 }

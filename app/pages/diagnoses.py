@@ -1,0 +1,77 @@
+"""The pages of diagnoses: asking for one, all of them, and one with its progress and its result."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request
+from fastapi.responses import HTMLResponse
+
+from app.dependencies import Configured
+from app.diagnoses.dependency import Diagnoses
+from app.diagnoses.exports import facts
+from app.measured.dependency import Recordings
+from app.models import Diagnosis
+from app.pages.errors import PageRoute
+from app.pages.rendering import page, plotted
+from app.plans.dependency import Plans
+from app.reports.diagnosis import shown
+from app.reports.diagnosis_overlay import overlay
+from app.runs.dependency import Runs
+from app.runs.repository import Filter, Page
+from app.states import State
+from rths_engine.errors import RthsError
+
+LIMIT = 50
+OFFERED = 200  # recordings, and runs
+RECORDED = (State.COMPLETED, State.TRIPPED, State.CANCELLED)
+
+router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
+
+
+@router.get("/diagnoses")
+def listed(
+    request: Request,
+    diagnoses: Diagnoses,
+    recordings: Recordings,
+    runs: Runs,
+    plans: Plans,
+    recording: str = "",
+    run: str = "",
+    number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
+) -> HTMLResponse:
+    """`recording` or `run` is chosen in the form from the start."""
+    found, total = diagnoses.list(LIMIT, LIMIT * (number - 1))
+    recorded = [one for one in runs.list(Filter(states=RECORDED), Page(limit=OFFERED))[0] if one.recording_sha256]
+    if run and all(one.id != run for one in recorded):
+        recorded.insert(0, runs.get(run))
+    imported = recordings.list(OFFERED, 0)[0]
+    if recording and all(one.id != recording for one in imported):
+        imported.insert(0, recordings.get(recording))
+    offered = {"imported": imported, "recorded": recorded, "templates": plans.templates()}
+    chosen = f"run:{run}" if run else f"recording:{recording}" if recording else ""
+    part = {"diagnoses": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
+    return page(request, "diagnoses.html", chosen=chosen, **offered, **part)
+
+
+@router.get("/diagnoses/{diagnosis_id}")
+def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: Configured) -> HTMLResponse:
+    diagnosis = diagnoses.get(diagnosis_id)
+    result: dict[str, Any] = {}
+    if diagnosis.verdict is not None and diagnosis.pictures is not None:
+        result = {
+            **shown(diagnosis.verdict, diagnosis.pictures),
+            "extended": diagnosis.verdict["extended_plan"] is not None,
+            "simulations": diagnoses.simulations(diagnosis),
+            **_overlaid(diagnosis, diagnoses, configured),
+        }
+    return plotted(request, "diagnosis.html", diagnosis=diagnosis, facts=facts(diagnosis), result=result, **result)
+
+
+def _overlaid(diagnosis: Diagnosis, diagnoses: Diagnoses, configured: Configured) -> dict[str, Any]:
+    """The plots, or why there are none; no file makes the page fail."""
+    try:
+        recordings = diagnoses.recordings(diagnosis, configured)
+    except RthsError as error:
+        return {"overlay": [], "not_overlaid": str(error)}
+    return {"overlay": overlay(*recordings) if recordings else [], "not_overlaid": ""}

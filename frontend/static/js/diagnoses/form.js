@@ -1,0 +1,56 @@
+// @ts-check
+import { api, explain } from "../api.js";
+import { byId } from "../dom.js";
+import { person } from "../person.js";
+
+const form = byId("diagnose");
+const plan = /** @type {HTMLSelectElement} */ (byId("plan"));
+const file = /** @type {HTMLInputElement} */ (byId("plan-file"));
+
+/** `run:ID` as the service takes it. @param {string} chosen @returns {Record<string, string>} */
+function source(chosen) {
+  const at = chosen.indexOf(":");
+  return { [chosen.slice(0, at)]: chosen.slice(at + 1) };
+}
+
+/** What is asked for as the plan. @returns {Promise<Record<string, string>>} */
+async function planned() {
+  if (plan.value === "own") return {};
+  if (plan.value !== "file") {
+    const { template, run } = source(plan.value);
+    return template ? { template } : { plan_of_run: run };
+  }
+  const chosen = file.files?.[0];
+  if (!chosen) throw new Error("Choose the plan file, or another plan.");
+  return { plan: await chosen.text() };
+}
+
+async function asked() {
+  const recording = byId("recording").value;
+  if (!recording) throw new Error("Choose the recording.");
+  return {
+    recording: source(recording),
+    heldout: [...byId("heldout").selectedOptions].map((option) => source(option.value)),
+    level: Number(byId("level").value) || byId("level").value,
+    name: byId("title").value,
+    submitted_by: person(),
+    ...(await planned()),
+  };
+}
+
+const shown = () => (byId("plan-file-field").hidden = plan.value !== "file");
+plan.addEventListener("change", shown);
+shown();
+
+form.addEventListener("submit", async (/** @type {SubmitEvent} */ event) => {
+  event.preventDefault();
+  const button = byId("submit");
+  button.disabled = true;
+  try {
+    const { id } = await api.post("/diagnoses", await asked());
+    location.assign(`/diagnoses/${id}`);
+  } catch (error) {
+    byId("refusal").textContent = explain(error);
+    button.disabled = false;
+  }
+});
