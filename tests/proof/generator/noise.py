@@ -32,6 +32,7 @@ class Colour:
         pole = np.exp(-2 * np.pi * self.corner * self.step)
         process = (1 - pole**2) / np.abs(1 - pole * np.exp(-1j * angle)) ** 2
         flicker = 1 / np.maximum(np.arange(len(angle)), 1.0)
+        flicker[0] = 0.0  # a mean would be an offset, which is an effect
         flicker *= count / (2 * flicker.sum())
         own = self.sigma**2 * ((1 - self.share) * process + self.share * flicker)
         below = angle / (2 * np.pi * self.step) < SMOOTHED
