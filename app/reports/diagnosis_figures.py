@@ -10,7 +10,7 @@ import numpy as np
 from app.reports.figures import Panel
 from app.reports.packed import Samples, packed
 
-ROW, MARGIN = 44, 84  # pixels of the map
+ROW, MARGIN, LOWEST = 44, 84, 170  # pixels of the map
 SCALE = {  # decades of standard deviations; a third of the way noise ends, about 3
     "from": 0.0,
     "to": 1.5,
@@ -19,8 +19,9 @@ SCALE = {  # decades of standard deviations; a third of the way noise ends, abou
     "title": "Residual over noise",
 }
 MEASURED, BEFORE, AFTER, NOISE = 0, 1, 2, 3
-NAMES = {"measured": "Recording", "before": "Before", "after": "After", "noise": "Noise"}
-COLOURS = {"measured": MEASURED, "before": BEFORE, "after": AFTER, "noise": NOISE}
+MODELS = ("before", "after", "simulated")
+NAMES = {"measured": "Recording", "before": "Before", "after": "After", "simulated": "Simulation", "noise": "Noise"}
+COLOURS = {"measured": MEASURED, "before": BEFORE, "after": AFTER, "simulated": BEFORE, "noise": NOISE}
 
 
 class Section(NamedTuple):
@@ -36,7 +37,12 @@ def over_time(pictures: dict[str, Any]) -> Panel:
         level = _array(one["over_time"]["level"])
         decades = np.log10(np.clip(np.nan_to_num(level, nan=1e9), 0.5, 1e9))
         rows.append(
-            {"name": one["component"], "x": one["over_time"]["time_s"], "z": decades.round(3).tolist(), "said": level.tolist()}
+            {
+                "name": one["component"],
+                "x": one["over_time"]["time_s"],
+                "z": decades.round(3).tolist(),
+                "said": one["over_time"]["level"],
+            }
         )
     said = "; ".join(f"{one['title']} ({one['component']}) {_beyond(one)}" for one in components)
     spec = {
@@ -45,14 +51,18 @@ def over_time(pictures: dict[str, Any]) -> Panel:
         "x": "Time, s",
         "y": "",
         "from_zero": "",
-        "height": MARGIN + ROW * len(rows),
+        "height": max(LOWEST, MARGIN + ROW * len(rows)),
     }
     return Panel("Residual of each component over time", f"Residual of each component over time: {said}.", spec, wide=True)
 
 
 def details(pictures: dict[str, Any]) -> list[Section]:
     """One section for each component that is shown in detail."""
-    return [Section(_capital(one["title"]), _panels(one["detail"])) for one in pictures["components"] if one["detail"]]
+    return [_section(_capital(one["title"]), one["detail"]) for one in pictures["components"] if one["detail"]]
+
+
+def _section(title: str, detail: dict[str, Any]) -> Section:
+    return Section(title, _panels(_as_one(detail))) if _alike(detail) else Section(f"{title} before and after", _panels(detail))
 
 
 def _panels(detail: dict[str, Any]) -> list[Panel]:
@@ -65,6 +75,23 @@ def _panels(detail: dict[str, Any]) -> list[Panel]:
         found.append(_lines(f"Residual of the {label}", channel, "residuals", f"Residual, {unit}", spans))
         found.append(_spectrum(channel))
     return [*found, *_planes(detail["state"]), _blocks(detail, spans)]
+
+
+def _alike(detail: dict[str, Any]) -> bool:
+    """Where nothing was selected, after is before."""
+    return all(channel["signals"]["before"] == channel["signals"]["after"] for channel in detail["channels"])
+
+
+def _as_one(detail: dict[str, Any]) -> dict[str, Any]:
+    """With one simulation instead of two that are alike."""
+
+    def one(given: dict[str, Any]) -> dict[str, Any]:
+        return {name.replace("before", "simulated"): value for name, value in given.items() if "after" not in name}
+
+    groups = ("signals", "residuals", "spectra")
+    channels = [{**channel, **{group: one(channel[group]) for group in groups}} for channel in detail["channels"]]
+    blocks = [one(block) for block in detail["blocks"]]
+    return {**detail, "channels": channels, "state": one(detail["state"]), "blocks": blocks}
 
 
 def _lines(title: str, channel: dict[str, Any], group: str, axis: str, spans: list[dict[str, Any]]) -> Panel:
@@ -80,11 +107,12 @@ def _lines(title: str, channel: dict[str, Any], group: str, axis: str, spans: li
 def _spectrum(channel: dict[str, Any]) -> Panel:
     given, unit = channel["spectra"], channel["shown"]
     frequency = _array(given["frequency_hz"])
-    lines = {name: _array(given[name]) / channel["factor"] ** 2 for name in ("before", "after", "noise")}
+    lines = {name: _array(given[name]) / channel["factor"] ** 2 for name in (*MODELS, "noise") if name in given}
     traces = [trace(name, frequency, np.where(row > 0, row, np.nan), name == "noise") for name, row in lines.items()]
     title = f"Spectrum of the residual of the {channel['label']}"
     top = {name: frequency[int(np.argmax(np.nan_to_num(row)))] for name, row in lines.items()}
-    said = f"largest before at {top['before']:.3g} Hz, after at {top['after']:.3g} Hz; the noise is dashed"
+    peaks = ", ".join(f"{NAMES[name].lower()} at {top[name]:.3g} Hz" for name in MODELS if name in top)
+    said = f"largest {peaks}; the noise is dashed"
     density = f"Density, {unit}²/Hz" if unit.isalpha() else f"Density, ({unit})²/Hz"
     spec = {"traces": traces, "x": "Frequency, Hz", "y": density, "from_zero": "", "log": "xy"}
     return Panel(title, f"{title}: {said}.", spec)
@@ -95,8 +123,8 @@ def _planes(state: dict[str, Any]) -> list[Panel]:
     output = state["output"]
     name, unit, factor = output["label"], output["shown"], output["factor"]
     moved, speed = state["axes"]
-    whole = [(key, _array(state[key]) / factor) for key in ("measured", "before", "after")]
-    left = [(key, _array(state[f"residual_{key}"]) / factor) for key in ("before", "after")]
+    whole = [(key, _array(state[key]) / factor) for key in ("measured", *MODELS) if key in state]
+    left = [(key, _array(state[f"residual_{key}"]) / factor) for key in MODELS if key in state]
     return [
         _plane(f"{_capital(name)} against {moved['label']}", moved, whole, f"{_capital(name)}, {unit}", unit),
         _plane(f"Residual against {moved['label']}", moved, left, f"Residual, {unit}", unit),
@@ -115,7 +143,7 @@ def _plane(title: str, axis: dict[str, Any], lines: Sequence[tuple[str, Samples]
 def _blocks(detail: dict[str, Any], spans: list[dict[str, Any]]) -> Panel:
     blocks = detail["blocks"]
     middle = np.array([0.5 * (one["from_s"] + one["to_s"]) for one in blocks])
-    errors = {name: 100 * _array([one[name] for one in blocks]) for name in ("before", "after")}
+    errors = {name: 100 * _array([one[name] for one in blocks]) for name in MODELS if name in blocks[0]}
     floor = 100 * (detail["noise_nrmse"] or 0.0)
     traces = [{**trace(name, middle, row), "bars": True} for name, row in errors.items()]
     ends = np.array([blocks[0]["from_s"], blocks[-1]["to_s"]])

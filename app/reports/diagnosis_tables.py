@@ -41,10 +41,7 @@ def tables(verdict: dict[str, Any]) -> Tables:
         ranking=[_candidate(one) for one in verdict["candidates"]],
         alike=[" or ".join(_named(one) for one in group) for group in verdict["indistinguishable"]],
         parameters=[_parameter(one, number) for one in verdict["effects"] for number in one["parameters"]],
-        fit=[
-            ["Planned model, its numbers refitted", *_errors(fit["baseline"])],
-            ["Extended model", *_errors(fit["extended"])],
-        ],
+        fit=_fit(fit),
         noise_floor=_percent(fit["noise_floor_nrmse"]),
         unexplained=_unexplained(verdict["unexplained"]),
         next_test=_next_test(verdict["next_test"]),
@@ -53,7 +50,7 @@ def tables(verdict: dict[str, Any]) -> Tables:
 
 def named(effects: list[str]) -> str:
     """`specimen:1/backlash` for people: backlash of specimen 1."""
-    return " and ".join(_one(effect) for effect in effects) or "nothing left out"
+    return " and ".join(_one(effect) for effect in effects) or "no effect of the library"
 
 
 def _one(effect: str) -> str:
@@ -108,6 +105,11 @@ def _digits(value: float, width: float) -> str:
     while digits < 7 and width > 0 and abs(value) * 10.0 ** (1 - digits) > 0.2 * width:
         digits += 1
     return f"{value:.{digits}g}"
+
+
+def _fit(fit: dict[str, Any]) -> list[list[str]]:
+    planned = ["Planned model, its numbers refitted", *_errors(fit["baseline"])]
+    return [planned] if fit["baseline"] == fit["extended"] else [planned, ["Extended model", *_errors(fit["extended"])]]
 
 
 def _errors(model: dict[str, float]) -> list[str]:
