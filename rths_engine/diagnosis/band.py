@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.signal import butter, firwin, sosfiltfilt, upfirdn, welch
+from scipy.signal import firwin, upfirdn
 
 from rths_engine.arrays import Array
 
 ANALYSIS_RATE = 128.0  # Hz; what is compared lies below 0.4 of it
 LENGTH = 20  # taps a side and decimated sample
-ABOVE_FLOOR = 10.0  # power over the noise floor that still is signal
-LEAST_CUT = 15.0  # Hz
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,20 +41,3 @@ class Band:
         filtered: Array = upfirdn(self.taps, padded, 1, self.factor)
         first = 2 * half // self.factor
         return filtered[first : first + len(signal) // self.factor]
-
-
-def cut_of(displacement: Array, dt: float) -> float | None:
-    """The frequency (Hz) above which a displacement holds nothing but noise; None where it has none to take away."""
-    frequency, power = welch(displacement - displacement.mean(), 1 / dt, nperseg=min(len(displacement), 1024))
-    floor = float(np.median(power[len(power) // 2 :]))
-    above = np.flatnonzero(power > ABOVE_FLOOR * floor)
-    cut = max(LEAST_CUT, 2.0 * float(frequency[above[-1]]) if len(above) else 0.0)
-    return None if cut >= 0.45 / dt or floor == 0.0 else cut
-
-
-def filtered(signal: Array, dt: float, cut: float | None) -> Array:
-    """The signal below the frequency `cut` (Hz), zero phase."""
-    if cut is None:
-        return signal
-    kept: Array = sosfiltfilt(butter(4, cut, output="sos", fs=1 / dt), signal)
-    return kept

@@ -3,6 +3,7 @@ law of motion, energy and time could account for."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,11 +13,12 @@ from scipy.stats import chi2, gamma, gumbel_r
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
-from rths_engine.diagnosis.signatures import Signatures, absorber, bias, general
+from rths_engine.diagnosis.signatures import Signatures, absorber
 
 REPLICATES = 99
 REDRAWN = 16
 TINIEST = 1e-300
+LEAST_OWN = 0.01  # of the power of all noise
 
 
 @dataclass(frozen=True)
@@ -50,8 +52,7 @@ def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array
         return Detection(np.zeros(0), 0.0, 1.0, p_general, p_planned(fitted), explained, float(lengths.mean()))
     null = found.scores(drawn)
     centre, spread = null.mean(axis=0), np.maximum(null.std(axis=0), 1e-3)
-    shift, variance = bias(recordings, fitted, found, random)
-    scores = (found.scores(misfit, shift) - centre) / np.sqrt(spread**2 + variance)
+    scores = (found.scores(misfit) - centre) / spread
     largest = float(scores.max())
     p_library = p_value(largest, ((null - centre) / spread).max(axis=1))
     return Detection(scores, largest, p_library, p_general, p_planned(fitted), explained, float(lengths.mean()))
@@ -85,39 +86,45 @@ def _upper_tail(length: float, null: Array) -> float:
 
 
 def _null_misfits(recordings: Recordings, fitted: Fitted, law: Array, random: np.random.Generator) -> tuple[Array, Array]:
-    """Misfits (B, N) where nothing was left out, and the squared length (B) of each that a general law accounts for. Noise on
-    the input is in the law's terms too."""
+    """Misfits (B, N) where nothing was left out, and the squared length (B) of each that a general law accounts for."""
     absorbed = absorber(fitted.jacobian)
-    inputs = _inputs(recordings, fitted, law, random)
+    inputs = _inputs(recordings, fitted, random)
+    own = _own(recordings, inputs)
     seeds = random.integers(2**63, size=REPLICATES)
     beyond = len(fitted.misfit) - fitted.samples
 
-    def drawn(place: int) -> tuple[Array, float]:
-        own = np.random.default_rng(seeds[place])
-        changes, terms = inputs[place % len(inputs)]
+    def drawn(place: int) -> Array:
+        random = np.random.default_rng(seeds[place])
         found = []
-        for reached, weights in zip(changes, recordings.weights, strict=True):
-            noise = np.array([model.drawn(weights.shape[1], own) for model in recordings.noises])
-            found.append(noise / weights + reached)
-        misfit = np.concatenate([recordings.joined(found), own.standard_normal(beyond)])
+        for reached, weights in zip(inputs[place % len(inputs)], recordings.weights, strict=True):
+            noise = np.array([model.drawn(weights.shape[1], random) for model in recordings.noises])
+            found.append(own[:, None] * noise / weights + reached)
+        misfit = np.concatenate([recordings.joined(found), random.standard_normal(beyond)])
         left: Array = misfit - absorbed @ (absorbed.T @ misfit)
-        return left, float(np.sum((left @ terms) ** 2))
+        return left
 
-    rows = each(drawn, range(REPLICATES))
-    return np.array([left for left, _ in rows]), np.array([length for _, length in rows])
+    rows = np.array(each(drawn, range(REPLICATES)))
+    return rows, np.sum((rows @ law) ** 2, axis=1)
 
 
-def _inputs(recordings: Recordings, fitted: Fitted, law: Array, random: np.random.Generator) -> list[tuple[list[Array], Array]]:
-    """What other noise on the input does to the residuals, with the general law's terms then, several times."""
+def _inputs(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> list[list[Array]]:
+    """What the true input may do to the residuals beside what it is taken for, several times. Of a smoothed input the error is
+    independent (Berkson 1950, JASA 45, 164-180), and so biases nothing."""
     before = recordings.predicted(fitted.parts)
     if not any(one.input_noise > 0 for one in recordings.data):
-        return [([np.zeros_like(plain) for plain in before], law)]
+        return [[np.zeros_like(plain) for plain in before]]
     draws = [tuple(one.redrawn(random) for one in recordings.data) for _ in range(REDRAWN)]
 
-    def reached(drawn: tuple[Any, ...]) -> tuple[list[Array], Array]:
-        other = replace(recordings, data=drawn)
-        changes: list[Array] = [plain - found for plain, found in zip(before, other.predicted(fitted.parts), strict=True)]
-        terms: Array = general(other, fitted)
-        return list(changes), terms
+    def reached(drawn: tuple[Any, ...]) -> list[Array]:
+        found = replace(recordings, data=drawn).predicted(fitted.parts)
+        return [one - plain for plain, one in zip(before, found, strict=True)]
 
     return each(reached, draws)
+
+
+def _own(recordings: Recordings, inputs: Sequence[Sequence[Array]]) -> Array:
+    """(channels) the deviation of the output's own noise, in units of all noise: the input's is in the residuals too."""
+    misfits = [recordings.channels(recordings.joined(one)) for one in inputs]
+    powers = [[float(np.mean(np.concatenate(rows) ** 2)) for rows in channels] for channels in misfits]
+    share: Array = np.mean(powers, axis=0)
+    return np.sqrt(np.clip(1 - share, LEAST_OWN, 1.0))

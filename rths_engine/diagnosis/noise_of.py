@@ -41,7 +41,7 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
         reached = np.std(each(lambda drawn: recordings.component.predicted(fitted.parts, drawn), draws), axis=0)
         sigma = np.maximum(1.4826 * np.median(np.abs(residual), axis=1, keepdims=True), 1e-300)
         width = max(1, round(SMOOTHED / one.step))
-        local = np.sqrt(uniform_filter1d(reached**2, width, axis=1))
+        local = np.sqrt(np.maximum(uniform_filter1d(reached**2, width, axis=1), 0.0))
         weights.append(1 / np.sqrt(1 + (local / sigma) ** 2))
     return replace(recordings, weights=tuple(weights))
 

@@ -91,7 +91,7 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
             current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))
             found.append((pressed, SpecimenData(*base, x, force, current)))
         if force is not None and x is None and command is not None:
-            planned = (station.actuator, station.specimen, *station.actuator_physics, *station.specimen_physics)
+            planned = (station.actuator, station.specimen, *station.actuator_physics, *station.specimen_physics, *skew)
             chain = Chain(f"specimen:{number}", planned)
             found.append((chain, ChainData(*base, command, command, force)))
     return found

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -12,10 +11,8 @@ from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
-from rths_engine.part import Part
 from rths_engine.physics.effect import Effect
 
-DRAWS = 4
 ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
 ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan
 NOTHING = 1e-9  # of the misfit: a signature so small says nothing
@@ -31,10 +28,9 @@ class Signatures:
     two_sided: Array  # (K)
     instead: Array  # (K) cosine, beside what the planned numbers did by leaving their plan
 
-    def scores(self, misfits: Array, bias: Array | float = 0.0) -> Array:
-        """The part of the misfit (N) or misfits (B, N) along each, standard normal where there is none but noise. `bias` (K) is
-        what noise on the input alone brings about."""
-        along = misfits @ self.rows.T - bias
+    def scores(self, misfits: Array) -> Array:
+        """The part of the misfit (N) or misfits (B, N) along each, standard normal where there is none but noise."""
+        along = misfits @ self.rows.T
         found: Array = np.where(self.two_sided, np.abs(along), along)
         return found
 
@@ -60,7 +56,7 @@ def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
     found = [(guess, row) for guess, row in zip(guesses, each(left, guesses), strict=True) if row is not None]
     return Signatures(
         tuple(guess for guess, _ in found),
-        np.array([row for _, (row, _, _) in found]).reshape(len(found), -1),
+        np.array([row for _, (row, _, _) in found]).reshape(len(found), len(absorbed)),
         np.array([size for _, (_, size, _) in found]),
         np.array([_two_sided(guess) for guess, _ in found], dtype=bool),
         np.array([along for _, (_, _, along) in found]),
@@ -73,34 +69,6 @@ def _moved(fitted: Fitted) -> Array:
     planned = np.array([number.planned for number in fitted.free])
     change: Array = fitted.jacobian[: fitted.samples, known] @ (fitted.z - planned)[known]
     return change / max(float(np.linalg.norm(change)), 1e-300)
-
-
-def bias(recordings: Recordings, fitted: Fitted, found: Signatures, random: np.random.Generator) -> tuple[Array, Array]:
-    """Mean and variance (K) along each signature: noise on the input is in the residual and in the signature, and so
-    correlates the two."""
-    if not any(one.input_noise > 0 for one in recordings.data) or not found.effects:
-        return np.zeros(len(found.effects)), np.zeros(len(found.effects))
-    component, absorbed = recordings.component, absorber(fitted.jacobian)
-    draws = [[one.redrawn(random) for one in recordings.data] for _ in range(DRAWS)]
-    plain = recordings.predicted(fitted.parts)
-
-    def reached(parts: Sequence[Part], drawn: Sequence[Any]) -> list[Array]:
-        return [component.predicted(parts, one) for one in drawn]
-
-    noisy = each(lambda drawn: reached(fitted.parts, drawn), draws)
-
-    def along(effect: Effect) -> list[float]:
-        parts = [*fitted.parts, effect]
-        before = recordings.predicted(parts)
-        found = []
-        for drawn, simulated in zip(draws, noisy, strict=True):
-            own = [a - b - (c - e) for a, b, c, e in zip(reached(parts, drawn), simulated, before, plain, strict=True)]
-            residual = [e - b for e, b in zip(plain, simulated, strict=True)]
-            found.append(float(_free(recordings.joined(residual), absorbed) @ _free(recordings.joined(own), absorbed)))
-        return found
-
-    reach = np.nan_to_num(np.array(each(along, found.effects)) / found.sizes[:, None])
-    return reach.mean(axis=1), reach.var(axis=1, ddof=1) * (1 + 1 / DRAWS)
 
 
 def general(recordings: Recordings, fitted: Fitted) -> Array:

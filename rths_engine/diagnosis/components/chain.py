@@ -9,10 +9,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from rths_engine import physics, replay
+from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.actuator import TOLERANCE, ActuatorData
 from rths_engine.diagnosis.components.component import Component, Feature, Signal
 from rths_engine.diagnosis.components.features import of_motion, of_position
-from rths_engine.diagnosis.components.specimen import SENSORS
+from rths_engine.diagnosis.components.specimen import SENSORS, SPREADS, pressed, settled
 from rths_engine.part import Part
 from rths_engine.physics.effect import Effect, Seen
 
@@ -33,15 +34,14 @@ class Chain(Component):
     output: ClassVar[str] = "force"
 
     def spread(self, part: Part) -> float | None:
-        return TOLERANCE if part in self.base[:1] else None
+        return TOLERANCE if part in self.base[:1] else SPREADS.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: ChainData) -> Any:
-        effects = parts[2:]
-        moving = [effect for effect in effects if isinstance(effect, physics.ACTUATOR)]
-        resisting = [effect for effect in effects if not isinstance(effect, physics.ACTUATOR)]
-        x = replay.actuator(parts[0], moving, data.command, data.load, data.dt, data.start)
-        force = replay.specimen(parts[1], resisting, x, np.ones(len(x)), data.dt, data.start)
-        return data.reduced(force[None])
+        return pressed(*_between(parts, data), data)
+
+    def settle(self, parts: Sequence[Any], data: Sequence[ChainData]) -> None:
+        for one in data:
+            settled(*_between(parts, one), one)
 
     def hypotheses(self, data: ChainData) -> Iterator[Effect]:
         seen: Seen = data.seen()
@@ -61,3 +61,12 @@ class Chain(Component):
     def place(self, effect: Effect) -> str:
         named = super().place(effect)
         return f"actuator:{self.station}" if isinstance(effect, physics.ACTUATOR) else named
+
+
+def _between(parts: Sequence[Any], data: ChainData) -> tuple[list[Any], Array, Array]:
+    """What resists, the displacement between actuator and specimen, and the current."""
+    effects = parts[2:]
+    moving = [effect for effect in effects if isinstance(effect, physics.ACTUATOR)]
+    resisting = [parts[1], *(effect for effect in effects if not isinstance(effect, physics.ACTUATOR))]
+    x = replay.actuator(parts[0], moving, data.command, data.load, data.dt, data.start)
+    return resisting, x, np.ones(len(x))

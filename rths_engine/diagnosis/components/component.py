@@ -68,6 +68,11 @@ class Data(ABC):
     def time(self) -> Array:
         return self.start + self.step * np.arange(self.measured.shape[1])
 
+    @cached_property
+    def step_error(self) -> Array | None:
+        """(channels, n) of what steps half as long do to the output; None until it is found."""
+        return None
+
     def reduced(self, signals: Array) -> Array:
         return np.array([self.band.reduced(one) for one in signals])
 
@@ -89,7 +94,7 @@ class Data(ABC):
 
 
 class Loose(Part):
-    """A base part that is not of the plan: what it holds is zero as planned, and moves."""
+    """A base part that is not of the plan, and moves."""
 
     scale: ClassVar[float]
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
-from rths_engine.diagnosis.band import cut_of, filtered
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
 from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.diagnosis.smoother import Smoother
 from rths_engine.part import Part, quantity
 from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfForce
@@ -34,30 +34,20 @@ class SpecimenData(Data):
         return self.force[None]
 
     @cached_property
-    def cut(self) -> float | None:
-        return cut_of(self.x, self.dt)
+    def smoother(self) -> Smoother:
+        return Smoother.of(self.x, self.dt)
 
     @cached_property
     def smooth(self) -> Array:
-        return filtered(self.x, self.dt, self.cut)
+        return self.smoother.smoothed(self.x)
 
-    @cached_property
-    def fine(self) -> Array:
-        return self.refined(self.smooth)
-
-    @cached_property
-    def step_error(self) -> Array | None:
-        """(1, n) of what steps half as long do to the force; None until it is found."""
-        return None
-
-    @cached_property
+    @property
     def input_noise(self) -> float:
-        return float(np.std(self.x - self.smooth))
+        return self.smoother.noise
 
     def redrawn(self, random: np.random.Generator) -> SpecimenData:
-        noise = filtered(self.input_noise * random.standard_normal(len(self.x)), self.dt, self.cut)
         drawn = replace(self)
-        drawn.__dict__["smooth"] = self.smooth + noise
+        drawn.__dict__["smooth"] = self.smooth + self.smoother.error(len(self.x), random)
         drawn.__dict__["step_error"] = self.step_error
         return drawn
 
@@ -79,13 +69,13 @@ class ClockSkew(Loose):
 
 
 class StepError(Loose):
-    """Share of the difference that steps half as long make."""
+    """What the replay's steps are off by, in units of what steps half as long change: 2 where that is of first order."""
 
-    share: float = quantity("Error of the replay's steps", ge=-5, le=5, default=0.0)
+    share: float = quantity("Error of the replay's steps", ge=0, le=4, default=2.0)
     scale: ClassVar[float] = 1.0
 
 
-SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 2.0}  # ms; of the difference, 2 if of first order
+SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.5}  # ms; of the difference
 
 
 @dataclass(frozen=True)
@@ -99,21 +89,11 @@ class Specimen(Component):
         return SPREADS.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
-        n = data.finer
-        force = _force(parts, data.fine, np.repeat(data.current, n), data.dt / n, data.start)
-        late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
-        place = np.arange(0, len(force), n) - late
-        found = data.reduced(np.interp(place, np.arange(len(force)), force)[None] if late else force[None, ::n])
-        share = sum(part.share for part in parts if isinstance(part, StepError))
-        return found if data.step_error is None else found + share * data.step_error
+        return pressed(parts, data.smooth, data.current, data)
 
     def settle(self, parts: Sequence[Any], data: Sequence[SpecimenData]) -> None:
         for one in data:
-            if not one.stepped:
-                n = one.finer
-                half = _force(parts, one.refined(one.smooth, 2), np.repeat(one.current, 2 * n), one.dt / (2 * n), one.start)
-                whole = _force(parts, one.fine, np.repeat(one.current, n), one.dt / n, one.start)
-                one.__dict__["step_error"] = one.reduced((half[:: 2 * n] - whole[::n])[None])
+            settled(parts, one.smooth, one.current, one)
 
     def hypotheses(self, data: SpecimenData) -> Iterator[Effect]:
         seen = data.seen()
@@ -130,6 +110,27 @@ class Specimen(Component):
     def signals(self, data: SpecimenData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.smooth, data.velocity]))
         return Signal("displacement", "m", "mm", x), Signal("velocity", "m/s", "mm/s", v)
+
+
+def pressed(parts: Sequence[Any], x: Array, current: Array, data: Data) -> Array:
+    """(1, n) of the force, in the band of the comparison, at the displacement x (m). `parts`: the specimen, then effects and
+    what of the replay is loose."""
+    n = data.finer
+    force = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data.start)
+    late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
+    place = np.arange(0, len(force), n) - late
+    found = data.reduced(np.interp(place, np.arange(len(force)), force)[None] if late else force[None, ::n])
+    share = sum(part.share for part in parts if isinstance(part, StepError))
+    return found if data.step_error is None else found + share * data.step_error
+
+
+def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
+    """The step error of the data, from steps half as long."""
+    if not data.stepped:
+        n = data.finer
+        half = _force(parts, data.refined(x, 2), np.repeat(current, 2 * n), data.dt / (2 * n), data.start)
+        whole = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data.start)
+        data.__dict__["step_error"] = data.reduced((half[:: 2 * n] - whole[::n])[None])
 
 
 def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, start: float) -> Array:
