@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, ClassVar, Literal
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
@@ -73,10 +74,11 @@ class Structure(Component):
         return TOLERANCES.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: StructureData) -> Array:
-        return self._shown(self.motion(parts, data), parts, data)
+        return self._shown(self.motion(parts, data), data)
 
     def motion(self, parts: Sequence[Any], data: StructureData, extra: Array | None = None) -> Array:
-        """Displacements of the floors (samples, floors), m; `extra` (samples, floors) are forces on every floor, N."""
+        """Displacements of the floors (samples, floors), m, in `finer` steps; `extra` (samples, floors) are forces on every
+        floor, N."""
         ground = data.ground
         for effect in parts:
             if isinstance(effect, Effect) and effect.hook == GROUND:
@@ -99,14 +101,16 @@ class Structure(Component):
             ramps = at[:-1, None] + share * (at[1:] - at[:-1])[:, None]
             moved: Array = ramps.reshape(-1, at.shape[1])
             return moved
-        fine = int(np.ceil(data.dt / FINE - 1e-9)) if len(self.built.mass) <= FEW else 1
+        fine = self.finer(data)
         plan = self.plan.model_copy(update={**update, "integrator": CrIntegrator(dt=data.dt / fine, substeps=1)})
         if fine > 1:
-            whole = np.arange(len(inputs))
-            inputs = np.column_stack(
-                [np.interp(np.arange(0, len(inputs) - 1 + 1e-9, 1 / fine), whole, one) for one in inputs.T]
-            )
-        return self._floors(plan, inputs)[::fine]
+            at = np.arange(0, len(inputs) - 1 + 1e-9, 1 / fine)
+            inputs = np.asarray(CubicSpline(np.arange(len(inputs)), inputs)(at))
+        return self._floors(plan, inputs)
+
+    def finer(self, data: StructureData) -> int:
+        """Replay steps of a sample."""
+        return 1 if data.stepped or len(self.built.mass) > FEW else int(np.ceil(data.dt / FINE - 1e-9))
 
     def _floors(self, plan: Plan, inputs: Array) -> Array:
         x = replay.structure(plan, inputs, np.zeros((len(inputs), len(plan.stations))))
@@ -116,20 +120,19 @@ class Structure(Component):
     def built(self) -> Any:
         return self.plan.assembled()
 
-    def _shown(self, x: Array, parts: Sequence[Any], data: StructureData) -> Array:
+    def _shown(self, x: Array, data: StructureData) -> Array:
+        n = self.finer(data)
         rows = []
         for kind, floor, _ in data.floors:
             row = x[:, floor - 1]
-            if kind == "v":
-                row = np.gradient(row, data.dt)
-            elif kind == "a":
-                row = np.gradient(np.gradient(row, data.dt), data.dt) + data.ground
-            rows.append(row)
+            for _ in range("xva".index(kind)):
+                row = np.gradient(row, data.dt / n)
+            rows.append(row[::n] + data.ground if kind == "a" else row[::n])
         return data.reduced(np.array(rows))
 
     def drifts(self, data: StructureData) -> Array:
         """(storeys, samples), m, as planned."""
-        return _drifts(self.motion(self.base, data))
+        return _drifts(self.motion(self.base, data)[:: self.finer(data)])
 
     def hypotheses(self, data: StructureData) -> Iterator[Effect]:
         for storey, moved in enumerate(self.drifts(data), start=1):
@@ -146,8 +149,8 @@ class Structure(Component):
 
     def features(self, parts: Sequence[Any], data: StructureData) -> list[Feature]:
         plain = self.motion(parts, data)
-        before = self._shown(plain, parts, data)
-        x = _drifts(plain)
+        before = self._shown(plain, data)
+        x = _drifts(plain[:: self.finer(data)])
         found = []
         for storey, moved in enumerate(x[:MOST_STOREYS], start=1):
             v = np.gradient(moved, data.dt)
@@ -157,7 +160,7 @@ class Structure(Component):
                 extra[:, storey - 1] -= size * values
                 if storey > 1:
                     extra[:, storey - 2] += size * values
-                change = self._shown(self.motion(parts, data, extra), parts, data) - before
+                change = self._shown(self.motion(parts, data, extra), data) - before
                 found.append(Feature(formula, f"storey {storey}: {words}", change))
         return found
 

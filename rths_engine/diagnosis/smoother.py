@@ -1,0 +1,59 @@
+"""A measured displacement freed of most of its noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import binary_propagation, uniform_filter
+from scipy.signal import ShortTimeFFT
+from scipy.signal.windows import blackmanharris
+
+from rths_engine.arrays import Array
+
+STRETCH = 2.0  # s, over which a spectrum is told
+HOPS = 8  # a stretch
+AROUND = (5, 5)  # frequencies and hops whose powers are taken together
+CLEAR, ABOVE_FLOOR = 8.0, 2.0  # power over the noise floor: no chance; kept where it joins what is clear
+
+
+@dataclass(frozen=True)
+class Smoother:
+    """Keeps of each stretch and frequency the share G = 1 - floor / power where it stands out of the noise.
+
+    Source: Wiener (1949), Extrapolation, Interpolation, and Smoothing of Stationary Time Series, here of stretches of a
+    second. First fails where the noise is not white.
+    """
+
+    stretches: ShortTimeFFT
+    kept: Array  # G (frequencies, stretches)
+    noise: float  # standard deviation of the white noise of the displacement, m
+
+    @classmethod
+    def of(cls, displacement: Array, dt: float) -> Smoother:
+        hop = max(1, round(STRETCH / (HOPS * dt)))
+        stretches = ShortTimeFFT(blackmanharris(HOPS * hop, sym=False), hop, 1 / dt, scale_to="psd")
+        power = uniform_filter(np.abs(stretches.stft(_padded(displacement, HOPS * hop))) ** 2, AROUND, mode="nearest")
+        floor = float(np.median(power[len(power) // 2 :]))
+        clear = binary_propagation(power > CLEAR * floor, mask=power > ABOVE_FLOOR * floor)
+        kept = np.where(clear, 1 - floor / np.maximum(power, max(floor, 1e-300)), 0.0)
+        kept[:3] = 1.0  # of a mean and what is slower than a stretch, little is told
+        return cls(stretches, kept, float(np.sqrt(floor / dt)))
+
+    def smoothed(self, displacement: Array) -> Array:
+        return self._filtered(displacement, self.kept) if self.noise > 0 else displacement
+
+    def error(self, count: int, random: np.random.Generator) -> Array:
+        """What a smoothed displacement may be off by: noise kept and motion lost, of the spectrum floor G."""
+        return self._filtered(self.noise * random.standard_normal(count), np.sqrt(self.kept))
+
+    def _filtered(self, signal: Array, share: Array) -> Array:
+        length = len(self.stretches.win)
+        padded = _padded(signal, length)
+        found = self.stretches.istft(self.stretches.stft(padded) * share, k1=len(padded))
+        inside: Array = found[2 * length : 2 * length + len(signal)]
+        return inside
+
+
+def _padded(signal: Array, length: int) -> Array:
+    return np.pad(signal, 2 * length, "reflect", reflect_type="odd")
