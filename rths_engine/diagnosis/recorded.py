@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from scipy.linalg import eigh
 
 from rths_engine import replay
 from rths_engine.arrays import Array
@@ -147,7 +148,8 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
 
 
 def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, Array]) -> Any:
-    """Displacements and velocities of the floors at the start, by a cubic through the first samples; None at rest."""
+    """Displacements and velocities of the floors at the start, by a cubic through the first samples; None at rest. What was not
+    measured is put where the first mode has it."""
     count = len(plan.structure.assemble().floors)
     period = float(plan.periods()[0])
     few = max(8, min(recording.samples, round(0.12 * period / recording.dt)))
@@ -161,7 +163,24 @@ def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, 
         x[floor - 1], v[floor - 1] = float(law[0]), float(law[1])
         moving = moving or abs(law[0]) > AT_REST * float(np.max(np.abs(values)))
     still = not ground.any() and not any(np.any(force) for force in forces.values())
+    if not any(x) and still:
+        x = _by_acceleration(plan, recording, few)
     return (tuple(x), tuple(v)) if moving or still else None
+
+
+def _by_acceleration(plan: Plan, recording: Measured, few: int) -> list[float]:
+    """x = -a / omega_1^2 of the first mode, whose size is that of the accelerations measured at the start."""
+    built = plan.structure.assemble()
+    flexible, modes = eigh(built.mass, built.stiffness)  # 1 / omega^2, rising
+    shape = modes[list(built.floors), -1]
+    measured = [floor for floor in range(1, len(shape) + 1) if recording.has("a_floor", floor)]
+    if not measured:
+        return [0.0] * len(shape)
+    time = np.arange(few) * recording.dt
+    begun = [np.polynomial.Polynomial.fit(time, recording.get("a_floor", one)[:few], 3)(0.0) for one in measured]
+    seen = shape[[one - 1 for one in measured]]
+    size = float(seen @ np.array(begun) / (seen @ seen))
+    return [float(one) for one in -size * flexible[-1] * shape]
 
 
 def suspicious(pairs: Sequence[Pair]) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import binary_propagation, uniform_filter
+from scipy.ndimage import binary_dilation, binary_propagation, uniform_filter
 from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import blackmanharris
 
@@ -14,6 +14,8 @@ from rths_engine.arrays import Array
 STRETCH = 2.0  # s, over which a spectrum is told
 HOPS = 8  # a stretch
 AROUND = (5, 5)  # frequencies and hops whose powers are taken together
+WIDELY, FAINT = (15, 13), 0.4  # likewise for motion hidden in noise; less of it, in units of the floor, may be chance
+NEAR = (31, 9)  # round what is clear, where motion may be hidden
 CLEAR, ABOVE_FLOOR = 8.0, 2.0  # power over the noise floor: no chance; kept where it joins what is clear
 
 
@@ -27,6 +29,7 @@ class Smoother:
 
     stretches: ShortTimeFFT
     kept: Array  # G (frequencies, stretches)
+    unsure: Array  # G, or the power over the floor of motion that is hidden in noise and lost
     noise: float  # standard deviation of the white noise of the displacement, m
 
     @classmethod
@@ -38,14 +41,17 @@ class Smoother:
         clear = binary_propagation(power > CLEAR * floor, mask=power > ABOVE_FLOOR * floor)
         kept = np.where(clear, 1 - floor / np.maximum(power, max(floor, 1e-300)), 0.0)
         kept[:3] = 1.0  # of a mean and what is slower than a stretch, little is told
-        return cls(stretches, kept, float(np.sqrt(floor / dt)))
+        hidden = uniform_filter(np.where(clear, 0.0, power - floor), WIDELY, mode="nearest") / max(floor, 1e-300)
+        near = binary_dilation(clear, np.ones(NEAR, bool)) & (hidden > FAINT)
+        unsure = np.where(clear, kept, np.where(near, np.minimum(hidden, 1.0), 0.0))
+        return cls(stretches, kept, unsure, float(np.sqrt(floor / dt)))
 
     def smoothed(self, displacement: Array) -> Array:
         return self._filtered(displacement, self.kept) if self.noise > 0 else displacement
 
     def error(self, count: int, random: np.random.Generator) -> Array:
         """What a smoothed displacement may be off by: noise kept and motion lost, of the spectrum floor G."""
-        return self._filtered(self.noise * random.standard_normal(count), np.sqrt(self.kept))
+        return self._filtered(self.noise * random.standard_normal(count), np.sqrt(self.unsure))
 
     def _filtered(self, signal: Array, share: Array) -> Array:
         length = len(self.stretches.win)
@@ -56,4 +62,8 @@ class Smoother:
 
 
 def _padded(signal: Array, length: int) -> Array:
-    return np.pad(signal, 2 * length, "reflect", reflect_type="odd")
+    padded = np.pad(signal, 2 * length, "reflect", reflect_type="odd")
+    fade = np.sin(np.linspace(0, np.pi / 2, length)) ** 2
+    padded[:length] *= fade
+    padded[-length:] *= fade[::-1]
+    return padded

@@ -41,8 +41,8 @@ def diagnose(
 ) -> Diagnosis:
     """Every component of the plan against the recording, and `more` recordings fitted with it.
 
-    The replays run over the whole recording; three of ten blocks are never fitted, nor are the `heldout` recordings. `told`
-    hears what is done and the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of
+    The replays run over the whole recording; three of ten blocks are never fitted, nor are the `heldout` recordings. `level`
+    is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is done and the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of
     this plan.
     """
     pairs = recorded.components(plan, recording, "REC.h5")
@@ -54,6 +54,7 @@ def diagnose(
     replayed = digital.replayed(plan, recording)
     random = np.random.default_rng(seed)
     found = []
+    each = level / len(pairs)
     for place, (component, data) in enumerate(pairs):
         name = _title(plan, component.name)
         fitted = [data, *(one[component.name] for one in beside if component.name in one)]
@@ -63,10 +64,10 @@ def diagnose(
             told(name, (place + done) / len(pairs))
 
         share(0.0)
-        found.append(judged(component, name, fitted, kept, level, random, share))
+        found.append(judged(component, name, fitted, kept, each, random, share))
     told("", 1.0)
     plan_after = extended(plan, found)
-    return Diagnosis(plan, tuple(found), tuple(replayed), as_dict(plan, found, replayed, level, plan_after))
+    return Diagnosis(plan, tuple(found), tuple(replayed), as_dict(plan, found, replayed, each, plan_after))
 
 
 def _by_name(plan: Plan, recording: Measured, where: str) -> dict[str, Any]:
