@@ -42,8 +42,8 @@ def diagnose(
     """Every component of the plan against the recording, and `more` recordings fitted with it.
 
     The replays run over the whole recording; three of ten blocks are never fitted, nor are the `heldout` recordings. `level`
-    is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is done and the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of
-    this plan.
+    is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is done and
+    the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of this plan.
     """
     pairs = recorded.components(plan, recording, "REC.h5")
     doubts = recorded.suspicious(pairs)
