@@ -45,7 +45,10 @@ def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array
     displacement's size on the input, taken through the same smoothing, model and band. Each score is told in standard
     deviations of its own under that noise, which reaches some signatures more than others."""
     misfit = fitted_residual(fitted)
-    drawn, lengths = _null_misfits(recordings, fitted, law, random)
+    absorbed = absorber(fitted.jacobian)
+    drawn = null_misfits(recordings, fitted, random)
+    drawn -= drawn @ absorbed @ absorbed.T
+    lengths = np.sum((drawn @ law) ** 2, axis=1)
     explained = float(np.sum((misfit @ law) ** 2))
     p_general = _upper_tail(explained, lengths) if law.shape[1] else 1.0
     if not len(found.rows):
@@ -85,9 +88,8 @@ def _upper_tail(length: float, null: Array) -> float:
     return max(float(gamma.sf(length, mean * mean / variance, scale=variance / mean)), TINIEST)
 
 
-def _null_misfits(recordings: Recordings, fitted: Fitted, law: Array, random: np.random.Generator) -> tuple[Array, Array]:
-    """Misfits (B, N) where nothing was left out, and the squared length (B) of each that a general law accounts for."""
-    absorbed = absorber(fitted.jacobian)
+def null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Array:
+    """Misfits (B, N) of the fitted model where nothing was left out."""
     inputs = _inputs(recordings, fitted, random)
     own = _own(recordings, inputs)
     seeds = random.integers(2**63, size=REPLICATES)
@@ -99,12 +101,9 @@ def _null_misfits(recordings: Recordings, fitted: Fitted, law: Array, random: np
         for reached, weights in zip(inputs[place % len(inputs)], recordings.weights, strict=True):
             noise = np.array([model.drawn(weights.shape[1], random) for model in recordings.noises])
             found.append(own[:, None] * noise / weights + reached)
-        misfit = np.concatenate([recordings.joined(found), random.standard_normal(beyond)])
-        left: Array = misfit - absorbed @ (absorbed.T @ misfit)
-        return left
+        return np.concatenate([recordings.joined(found), random.standard_normal(beyond)])
 
-    rows = np.array(each(drawn, range(REPLICATES)))
-    return rows, np.sum((rows @ law) ** 2, axis=1)
+    return np.array(each(drawn, range(REPLICATES)))
 
 
 def _inputs(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> list[list[Array]]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted
 
 NORMAL_90 = 1.6448536269514722  # standard deviations each way
@@ -31,12 +32,15 @@ def probabilities(weights: Sequence[float]) -> list[float]:
     return [float(one) for one in chances / chances.sum()]
 
 
-def intervals(fitted: Fitted) -> list[tuple[float, float]]:
-    """90 % interval of each free number, from inv(J^T J) times the misfit's variance."""
-    if not fitted.free:
-        return []
-    freedom = max(1, len(fitted.misfit) - len(fitted.free))
-    covariance = np.linalg.pinv(fitted.jacobian.T @ fitted.jacobian) * fitted.squared / freedom
-    spread = NORMAL_90 * np.sqrt(np.diagonal(covariance))
+def deviations(fitted: Fitted, misfits: Array) -> Array:
+    """Standard deviation of each free number's z, by what the fit to first order makes of other noise: `misfits` (B, N)."""
+    moved = np.linalg.lstsq(fitted.jacobian, misfits.T, rcond=None)[0]
+    found: Array = np.std(moved, axis=1, ddof=1)
+    return found
+
+
+def intervals(fitted: Fitted, deviations: Array) -> list[tuple[float, float]]:
+    """90 % interval of each free number."""
+    spread = NORMAL_90 * deviations
     ends = zip(fitted.free, fitted.z - spread, fitted.z + spread, strict=True)
     return [(number.from_z(low), number.from_z(high)) for number, low, high in ends]

@@ -16,7 +16,7 @@ from rths_engine.diagnosis.noise import Noise
 from rths_engine.diagnosis.select import Selection, select
 from rths_engine.part import Part
 
-BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, these are never fitted
+BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, never fitted where no other recording is held out
 ENDS = 0.3  # s at either end, which the filters blur
 PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance
 NOT_WHOLE = 0.25  # of what is beyond the planned model: a named effect that leaves more is not what was left out
@@ -88,7 +88,8 @@ def judged(
     random: np.random.Generator,
     told: Callable[[float], None],
 ) -> Judged:
-    masks = tuple(fitted_blocks(one.measured.shape[1], one.step) for one in data)
+    used = inner if heldout else fitted_blocks
+    masks = tuple(used(one.measured.shape[1], one.step) for one in data)
     noises = tuple(Noise.white(1.0) for _ in data[0].measured)
     weights = tuple(np.ones(one.measured.shape) for one in data)
     selection = select(Recordings(component, tuple(data), masks, noises, weights), level, random, told)

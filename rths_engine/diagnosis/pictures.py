@@ -68,7 +68,7 @@ def _detail(one: Judged) -> dict[str, Any]:
             for row in shown
         ],
         "state": _state(one, data, shown[0], before[shown[0]], after[shown[0]]),
-        "blocks": _blocks(data, before, after),
+        "blocks": _blocks(data, before, after, not one.heldout),
         "held_out_recordings": [_whole(one, other) for other in one.heldout],
         "noise_nrmse": _number(one.noise),
     }
@@ -135,8 +135,8 @@ def _state(one: Judged, data: Any, row: int, before: Array, after: Array) -> dic
     }
 
 
-def _blocks(data: Any, before: Array, after: Array) -> list[dict[str, Any]]:
-    """NRMSE of each block in a row, over the RMS about the mean of the whole."""
+def _blocks(data: Any, before: Array, after: Array, reserved: bool) -> list[dict[str, Any]]:
+    """NRMSE of each block in a row, over the RMS about the mean of the whole; some are `reserved`, not fitted."""
     count = data.measured.shape[1]
     number, used = np.arange(count) * BLOCKS // count, _inner(count, data.step)
     found = []
@@ -148,7 +148,7 @@ def _blocks(data: Any, before: Array, after: Array) -> list[dict[str, Any]]:
             name: _nrmse(data.measured, model, here) if len(here) else None
             for name, model in (("before", before), ("after", after))
         }
-        found.append({**ends, "held_out": block in HELD_OUT, **errors})
+        found.append({**ends, "held_out": reserved and block in HELD_OUT, **errors})
     return found
 
 

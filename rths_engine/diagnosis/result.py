@@ -84,7 +84,7 @@ def _effects(one: Judged, remains: Law | None, level: float) -> list[dict[str, A
         return [_unknown(one, remains, level)]
     chosen = one.selection.chosen
     likely = one.selection.chances
-    ranges = intervals(chosen)
+    ranges = intervals(chosen, one.selection.deviations)
     found = []
     for owner, effect in enumerate(chosen.parts):
         if owner < len(one.component.base):

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import key
-from rths_engine.diagnosis.detect import Detection, detect
-from rths_engine.diagnosis.evidence import MATERIAL, probabilities, weighed
+from rths_engine.diagnosis.detect import Detection, detect, null_misfits
+from rths_engine.diagnosis.evidence import MATERIAL, deviations, probabilities, weighed
 from rths_engine.diagnosis.fitting import ROUGH, Fitted, Recordings, compared, fit
 from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
 from rths_engine.diagnosis.parallel import each
@@ -36,6 +37,7 @@ class Selection:
     tried: tuple[Fitted, ...]
     chances: tuple[float, ...]  # of each tried
     detections: tuple[Detection, ...]
+    deviations: Array  # of the free numbers chosen, in z
 
     @property
     def effects(self) -> tuple[Part, ...]:
@@ -74,7 +76,7 @@ def select(
         chosen = fit(recordings, best.parts)
     tried += _simplified(recordings, chosen)
     told(0.9)
-    return _compared(recordings, rough, chosen, tried, detections)
+    return _compared(recordings, rough, chosen, tried, detections, random)
 
 
 def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detection: Detection, level: float) -> list[Fitted]:
@@ -124,7 +126,12 @@ def _simplified(recordings: Recordings, chosen: Fitted) -> list[Fitted]:
 
 
 def _compared(
-    recordings: Recordings, baseline: Fitted, chosen: Fitted, tried: list[Fitted], detections: list[Detection]
+    recordings: Recordings,
+    baseline: Fitted,
+    chosen: Fitted,
+    tried: list[Fitted],
+    detections: list[Detection],
+    random: np.random.Generator,
 ) -> Selection:
     """Every model once more under the final noise, so that their evidence compares."""
     base = len(recordings.component.base)
@@ -138,7 +145,8 @@ def _compared(
     order = sorted(range(len(models)), key=weights.__getitem__)
     ranked = tuple(models[place] for place in order)
     chances = tuple(probabilities([weights[place] for place in order]))
-    return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections))
+    spread = deviations(ranked[0], null_misfits(recordings, ranked[0], random))
+    return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), spread)
 
 
 def _best(models: Sequence[Fitted], before: float) -> Fitted:

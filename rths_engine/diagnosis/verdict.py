@@ -41,9 +41,9 @@ def diagnose(
 ) -> Diagnosis:
     """Every component of the plan against the recording, and `more` recordings fitted with it.
 
-    The replays run over the whole recording; three of ten blocks are never fitted, nor are the `heldout` recordings. `level`
-    is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is done and
-    the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of this plan.
+    The replays run over the whole recording; the `heldout` recordings are never fitted, or, without one, three of ten blocks.
+    `level` is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is
+    done and the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of this plan.
     """
     pairs = recorded.components(plan, recording, "REC.h5")
     doubts = recorded.suspicious(pairs)

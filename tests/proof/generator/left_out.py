@@ -98,7 +98,7 @@ class Asymmetry(Effect):
     share: float
 
     def force(self, at: At, s: Numbers, f: float) -> float:
-        return f * (1.0 + math.copysign(self.share, f))
+        return f * (1.0 + self.share * math.copysign(1.0, f))
 
 
 @dataclass

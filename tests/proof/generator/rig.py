@@ -235,7 +235,7 @@ def _specimen(p, m, x, low, middle, v, t, h):  # type: ignore[no-untyped-def]
     f += p[SPRING] * x + p[CUBIC] * x**3
     if p[EXPONENT] != 0.0:
         f *= math.hypot(v / p[REFERENCE], 0.05) ** p[EXPONENT]
-    f *= 1.0 + math.copysign(p[ASYMMETRY], f)
+    f *= 1.0 + p[ASYMMETRY] * math.copysign(1.0, f)
     f *= 1.0 - p[DEPTH] * math.exp(-((x / p[WIDTH]) ** 2))
     if p[FRICTION] > 0.0:
         most = 1.0 + max(p[STATIC] / p[FRICTION] - 1.0, 0.0) * math.exp(-((v / p[STRIBECK]) ** 2))
