@@ -50,21 +50,22 @@ class Noise:
         return float(np.sqrt(np.sum(impulse**2)))
 
 
-FLOOR = 0.3  # of the noise's power, white beside it: no frequency counts for much more than the others, where models err too
+LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # of the noise's power, white beside it
 
 
-def autoregressive(stretches: Sequence[Array], order: int = ORDER) -> Noise:
-    """The autoregressive process of stretches of noise, about their mean, by Yule and Walker."""
+def autoregressive(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
+    """The autoregressive process of stretches of noise, about their mean, by Yule and Walker. The white floor of its whitener
+    has `beyond` times the noise's power, where models err by as much: then no frequency counts for much more than others."""
     count = sum(len(one) for one in stretches)
     mean = sum(float(one.sum()) for one in stretches) / count
     stretches = [one - mean for one in stretches]
-    order = min(order, max(0, count // 20))
+    order = min(ORDER, max(0, count // 20))
     covariance = np.zeros(order + 1)
     for one in stretches:
         covariance += [one[: len(one) - lag] @ one[lag:] / count for lag in range(order + 1)]
     if order == 0 or covariance[0] <= 0:
         return Noise.white(float(np.sqrt(max(covariance[0], np.finfo(float).tiny))))
-    return Noise(*_predictor(covariance, 0.0), *_predictor(covariance, FLOOR))
+    return Noise(*_predictor(covariance, 0.0), *_predictor(covariance, min(max(beyond, LEAST_FLOOR), MOST_FLOOR)))
 
 
 def _predictor(covariance: Array, floor: float) -> tuple[Array, float]:

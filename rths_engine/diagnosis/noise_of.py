@@ -53,7 +53,8 @@ def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
     now = evaluated(plain, fitted.parts)
     count = now.samples
     terms = np.column_stack([signatures(plain, now).rows.T[:count], general_terms(plain, now)[:count]])
-    noises = _noises(plain, now.misfit[:count])
+    residual = now.misfit[:count]
+    noises = _noises(plain, residual, residual)
     taken: list[int] = []
     for _ in range(ROUNDS):
         white = _whitened(plain, noises, np.column_stack([now.misfit[:count], now.jacobian[:count], terms]))
@@ -62,7 +63,7 @@ def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
         taken = _clear(misfit, known, offered, taken)
         columns = np.column_stack([now.jacobian[:count], terms[:, taken]])
         weights = np.linalg.lstsq(np.column_stack([known, offered[:, taken]]), misfit, rcond=None)[0]
-        noises = _noises(plain, now.misfit[:count] - columns @ weights)
+        noises = _noises(plain, residual - columns @ weights, residual)
         if len(taken) == before:
             break
     return replace(recordings, noises=noises)
@@ -85,10 +86,12 @@ def _clear(misfit: Array, known: Array, offered: Array, taken: list[int]) -> lis
     return taken
 
 
-def _noises(plain: Recordings, misfit: Array) -> tuple[Noise, ...]:
+def _noises(plain: Recordings, noise: Array, residual: Array) -> tuple[Noise, ...]:
     found = []
-    for rows, white in zip(plain.channels(misfit), plain.noises, strict=True):
-        found.append(autoregressive(rows).times(white.sigma, LEAST_NOISE / FIRST_GUESS))
+    for rows, whole, white in zip(plain.channels(noise), plain.channels(residual), plain.noises, strict=True):
+        power, most = (sum(float(one @ one) for one in some) for some in (rows, whole))
+        beyond = most / max(power, 1e-300) - 1
+        found.append(autoregressive(rows, beyond).times(white.sigma, LEAST_NOISE / FIRST_GUESS))
     return tuple(found)
 
 

@@ -12,7 +12,7 @@ from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.diagnosis.locate import place
 from rths_engine.diagnosis.next_test import next_test
-from rths_engine.diagnosis.separate import alike
+from rths_engine.diagnosis.separate import alike, separation
 from rths_engine.diagnosis.unknown import Law, law
 from rths_engine.physics.effect import Effect
 from rths_engine.plan import Plan
@@ -96,16 +96,16 @@ def _effects(one: Judged, remains: Law | None, level: float) -> list[dict[str, A
             for number, (low, high) in zip(chosen.free, ranges, strict=True)
             if number.owner == owner
         ]
-        found.append(
-            {
-                "component": one.component.place(effect),
-                "id": effect.id,
-                "probability": min(1.0, chance),
-                "sentence": _sentence(one, effect, numbers),
-                "parameters": numbers,
-            }
-        )
-    return sorted(found, key=lambda effect: -effect["probability"])
+        told: dict[str, Any] = {
+            "component": one.component.place(effect),
+            "id": effect.id,
+            "probability": min(1.0, chance),
+            "sentence": _sentence(one, effect, numbers),
+            "parameters": numbers,
+        }
+        without = [part for part in chosen.parts if part is not effect]
+        found.append((-round(told["probability"], 2), -separation(one.recordings, chosen.parts, without), told))
+    return [told for _, _, told in sorted(found, key=lambda one: one[:2])]
 
 
 def _sentence(one: Judged, effect: Effect, numbers: Sequence[dict[str, Any]]) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 
 from rths_engine.arrays import Array
-from rths_engine.diagnosis.components.component import key
+from rths_engine.diagnosis.components.component import Loose, key
 from rths_engine.diagnosis.detect import Detection, detect, null_misfits
 from rths_engine.diagnosis.evidence import MATERIAL, deviations, probabilities, weighed
 from rths_engine.diagnosis.fitting import ROUGH, Fitted, Recordings, compared, fit
@@ -48,16 +49,17 @@ def select(
     recordings: Recordings, level: float, random: np.random.Generator, told: Callable[[float], None] = lambda share: None
 ) -> Selection:
     """`told` hears the share of the work done."""
+    component = recordings.component
     plain = first_noise(recordings)
-    rough = fit(plain, recordings.component.base)
-    recordings.component.settle(rough.parts, recordings.data)
+    rough = fit(plain, component.base)
+    component.settle(rough.parts, recordings.data)
     plain = weighted(plain, rough, random)
     recordings = with_noise(plain, rough)
     chosen = fit(recordings, rough.parts)
     first = chosen.bic
     tried: list[Fitted] = []
     detections: list[Detection] = []
-    base = len(recordings.component.base)
+    base = len(component.base)
     for stage in range(MOST_EFFECTS + 2):
         told((1 + stage) / (MOST_EFFECTS + 4))
         found = signatures(recordings, chosen)
@@ -71,12 +73,19 @@ def select(
         if best.bic > chosen.bic - max(WORTH, MATERIAL * (first - best.bic)):
             break
         tried += fits
-        recordings.component.settle(best.parts, recordings.data)
+        component.settle(best.parts, recordings.data)
         recordings = with_noise(recordings, best)
-        chosen = fit(recordings, best.parts)
+        chosen = _afresh(recordings, best)
     tried += _simplified(recordings, chosen)
     told(0.9)
     return _compared(recordings, rough, chosen, tried, detections, random)
+
+
+def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
+    """Fitted from where it is, and from there with what is loose put back: a kink of a model may hold that."""
+    pairs = zip_longest(best.parts, recordings.component.base)
+    loosened = tuple(base if isinstance(base, Loose) else part for part, base in pairs)
+    return min(each(lambda parts: fit(recordings, parts), [best.parts, loosened]), key=_bic)
 
 
 def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detection: Detection, level: float) -> list[Fitted]:
@@ -115,7 +124,7 @@ def _simplified(recordings: Recordings, chosen: Fitted) -> list[Fitted]:
     for place, part in enumerate(chosen.parts[base:], start=base):
         assert isinstance(part, Effect)
         rest = [*chosen.parts[:place], *chosen.parts[place + 1 :]]
-        models += [rest] if len(rest) > base + 1 else []
+        models += [rest] if len(rest) > base else []
         for name in part.relatives:
             relative = others.get(name)
             if relative is None or key(relative) in {key(one) for one in rest}:
@@ -135,11 +144,14 @@ def _compared(
 ) -> Selection:
     """Every model once more under the final noise, so that their evidence compares."""
     base = len(recordings.component.base)
-    kinds = {tuple(sorted(str(key(part)) for part in one.parts[base:])): one for one in [baseline, *tried, chosen]}
-    others = each(lambda one: compared(recordings, one), [one for one in kinds.values() if one is not chosen])
+    kinds: dict[tuple[str, ...], Fitted] = {}
+    for one in each(lambda one: compared(recordings, one), [baseline, *tried, chosen]):
+        kind = tuple(sorted(str(key(part)) for part in one.parts[base:]))
+        kinds[kind] = min(kinds.get(kind, one), one, key=_bic)
+    others = list(kinds.values())
     near = [one for one in others if one.bic < chosen.bic + HOPELESS or len(one.parts) == base]
     again = each(lambda one: fit(recordings, one.parts, FINAL), near)
-    models = [chosen, *again, *(one for one in others if all(one is not kept for kept in near))]
+    models = [*again, *(one for one in others if all(one is not kept for kept in near))]
     plain = next(one for one in models if len(one.parts) == base)
     weights = weighed(models, plain.bic)
     order = sorted(range(len(models)), key=weights.__getitem__)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from rths_engine.diagnosis.fitting import Fitted, Recordings
+from rths_engine.part import Part
 
 APART = 10.0  # of lambda: below, two models can't be told apart
 
 
-def separation(recordings: Recordings, one: Fitted, other: Fitted) -> float:
-    """lambda = N_eff (misfit of one to the other / sigma)^2: the squared distance, in units of the noise, of what both simulate
-    where both fit the recording best."""
-    pairs = zip(recordings.predicted(one.parts), recordings.predicted(other.parts), strict=True)
+def separation(recordings: Recordings, one: Sequence[Part], other: Sequence[Part]) -> float:
+    """lambda = N_eff (misfit of one to the other / sigma)^2: the squared distance, in units of the noise, of what two models
+    simulate."""
+    pairs = zip(recordings.predicted(one), recordings.predicted(other), strict=True)
     between = recordings.joined([first - second for first, second in pairs])
     return float(between @ between)
 
@@ -22,7 +25,7 @@ def alike(recordings: Recordings, best: Fitted, tried: tuple[Fitted, ...]) -> li
     found = []
     for other in tried:
         if other is not best and len(other.parts) == len(best.parts) and other.bic - best.bic < APART:
-            apart = separation(recordings, best, other)
+            apart = separation(recordings, best.parts, other.parts)
             if np.isfinite(apart) and apart < APART:
                 found.append((other, apart))
     return found

@@ -93,7 +93,7 @@ def test_a_recording_of_another_plan_is_refused_with_its_reason() -> None:
 
 def test_the_colour_of_noise_is_found() -> None:
     random = np.random.default_rng(3)
-    noise = autoregressive([lfilter([2.0], [1, -0.8], random.standard_normal(20_000))], order=1)
+    noise = autoregressive([lfilter([2.0], [1, -0.8], random.standard_normal(20_000))])
     assert noise.coefficients[1] == pytest.approx(-0.8, abs=0.02)
     assert noise.sigma == pytest.approx(2.0, rel=0.03)
     assert noise.deviation == pytest.approx(2.0 / 0.6, rel=0.05)
