@@ -26,13 +26,14 @@ CLOSE = 1e-6  # of the squared misfit: far below the 1 that evidence weighs
 @dataclass(frozen=True)
 class Recordings:
     """What a component is fitted to: its data, which samples count, the noise of each channel of the output, and how much each
-    sample counts, less where noise on the input reaches the output more."""
+    sample counts, less where noise on the input reaches the output more, or more is left than noise elsewhere."""
 
     component: Component
     data: tuple[Any, ...]
     masks: tuple[NDArray[np.bool_], ...]  # True where fitted
     noises: tuple[Noise, ...]
     weights: tuple[Array, ...]  # (channels, n) each
+    steady: tuple[Array, ...]  # likewise, by the input's noise alone
 
     def predicted(self, parts: Sequence[Part]) -> list[Array]:
         """Each recording's output, cut where a model runs away."""

@@ -11,27 +11,32 @@ from scipy.signal import lfilter
 
 from rths_engine.arrays import Array
 
-ORDER = 12  # the stop band of the decimation takes as many
+ORDER, LONG = 12, 128  # the stop band of the decimation takes as many as the first; noise of a second and slower, the other
+
+LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # of the noise's power, white beside it
+CORNERS = (0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3)  # of the sampling rate
+GRID = 4096  # frequencies of a spectrum
+FREQUENCY = np.linspace(0.0, 0.5, GRID + 1)  # of the sampling rate
+ITERATIONS = 150
 
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """n[i] + a_1 n[i-1] + ... = sigma e[i], with e white and of unit variance. `whitener`, likewise, is of the noise with a
-    white floor: by it no frequency counts for much more than the others."""
+    """Of a `spectrum` (GRID + 1): the mean of |rfft|^2 over the count, from 0 to half the sampling rate. The `whitener`, in
+    units of `scale`, is of the noise with a white floor: by it no frequency counts for much more than the others."""
 
-    coefficients: Array  # 1, a_1, ...
-    sigma: float
+    spectrum: Array
     whitener: Array
     scale: float
 
     @classmethod
     def white(cls, sigma: float) -> Noise:
-        return cls(np.ones(1), sigma, np.ones(1), sigma)
+        return cls(np.full(GRID + 1, sigma**2), np.ones(1), sigma)
 
     def times(self, unit: float, least: float) -> Noise:
         """In another unit, and no smaller than `least` of it."""
-        more = max(1.0, least / max(self.scale, 1e-300))
-        return Noise(self.coefficients, unit * more * self.sigma, self.whitener, unit * more * self.scale)
+        more = unit * max(1.0, least / max(self.scale, 1e-300))
+        return Noise(self.spectrum * more**2, self.whitener, self.scale * more)
 
     def whitened(self, signals: Array) -> Array:
         """The signals (samples along the last axis) in units of the noise, made white."""
@@ -39,33 +44,55 @@ class Noise:
         return white
 
     def drawn(self, count: int, random: np.random.Generator) -> Array:
-        white = random.standard_normal(count + 50 * len(self.coefficients))
-        drawn: Array = lfilter([self.sigma], self.coefficients, white)[-count:]
+        long = 2 * count  # of which the second half does not meet the first again
+        power = np.interp(np.fft.rfftfreq(long), FREQUENCY, self.spectrum)
+        drawn: Array = np.fft.irfft(np.sqrt(power) * np.fft.rfft(random.standard_normal(long)), long)[:count]
         return drawn
 
     @property
     def deviation(self) -> float:
         """Standard deviation of the noise itself."""
-        impulse = lfilter([self.sigma], self.coefficients, np.eye(1, 4000)[0])
-        return float(np.sqrt(np.sum(impulse**2)))
+        return float(np.sqrt(np.mean(self.spectrum)))
 
 
-LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # of the noise's power, white beside it
-
-
-def autoregressive(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
-    """The autoregressive process of stretches of noise, about their mean, by Yule and Walker. The white floor of its whitener
-    has `beyond` times the noise's power, where models err by as much: then no frequency counts for much more than others."""
+def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
+    """The noise of which stretches, about their mean, are: a spectrum that rises towards low frequencies, times a short
+    autoregressive process, and both as a long one. The white floor of its whitener has `beyond` times the noise's power, where
+    models err by as much: then no frequency counts for much more than others."""
     count = sum(len(one) for one in stretches)
     mean = sum(float(one.sum()) for one in stretches) / count
-    stretches = [one - mean for one in stretches]
-    order = min(ORDER, max(0, count // 20))
+    powers = [np.abs(np.fft.rfft(one - mean)) ** 2 / len(one) for one in stretches]
+    order, variance = min(ORDER, max(0, count // 20)), sum(float(np.sum((one - mean) ** 2)) for one in stretches) / count
+    if order == 0 or variance <= 0:
+        return Noise.white(float(np.sqrt(max(variance, np.finfo(float).tiny))))
+    known = [np.fft.rfftfreq(len(one)) for one in stretches]
+    weights = _risen(np.concatenate([one[1:] for one in known]), np.concatenate([one[1:] for one in powers]))
     covariance = np.zeros(order + 1)
-    for one in stretches:
-        covariance += [one[: len(one) - lag] @ one[lag:] / count for lag in range(order + 1)]
-    if order == 0 or covariance[0] <= 0:
-        return Noise.white(float(np.sqrt(max(covariance[0], np.finfo(float).tiny))))
-    return Noise(*_predictor(covariance, 0.0), *_predictor(covariance, min(max(beyond, LEAST_FLOOR), MOST_FLOOR)))
+    for one, power in zip(known, powers, strict=True):
+        covariance += np.fft.irfft(power / (weights @ _shapes(one)))[: order + 1] * 2 * len(one) / count
+    short, sigma = _predictor(covariance, 0.0)
+    spectrum = (weights @ _shapes(FREQUENCY)) * sigma**2 / np.abs(np.fft.rfft(short, 2 * GRID)) ** 2
+    covariance = np.fft.irfft(spectrum)[: min(LONG, max(order, count // 20)) + 1]
+    return Noise(spectrum, *_predictor(covariance, min(max(beyond, LEAST_FLOOR), MOST_FLOOR)))
+
+
+def _risen(frequency: Array, power: Array) -> Array:
+    """Weights of a constant and of first-order processes, whose sum is likeliest for a periodogram.
+
+    Source: Whittle (1953), Ark. Mat. 2, 423-434; its maximum by the updates of Fevotte, Bertin and Durrieu (2009), Neural
+    Comput. 21, 793-830, for the distance of Itakura and Saito.
+    """
+    parts = _shapes(frequency)
+    weights = np.full(len(parts), float(np.mean(power)) / len(parts))
+    for _ in range(ITERATIONS):
+        spectrum = weights @ parts
+        weights = weights * np.sqrt((parts @ (power / spectrum**2)) / (parts @ (1 / spectrum)))
+    return weights
+
+
+def _shapes(frequency: Array) -> Array:
+    """(parts, frequencies)."""
+    return np.array([np.ones(len(frequency)), *(1 / (1 + (frequency / corner) ** 2) for corner in CORNERS)])
 
 
 def _predictor(covariance: Array, floor: float) -> tuple[Array, float]:

@@ -10,7 +10,7 @@ from scipy.ndimage import uniform_filter1d
 
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings, evaluated
-from rths_engine.diagnosis.noise import Noise, autoregressive
+from rths_engine.diagnosis.noise import Noise, coloured
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import general_terms, signatures
 
@@ -18,6 +18,7 @@ FIRST_GUESS = 0.01  # noise over the output's deviation, before any is known
 LEAST_NOISE = 1e-6  # likewise: below, numbers of a file are rounded
 DRAWS = 12
 SMOOTHED = 0.1  # s
+EVENED, UNEVEN = 1.0, 1.5  # s; times the median: more power, for so long, is beyond chance
 ROUNDS = 4
 MOST_TERMS = 12
 CLEAR = 4.0  # standard deviations: a term so large is no noise
@@ -43,13 +44,14 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
         width = max(1, round(SMOOTHED / one.step))
         local = np.sqrt(np.maximum(uniform_filter1d(reached**2, width, axis=1), 0.0))
         weights.append(1 / np.sqrt(1 + (local / sigma) ** 2))
-    return replace(recordings, weights=tuple(weights))
+    return replace(recordings, weights=tuple(weights), steady=tuple(weights))
 
 
 def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
     """First all that the fitted numbers leave is taken for noise; then term by term what stands clear of it, of the library's
-    effects and of a general law, is taken out, and the noise found anew."""
-    plain = first_noise(recordings)
+    effects and of a general law, is taken out, and the noise found anew. Where clearly more is left for a while than elsewhere,
+    the samples count less."""
+    plain = first_noise(replace(recordings, weights=recordings.steady))
     now = evaluated(plain, fitted.parts)
     count = now.samples
     terms = np.column_stack([signatures(plain, now).rows.T[:count], general_terms(plain, now)[:count]])
@@ -63,10 +65,31 @@ def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
         taken = _clear(misfit, known, offered, taken)
         columns = np.column_stack([now.jacobian[:count], terms[:, taken]])
         weights = np.linalg.lstsq(np.column_stack([known, offered[:, taken]]), misfit, rcond=None)[0]
-        noises = _noises(plain, residual - columns @ weights, residual)
+        left = residual - columns @ weights
+        noises = _noises(plain, left, residual)
         if len(taken) == before:
             break
-    return replace(recordings, noises=noises)
+    shares = _evened(plain, _whitened(plain, noises, left[:, None])[:, 0])
+    even = np.concatenate([share[mask] for one, mask in zip(shares, plain.masks, strict=True) for share in one])
+    noises = _noises(plain, even * left, even * residual)
+    found: list[Array] = [share * steady for share, steady in zip(shares, plain.steady, strict=True)]
+    return replace(recordings, noises=noises, weights=tuple(found))
+
+
+def _evened(plain: Recordings, white: Array) -> list[Array]:
+    """(channels, n) each: 1, or less where the power of the whitened noise is above its median for a while."""
+    parts = np.split(white, np.cumsum([int(mask.sum()) for mask in plain.masks for _ in plain.noises])[:-1])
+    found: list[Array] = []
+    count = len(plain.noises)
+    for place, (one, mask) in enumerate(zip(plain.data, plain.masks, strict=True)):
+        rows = []
+        for row in parts[place * count : (place + 1) * count]:
+            local = uniform_filter1d(row**2, max(1, round(EVENED / one.step)))
+            share = np.ones(len(mask))
+            share[mask] = np.sqrt(np.minimum(1.0, UNEVEN * np.median(local) / np.maximum(local, 1e-300)))
+            rows.append(share)
+        found.append(np.array(rows))
+    return found
 
 
 def _clear(misfit: Array, known: Array, offered: Array, taken: list[int]) -> list[int]:
@@ -91,7 +114,7 @@ def _noises(plain: Recordings, noise: Array, residual: Array) -> tuple[Noise, ..
     for rows, whole, white in zip(plain.channels(noise), plain.channels(residual), plain.noises, strict=True):
         power, most = (sum(float(one @ one) for one in some) for some in (rows, whole))
         beyond = most / max(power, 1e-300) - 1
-        found.append(autoregressive(rows, beyond).times(white.sigma, LEAST_NOISE / FIRST_GUESS))
+        found.append(coloured(rows, beyond).times(white.scale, LEAST_NOISE / FIRST_GUESS))
     return tuple(found)
 
 
@@ -101,5 +124,5 @@ def _whitened(plain: Recordings, noises: tuple[Noise, ...], columns: Array) -> A
     ends = np.cumsum([0] + [int(mask.sum()) for mask in plain.masks for _ in plain.noises])
     for place, (start, end) in enumerate(itertools.pairwise(ends)):
         channel = place % len(noises)
-        rows.append(noises[channel].whitened(plain.noises[channel].sigma * columns[start:end].T).T)
+        rows.append(noises[channel].whitened(plain.noises[channel].scale * columns[start:end].T).T)
     return np.concatenate(rows)

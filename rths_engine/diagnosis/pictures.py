@@ -17,7 +17,7 @@ from rths_engine.decimate import extremes
 from rths_engine.diagnosis.components.structure import StructureData
 from rths_engine.diagnosis.judge import BLOCKS, ENDS, HELD_OUT, Judged
 from rths_engine.diagnosis.locate import BEYOND, place
-from rths_engine.diagnosis.noise import Noise
+from rths_engine.diagnosis.noise import FREQUENCY, Noise
 from rths_engine.diagnosis.result import ORDER
 from rths_engine.diagnosis.verdict import Diagnosis
 from rths_engine.measured.roles import SHOWN, dimension, to_si
@@ -110,8 +110,7 @@ def _spectra(residuals: Array, noise: Noise, weights: Array, step: float) -> dic
     """Power spectral densities (unit^2/Hz) by Welch, and that of the noise model, larger where it reaches further."""
     length = max(16, residuals.shape[1] // SEGMENTS)
     frequency, power = welch(np.nan_to_num(residuals), 1 / step, nperseg=min(length, residuals.shape[1]))
-    turns = np.exp(-2j * np.pi * step * np.outer(frequency, np.arange(len(noise.coefficients))))
-    modelled = 2 * step * noise.sigma**2 / np.abs(turns @ noise.coefficients) ** 2 * np.mean(weights**-2.0)
+    modelled = 2 * step * np.interp(step * frequency, FREQUENCY, noise.spectrum) * np.mean(weights**-2.0)
     lines = {"before": power[0], "after": power[1], "noise": modelled}
     return {"frequency_hz": _numbers(frequency[1:]), **{name: _numbers(line[1:]) for name, line in lines.items()}}
 

@@ -15,6 +15,7 @@ from rths_engine.physics.effect import Effect
 
 ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
 ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan
+SLOW = 0.15  # Hz
 NOTHING = 1e-9  # of the misfit: a signature so small says nothing
 
 
@@ -77,8 +78,9 @@ def general(recordings: Recordings, fitted: Fitted) -> Array:
 
 
 def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
-    """Unit columns (N, K), likewise, a term of the law each."""
-    absorbed = absorber(fitted.jacobian)
+    """Unit columns (N, K), likewise, a term of the law each, but for what is as slow as drifts: of so few waves, noise is not
+    told from a law."""
+    absorbed = absorber(np.column_stack([fitted.jacobian, _slow(recordings, len(fitted.misfit))]))
     terms = [recordings.component.features(fitted.parts, one) for one in recordings.data]
     columns = []
     for same in zip(*terms, strict=True):
@@ -86,6 +88,21 @@ def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
         if column is not None:
             columns.append(column[0])
     return np.array(columns).T if columns else np.zeros((len(absorbed), 0))
+
+
+def _slow(recordings: Recordings, rows: int) -> Array:
+    """Columns (rows, M): cosines slower than SLOW of each channel of each recording."""
+    still = [np.zeros_like(one.measured) for one in recordings.data]
+    columns = []
+    for place, one in enumerate(recordings.data):
+        channels, count = one.measured.shape
+        middle = (np.arange(count) + 0.5) / count
+        for channel in range(channels):
+            for half_waves in range(int(2 * SLOW * count * one.step) + 1):
+                wave = still[place].copy()
+                wave[channel] = np.cos(np.pi * half_waves * middle)
+                columns.append(recordings.joined([*still[:place], wave, *still[place + 1 :]]))
+    return np.pad(np.array(columns).T, ((0, rows - len(columns[0])), (0, 0)))
 
 
 def absorber(jacobian: Array) -> Array:

@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import lfilter
 
 from rths_engine.diagnosis import diagnose
-from rths_engine.diagnosis.noise import autoregressive
+from rths_engine.diagnosis.noise import FREQUENCY, coloured
 from rths_engine.errors import RecordingError
 from rths_engine.measured import Measured, MeasuredChannel
 from rths_engine.physics.effect import Effect
@@ -93,9 +93,10 @@ def test_a_recording_of_another_plan_is_refused_with_its_reason() -> None:
 
 def test_the_colour_of_noise_is_found() -> None:
     random = np.random.default_rng(3)
-    noise = autoregressive([lfilter([2.0], [1, -0.8], random.standard_normal(20_000))])
-    assert noise.coefficients[1] == pytest.approx(-0.8, abs=0.02)
-    assert noise.sigma == pytest.approx(2.0, rel=0.03)
+    noise = coloured([lfilter([2.0], [1, -0.8], random.standard_normal(20_000))])
+    true = 4.0 / np.abs(1 - 0.8 * np.exp(-2j * np.pi * FREQUENCY)) ** 2
+    assert noise.spectrum[40:] == pytest.approx(true[40:], rel=0.15)  # below, few waves were heard
+    assert np.std(noise.drawn(20_000, random)) == pytest.approx(noise.deviation, rel=0.05)
     assert noise.deviation == pytest.approx(2.0 / 0.6, rel=0.05)
 
 

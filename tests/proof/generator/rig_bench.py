@@ -19,6 +19,7 @@ LAWS = {"linear": LINEAR, "mr_damper": SLIDER_MAXWELL, "hyperbolic_tangent": TAN
 # effects that are numbers of the law itself, and so no effect of that law
 OWN = {"linear": {"parallel_stiffness"}, "mr_damper": set(), "hyperbolic_tangent": {"parallel_stiffness"}}
 TOLERANCE = 0.05  # of the numbers of an actuator
+SPEED = 2.0  # m/s, the most of an actuator
 
 
 class Bench:
@@ -59,7 +60,7 @@ class Bench:
         return {
             "name": "Station",
             "compensator": compensator,
-            "actuator": {"kind": kind, "velocity_limit": 2.0, **actuator},
+            "actuator": {"kind": kind, "velocity_limit": SPEED, **actuator},
             "specimen": {"kind": self.law, **specimen},
             "limits": {"displacement": 1.0, "velocity": 2.0, "force": 1e8},
         }
@@ -106,7 +107,7 @@ def _law(law: str, specimen: dict[str, float]) -> dict[str, float]:
 
 
 def _speed(lefts: list[Left]) -> dict[str, float]:
-    return {"speed": min([2.0, *(one.numbers["speed"] for one in lefts if "speed" in one.numbers)])}
+    return {"speed": min([SPEED, *(one.numbers["speed"] for one in lefts if "speed" in one.numbers)])}
 
 
 def coloured(random: np.random.Generator, level: str, signal: Array, step: float) -> Colour:
