@@ -59,6 +59,12 @@ def own(effects, component):
     return Effects(effects.codes[component], effects.parameters[component], effects.states[component])
 
 
+@compiled
+def acts(hook, effects):
+    """Whether any effect is at this hook."""
+    return np.any(effects.codes[:, 0] == hook)
+
+
 def _extending(kinds: Sequence[type[Effect]]) -> Any:
     """`extended(hook, effects, y, x, v, w, t, dt)`: the signal y after every effect at this hook (`physics.effect`).
 

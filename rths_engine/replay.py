@@ -9,12 +9,14 @@ import numpy as np
 from rths_engine import actuators, compensators, loop, specimens, starting
 from rths_engine.arrays import Array
 from rths_engine.dispatch import (
+    acts,
     actuate,
     compensate,
     effects,
     extend_actuator,
     extend_sensor,
     extend_specimen,
+    resist,
     resisted,
 )
 from rths_engine.kernel import entry
@@ -72,31 +74,39 @@ def _stepping(extended: Sequence[Effect]) -> list[Effect]:
 
 @entry
 def _specimen(x, current, start, dt, code, parameters, state, extended, force):
-    f, inner, last, last_u = 0.0, 0.0, x[0], x[0]
+    f, inner, flexibility, last, last_u = 0.0, 0.0, 0.0, x[0], x[0]
+    moves, gives, adds, misread = acts(INPUT, extended), acts(SERIES, extended), acts(FORCE, extended), acts(F_SENSOR, extended)
     before = np.empty(state.size)
     for q in range(x.size):
         t = start + q * dt
         v = (x[q] - last) / dt
-        last = x[q]
-        u = extend_specimen(INPUT, extended, x[q], x[q], v, f, t, dt)
-        flexibility = extend_specimen(SERIES, extended, 0.0, x[q], v, f, t, dt)
-        u, f = resisted(code, parameters, state, flexibility, u, dt, before, inner)
+        u = last = x[q]
+        if moves:
+            u = extend_specimen(INPUT, extended, u, x[q], v, f, t, dt)
+        if gives:
+            flexibility = extend_specimen(SERIES, extended, 0.0, x[q], v, f, t, dt)
+            u, f = resisted(code, parameters, state, flexibility, u, dt, before, inner)
+        else:
+            f = resist(code, parameters, state, u, dt)
         inner = f
-        f = extend_specimen(FORCE, extended, f, u, (u - last_u) / dt, current[q], t, dt)
+        if adds:
+            f = extend_specimen(FORCE, extended, f, u, (u - last_u) / dt, current[q], t, dt)
         last_u = u
-        force[q] = extend_sensor(F_SENSOR, extended, f, x[q], v, f, t, dt)
+        force[q] = extend_sensor(F_SENSOR, extended, f, x[q], v, f, t, dt) if misread else f
 
 
 @entry
 def _actuator(command, load, start, dt, code, parameters, state, extended, reading):
     x, v, last_sent, force = 0.0, 0.0, 0.0, 0.0
+    commands, moves, misread = acts(COMMAND, extended), acts(PISTON, extended), acts(X_SENSOR, extended)
     for q in range(command.size):
         t = start + q * dt
-        sent = extend_actuator(COMMAND, extended, command[q], x, v, force, t, dt)
+        sent = extend_actuator(COMMAND, extended, command[q], x, v, force, t, dt) if commands else command[q]
         moved = actuate(code, parameters, state, sent, force)
-        moved = extend_actuator(PISTON, extended, moved, sent, (sent - last_sent) / dt, force, t, dt)
+        if moves:
+            moved = extend_actuator(PISTON, extended, moved, sent, (sent - last_sent) / dt, force, t, dt)
         x, v, last_sent, force = moved, (moved - x) / dt, sent, load[q]
-        reading[q] = extend_sensor(X_SENSOR, extended, x, x, v, x, t, dt)
+        reading[q] = extend_sensor(X_SENSOR, extended, x, x, v, x, t, dt) if misread else x
 
 
 @entry

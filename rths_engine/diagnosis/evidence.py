@@ -8,21 +8,29 @@ import numpy as np
 
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted
+from rths_engine.part import Part
+from rths_engine.physics.effect import Effect, Seen
 
 NORMAL_90 = 1.6448536269514722  # standard deviations each way
 
 
-MATERIAL = 0.02  # of all that effects account for: models nearer than that are told apart by their numbers alone
+MATERIAL = 0.02  # of all that effects account for: what models err by, so that less says little
+STRONG = 6.0  # of BIC: strong evidence (Kass and Raftery 1995)
 
 
-def weighed(tried: Sequence[Fitted], before: float) -> list[float]:
-    """BIC of each, where models err too: `before` is that of the planned parts alone. Models that account for nearly as much as
-    the best are alike but for ln N for each of their numbers."""
+def weighed(tried: Sequence[Fitted], before: float, seen: Sequence[Seen]) -> list[float]:
+    """chi^2 / T + k ln N of each, and what its effects' numbers are less likely beforehand. `before` is the BIC of the planned
+    parts alone; T rises above 1 where MATERIAL of what the best model accounts for would be strong evidence: models err by as
+    much, whatever the noise."""
     bic = [model.bic for model in tried]
-    level = min(bic) + MATERIAL * max(0.0, before - min(bic))
     counts = [len(model.free) * float(np.log(model.samples)) for model in tried]
-    least = min(count for count, one in zip(counts, bic, strict=True) if one <= level)
-    return [max(one, level + count - least) for one, count in zip(bic, counts, strict=True)]
+    temper = max(1.0, MATERIAL * (before - min(bic)) / STRONG)
+    doubts = [sum(_doubt(part, seen) for part in model.parts) for model in tried]
+    return [(one - count) / temper + count + doubt for one, count, doubt in zip(bic, counts, doubts, strict=True)]
+
+
+def _doubt(part: Part, seen: Sequence[Seen]) -> float:
+    return part.doubt(seen[getattr(part, "storey", 1) - 1]) if isinstance(part, Effect) else 0.0
 
 
 def probabilities(weights: Sequence[float]) -> list[float]:

@@ -93,6 +93,7 @@ def judged(
     noises = tuple(Noise.white(1.0) for _ in data[0].measured)
     weights = tuple(np.ones(one.measured.shape) for one in data)
     selection = select(Recordings(component, tuple(data), masks, noises, weights, weights), level, random, told)
+    component.settle(selection.chosen.parts, heldout)
     first, last = selection.detections[0], selection.detections[-1]
     found = Judged(component, name, selection, "consistent", False, tuple(heldout))
     if first.p_value > level:

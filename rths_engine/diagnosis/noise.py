@@ -14,10 +14,11 @@ from rths_engine.arrays import Array
 ORDER, LONG = 12, 128  # the stop band of the decimation takes as many as the first; noise of a second and slower, the other
 
 LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # of the noise's power, white beside it
-CORNERS = (0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3)  # of the sampling rate
+CORNERS = (0.0003, 0.001, 0.003, 0.01, 0.03, 0.1)  # of the sampling rate
 GRID = 4096  # frequencies of a spectrum
 FREQUENCY = np.linspace(0.0, 0.5, GRID + 1)  # of the sampling rate
-ITERATIONS = 150
+ITERATIONS = 100
+TURNS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +57,8 @@ class Noise:
 
 
 def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
-    """The noise of which stretches, about their mean, are: a spectrum that rises towards low frequencies, times a short
-    autoregressive process, and both as a long one. The white floor of its whitener has `beyond` times the noise's power, where
+    """The noise of which stretches, about their mean, are: a short autoregressive process, times a spectrum that rises
+    towards low frequencies, each found in turn. The white floor of its whitener has `beyond` times the noise's power, where
     models err by as much: then no frequency counts for much more than others."""
     count = sum(len(one) for one in stretches)
     mean = sum(float(one.sum()) for one in stretches) / count
@@ -65,15 +66,31 @@ def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
     order, variance = min(ORDER, max(0, count // 20)), sum(float(np.sum((one - mean) ** 2)) for one in stretches) / count
     if order == 0 or variance <= 0:
         return Noise.white(float(np.sqrt(max(variance, np.finfo(float).tiny))))
-    known = [np.fft.rfftfreq(len(one)) for one in stretches]
-    weights = _risen(np.concatenate([one[1:] for one in known]), np.concatenate([one[1:] for one in powers]))
-    covariance = np.zeros(order + 1)
-    for one, power in zip(known, powers, strict=True):
-        covariance += np.fft.irfft(power / (weights @ _shapes(one)))[: order + 1] * 2 * len(one) / count
-    short, sigma = _predictor(covariance, 0.0)
-    spectrum = (weights @ _shapes(FREQUENCY)) * sigma**2 / np.abs(np.fft.rfft(short, 2 * GRID)) ** 2
+    slow = np.eye(len(CORNERS) + 1)[0]
+    for _ in range(TURNS):
+        covariance = np.zeros(order + 1)
+        for one, power in zip(stretches, powers, strict=True):
+            lags = np.fft.irfft(power / (slow @ _shapes(_frequencies(one))), len(one))
+            covariance += lags[: order + 1] * len(one) / count
+        short, sigma = _predictor(covariance, 0.0)
+        rest = [power / _peaks(short, sigma, _frequencies(one)) for one, power in zip(stretches, powers, strict=True)]
+        known = np.concatenate([_frequencies(one)[1:] for one in stretches])
+        slow = _risen(known, np.concatenate([one[1:] for one in rest]))
+    spectrum = (slow @ _shapes(FREQUENCY)) * _peaks(short, sigma, FREQUENCY)
     covariance = np.fft.irfft(spectrum)[: min(LONG, max(order, count // 20)) + 1]
     return Noise(spectrum, *_predictor(covariance, min(max(beyond, LEAST_FLOOR), MOST_FLOOR)))
+
+
+def _frequencies(stretch: Array) -> Array:
+    return np.fft.rfftfreq(len(stretch))
+
+
+def _peaks(coefficients: Array, sigma: float, frequency: Array) -> Array:
+    """The spectrum of an autoregressive process."""
+    lags = np.arange(len(coefficients))
+    response = np.exp(-2j * np.pi * np.outer(frequency, lags)) @ coefficients
+    found: Array = sigma**2 / np.abs(response) ** 2
+    return found
 
 
 def _risen(frequency: Array, power: Array) -> Array:

@@ -11,13 +11,13 @@ import numpy as np
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Loose, key
 from rths_engine.diagnosis.detect import Detection, detect, null_misfits
-from rths_engine.diagnosis.evidence import MATERIAL, deviations, probabilities, weighed
+from rths_engine.diagnosis.evidence import MATERIAL, STRONG, deviations, probabilities, weighed
 from rths_engine.diagnosis.fitting import ROUGH, Fitted, Recordings, compared, fit
 from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import Signatures, best_first, general, signatures
 from rths_engine.part import Part
-from rths_engine.physics.effect import Effect
+from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.offset import ForceOffset
 
 MOST_EFFECTS = 3  # beside the load cell's zero
@@ -25,7 +25,6 @@ TRIED = 6
 WEAK = 0.25  # of the best score: weaker effects are not tried
 HOPELESS = 60.0  # of BIC behind the best
 FINAL = 8  # evaluations of a fit that only the noise has changed
-WORTH = 6.0  # of BIC: strong evidence (Kass and Raftery 1995)
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ def select(
     first = chosen.bic
     tried: list[Fitted] = []
     detections: list[Detection] = []
-    base = len(component.base)
+    base, seen = len(component.base), component.seen(recordings.data[0])
     for stage in range(MOST_EFFECTS + 2):
         told((1 + stage) / (MOST_EFFECTS + 4))
         found = signatures(recordings, chosen)
@@ -69,8 +68,8 @@ def select(
             break
         fits = _extended(recordings, chosen, found, detections[-1], level)
         fits += _swapped(recordings, chosen, fits)
-        best = _best(fits or [chosen], chosen.bic)
-        if best.bic > chosen.bic - max(WORTH, MATERIAL * (first - best.bic)):
+        best = _best(fits or [chosen], chosen.bic, seen)
+        if best.bic > chosen.bic - max(STRONG, MATERIAL * (first - best.bic)):
             break
         tried += fits
         component.settle(best.parts, recordings.data)
@@ -78,14 +77,19 @@ def select(
         chosen = _afresh(recordings, best)
     tried += _simplified(recordings, chosen)
     told(0.9)
-    return _compared(recordings, rough, chosen, tried, detections, random)
+    return _compared(recordings, rough, chosen, tried, detections, seen, random)
 
 
 def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
-    """Fitted from where it is, and from there with what is loose put back: a kink of a model may hold that."""
+    """Fitted from where it is; from there with what is loose put back, which a kink of a model may hold; and from each guess of
+    the newest effect."""
     pairs = zip_longest(best.parts, recordings.component.base)
     loosened = tuple(base if isinstance(base, Loose) else part for part, base in pairs)
-    return min(each(lambda parts: fit(recordings, parts), [best.parts, loosened]), key=_bic)
+    newest = key(best.parts[-1])
+    guesses = [guess for guess in recordings.component.hypotheses(recordings.data[0]) if key(guess) == newest]
+    rough = each(lambda guess: fit(recordings, [*best.parts[:-1], guess], ROUGH), guesses)
+    starts = [best.parts, loosened, min(rough, key=_bic).parts] if len(guesses) > 1 else [best.parts, loosened]
+    return min(each(lambda parts: fit(recordings, parts), starts), key=_bic)
 
 
 def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detection: Detection, level: float) -> list[Fitted]:
@@ -140,6 +144,7 @@ def _compared(
     chosen: Fitted,
     tried: list[Fitted],
     detections: list[Detection],
+    seen: Sequence[Seen],
     random: np.random.Generator,
 ) -> Selection:
     """Every model once more under the final noise, so that their evidence compares."""
@@ -153,7 +158,7 @@ def _compared(
     again = each(lambda one: fit(recordings, one.parts, FINAL), near)
     models = [*again, *(one for one in others if all(one is not kept for kept in near))]
     plain = next(one for one in models if len(one.parts) == base)
-    weights = weighed(models, plain.bic)
+    weights = weighed(models, plain.bic, seen)
     order = sorted(range(len(models)), key=weights.__getitem__)
     ranked = tuple(models[place] for place in order)
     chances = tuple(probabilities([weights[place] for place in order]))
@@ -161,8 +166,8 @@ def _compared(
     return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), spread)
 
 
-def _best(models: Sequence[Fitted], before: float) -> Fitted:
-    return models[int(np.argmin(weighed(models, before)))]
+def _best(models: Sequence[Fitted], before: float, seen: Sequence[Seen]) -> Fitted:
+    return models[int(np.argmin(weighed(models, before, seen)))]
 
 
 def _bic(fitted: Fitted) -> float:

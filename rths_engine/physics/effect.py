@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, Self
 
@@ -14,6 +15,7 @@ from rths_engine.structures.assembled import Assembled
 # where an effect acts: in the loop, or before it on a part, on the structure's matrices or on the ground motion
 COMMAND, PISTON, INPUT, SERIES, FORCE, X_SENSOR, F_SENSOR, STOREY, PART, MATRICES, GROUND = range(11)
 TINY = 1e-12
+UNSURE = 0.5  # of the logarithm of a number
 
 
 class Seen(NamedTuple):
@@ -74,6 +76,10 @@ class Effect(Part):
         """Its name in plans and diagnoses, unique within a component."""
         return str(type(self).model_fields["kind"].default)
 
+    def doubt(self, seen: Seen) -> float:
+        """-2 ln of how likely such numbers are beforehand, beside those that are common."""
+        return 0.0
+
     def says(self) -> str:
         """What the effect does, with its size and unit: the middle of the sentence of a diagnosis."""
         raise NotImplementedError
@@ -101,6 +107,11 @@ def amended(part: Part, effects: Sequence[Effect]) -> Part:
         if effect.hook == PART:
             part = effect.amended(part)
     return part
+
+
+def beyond(size: float, most: float) -> float:
+    """-2 ln of how likely a positive number is beyond `most`: normal in its logarithm, with a deviation of UNSURE."""
+    return max(0.0, math.log(max(size, TINY) / max(most, TINY)) / UNSURE) ** 2
 
 
 def _within(size: float, bounds: Iterable[Any]) -> float:

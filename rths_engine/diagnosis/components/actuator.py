@@ -12,7 +12,7 @@ import numpy as np
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
-from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
 from rths_engine.part import Part
 from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfDisplacement
@@ -75,7 +75,8 @@ class Actuator(Component):
                 ("f |f|", "growing with the force on it", load * np.abs(load)),
             ]
         terms += of_position(data.command, data.velocity, data.dt)
-        return [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+        shaped = [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+        return shaped + modulated(data.reduced(data.velocity[None]), "v", "a lag")
 
     def signals(self, data: ActuatorData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.command, data.velocity]))

@@ -37,7 +37,8 @@ class Chain(Component):
         return TOLERANCE if part in self.base[:1] else SPREADS.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: ChainData) -> Any:
-        return pressed(*_between(parts, data), data)
+        resisting, x, current = _between(parts, data)
+        return pressed(resisting, data.refined(x), current, data)
 
     def settle(self, parts: Sequence[Any], data: Sequence[ChainData]) -> None:
         for one in data:

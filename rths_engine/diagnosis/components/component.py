@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.band import Band
 from rths_engine.part import Part
-from rths_engine.physics.effect import Effect
+from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import Reading
 
 REPLAY_RATE = 1024.0  # Hz
@@ -141,6 +141,10 @@ class Component(ABC):
     @abstractmethod
     def signals(self, data: Any) -> tuple[Signal, Signal]:
         """Displacement and velocity, in the band of the comparison, that the output is told against."""
+
+    def seen(self, data: Any) -> list[Seen]:
+        """Sizes of what the component went through, of each of its storeys."""
+        return [data.seen()]
 
     def present(self, parts: Sequence[Part]) -> set[tuple[type[Part], int]]:
         """Keys of the effects that need no hypothesis, since the model has them."""

@@ -6,12 +6,14 @@ import numpy as np
 from scipy.signal import lfilter
 
 from rths_engine.arrays import Array
+from rths_engine.diagnosis.components.component import Feature
 from rths_engine.stop import stop
 
 Terms = list[tuple[str, str, Array]]  # formula, words, values
 STOPS = (0.1, 0.3, 0.7)
 WAVES = 12
 RELAXATIONS = (0.1, 0.5, 3.0)  # s
+MODULATIONS = 14  # half waves over a recording
 
 
 def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
@@ -70,6 +72,19 @@ def of_position(x: Array, v: Array, dt: float) -> Terms:
             slow = lfilter([1 - keep], [1, -keep], signal)
             found.append((f"{name} relaxed over {time:g} s", f"following the {words} with a delay of about {time:g} s", slow))
     return found
+
+
+def modulated(values: Array, formula: str, words: str) -> list[Feature]:
+    """Values (channels, n) in the band of the comparison that rise and fall slowly in time; `words` tells of what they are."""
+    middle = (np.arange(values.shape[1]) + 0.5) / values.shape[1]
+    return [
+        Feature(
+            f"{formula} cos({half_waves} pi t / T)",
+            f"{words} that rises and falls in time",
+            values * np.cos(np.pi * half_waves * middle),
+        )
+        for half_waves in range(1, MODULATIONS + 1)
+    ]
 
 
 def _scaled(signal: Array) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
-from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
 from rths_engine.diagnosis.smoother import Smoother
 from rths_engine.part import Part, quantity
 from rths_engine.physics.effect import Effect, Seen
@@ -52,6 +52,11 @@ class SpecimenData(Data):
         return drawn
 
     @cached_property
+    def fine(self) -> Array:
+        """The displacement at the replay's steps."""
+        return self.refined(self.smooth)
+
+    @cached_property
     def velocity(self) -> Array:
         return np.gradient(self.smooth, self.dt)
 
@@ -89,7 +94,7 @@ class Specimen(Component):
         return SPREADS.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
-        return pressed(parts, data.smooth, data.current, data)
+        return pressed(parts, data.fine, data.current, data)
 
     def settle(self, parts: Sequence[Any], data: Sequence[SpecimenData]) -> None:
         for one in data:
@@ -105,18 +110,19 @@ class Specimen(Component):
     def features(self, parts: Sequence[Any], data: SpecimenData) -> list[Feature]:
         terms = of_motion(data.smooth, data.velocity, data.dt, data.force)
         terms += of_position(data.smooth, data.velocity, data.dt)
-        return [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+        shaped = [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+        return shaped + modulated(self.predicted(parts, data), "f", "a strength")
 
     def signals(self, data: SpecimenData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.smooth, data.velocity]))
         return Signal("displacement", "m", "mm", x), Signal("velocity", "m/s", "mm/s", v)
 
 
-def pressed(parts: Sequence[Any], x: Array, current: Array, data: Data) -> Array:
-    """(1, n) of the force, in the band of the comparison, at the displacement x (m). `parts`: the specimen, then effects and
-    what of the replay is loose."""
+def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Array:
+    """(1, n) of the force, in the band of the comparison, at the displacement (m) `fine` at the replay's steps. `parts`: the
+    specimen, then effects and what of the replay is loose."""
     n = data.finer
-    force = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data.start)
+    force = _force(parts, fine, np.repeat(current, n), data.dt / n, data.start)
     late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
     place = np.arange(0, len(force), n) - late
     found = data.reduced(np.interp(place, np.arange(len(force)), force)[None] if late else force[None, ::n])

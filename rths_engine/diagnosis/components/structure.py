@@ -134,16 +134,21 @@ class Structure(Component):
         """(storeys, samples), m, as planned."""
         return _drifts(self.motion(self.base, data)[:: self.finer(data)])
 
-    def hypotheses(self, data: StructureData) -> Iterator[Effect]:
+    def seen(self, data: StructureData) -> list[Seen]:
+        found = []
         for storey, moved in enumerate(self.drifts(data), start=1):
             v = np.gradient(moved, data.dt)
             k = stiffness(self.built, drift(self.built, storey))
             x_top, v_top = float(np.max(np.abs(moved))), float(np.max(np.abs(v)))
-            seen = Seen(x_top, v_top, k * x_top, len(moved) * data.dt, k * x_top * x_top, data.dt, storey)
+            found.append(Seen(x_top, v_top, k * x_top, len(moved) * data.dt, k * x_top * x_top, data.dt, storey))
+        return found
+
+    def hypotheses(self, data: StructureData) -> Iterator[Effect]:
+        for seen in self.seen(data):
             for kind in physics.STRUCTURE:
-                if issubclass(kind, OfStorey) or storey == 1:
+                if issubclass(kind, OfStorey) or seen.storey == 1:
                     yield from kind.guesses(seen)
-            if storey == 1 and data.ground.any():
+            if seen.storey == 1 and data.ground.any():
                 for ground in physics.INPUT:
                     yield from ground.guesses(seen)
 

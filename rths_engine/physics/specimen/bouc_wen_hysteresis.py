@@ -9,7 +9,8 @@ import numpy as np
 
 from rths_engine.arrays import Array
 from rths_engine.part import quantity
-from rths_engine.physics.effect import FORCE, Effect, Seen
+from rths_engine.physics.effect import FORCE, Effect, Seen, beyond
+from rths_engine.physics.friction import PRESLIDING
 from rths_engine.physics.wording import said
 from rths_engine.specimens.bouc_wen import moved
 
@@ -39,6 +40,9 @@ class BoucWenHysteresis(Effect):
     def guesses(cls, seen: Seen) -> Iterator[Self]:
         for share in (0.05, 0.3):
             yield cls.sized(strength=0.1 * seen.f, yield_displacement=share * seen.x)
+
+    def doubt(self, seen: Seen) -> float:
+        return beyond(PRESLIDING * seen.x, self.yield_displacement)
 
     def says(self) -> str:
         return f"has a hysteretic force of {said(self.strength, 'kN')} that yields at {said(self.yield_displacement, 'mm')}"

@@ -9,17 +9,18 @@ import numpy as np
 
 from rths_engine.arrays import Array
 from rths_engine.part import quantity
-from rths_engine.physics.effect import FORCE, Effect, Seen
+from rths_engine.physics.effect import FORCE, Effect, Seen, beyond
+from rths_engine.physics.friction import PRESLIDING, bristle
 from rths_engine.physics.wording import said
 
 
 class CoulombFriction(Effect):
-    """f = f_0 + F_c z,  x_e z' = v while |z| < 1 or v turns it back
+    """f = f_0 + F_c z,  x_e z' = v - |v| z
 
     F_c friction force (N), either sign of motion; x_e pre-sliding displacement (m), over which the friction builds up after a
-    reversal. Neutral: F_c = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun.
-    Source: Dahl (1968) with a straight rise: Coulomb's law as an elastic-plastic slider.
-    Fails first where static friction exceeds kinetic friction.
+    reversal. Neutral: F_c = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun; z is exact for steps in x.
+    Source: Dahl (1968), A Solid Friction Model, TOR-0158(3107-18)-1, with the exponent 1: Coulomb's law with a contact that
+    gives way. Fails first where static friction exceeds kinetic friction.
     """
 
     kind: Literal["coulomb_friction"] = "coulomb_friction"
@@ -36,6 +37,9 @@ class CoulombFriction(Effect):
     def guesses(cls, seen: Seen) -> Iterator[Self]:
         yield cls.sized(friction=0.1 * seen.f, presliding=0.01 * seen.x)
 
+    def doubt(self, seen: Seen) -> float:
+        return beyond(self.presliding, PRESLIDING * seen.x)
+
     def says(self) -> str:
         return f"resists every motion with {said(self.friction, 'kN')} of friction"
 
@@ -45,7 +49,7 @@ class CoulombFriction(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         if s[2] > 0.0:
-            s[1] = min(max(s[1] + (x - s[0]) / p[1], -1.0), 1.0)
+            s[1] = bristle(s[1], (x - s[0]) / p[1])
         s[0] = x
         s[2] = 1.0
         return y + p[0] * s[1]

@@ -10,12 +10,13 @@ import numpy as np
 
 from rths_engine.arrays import Array
 from rths_engine.part import quantity
-from rths_engine.physics.effect import FORCE, Effect, Seen
+from rths_engine.physics.effect import FORCE, Effect, Seen, beyond
+from rths_engine.physics.friction import PRESLIDING, bristle
 from rths_engine.physics.wording import said
 
 
 class StribeckFriction(Effect):
-    """f = f_0 + (F_c + F_b exp(-(v / v_s)^2)) z,  x_e z' = v while |z| < 1 or v turns it back
+    """f = f_0 + (F_c + F_b exp(-(v / v_s)^2)) z,  x_e z' = v - |v| z
 
     F_c friction at speed, F_c + F_b breakaway friction (N), v_s Stribeck velocity (m/s), x_e pre-sliding displacement (m).
     Neutral: F_c = F_b = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun.
@@ -41,6 +42,9 @@ class StribeckFriction(Effect):
             friction = 0.1 * seen.f
             yield cls.sized(friction=friction, breakaway=friction, stribeck_velocity=share * seen.v, presliding=0.01 * seen.x)
 
+    def doubt(self, seen: Seen) -> float:
+        return beyond(self.presliding, PRESLIDING * seen.x)
+
     def says(self) -> str:
         most, least = said(self.friction + self.breakaway, "kN"), said(self.friction, "kN")
         return (
@@ -53,7 +57,7 @@ class StribeckFriction(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         if s[2] > 0.0:
-            s[1] = min(max(s[1] + (x - s[0]) / p[3], -1.0), 1.0)
+            s[1] = bristle(s[1], (x - s[0]) / p[3])
         s[0] = x
         s[2] = 1.0
         ratio = v / p[2]

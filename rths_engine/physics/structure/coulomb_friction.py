@@ -10,7 +10,7 @@ from rths_engine.physics.structure.storey import OfStorey
 
 
 class CoulombFriction(OfStorey, specimen.CoulombFriction):
-    """f = F_c z,  x_e z' = v while |z| < 1 or v turns it back
+    """f = F_c z,  x_e z' = v - |v| z
 
     x drift of the storey: bolts, partitions or bearings rub between its floors. Else as `physics.specimen.coulomb_friction`.
     """

@@ -32,7 +32,7 @@ class StiffnessDrop(OfStorey):
 
     @classmethod
     def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for part in (0.2, 0.4, 0.6, 0.8):
+        for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):
             yield cls.sized(share=0.1, time=part * seen.time).model_copy(update={"storey": seen.storey})
 
     def says(self) -> str:
