@@ -42,23 +42,49 @@ class Detection:
 
 def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array, random: np.random.Generator) -> Detection:
     """By recordings simulated with the fitted model: noise of the recording's colour on the output, and of the
-    displacement's size on the input, taken through the same smoothing, model and band. Each score is told in standard
-    deviations of its own under that noise, which reaches some signatures more than others."""
-    misfit = fitted_residual(fitted)
+    displacement's size on the input, taken through the same smoothing, model and band. What is along a signature or a law is
+    told beside the power that is not, at the same frequencies, so that noise of another level than it is taken for raises no
+    alarm; each score in standard deviations of its own, since noise reaches some signatures more than others."""
     absorbed = absorber(fitted.jacobian)
     drawn = null_misfits(recordings, fitted, random)
     drawn -= drawn @ absorbed @ absorbed.T
-    lengths = np.sum((drawn @ law) ** 2, axis=1)
-    explained = float(np.sum((misfit @ law) ** 2))
-    p_general = _upper_tail(explained, lengths) if law.shape[1] else 1.0
+    misfits = np.vstack([fitted_residual(fitted), drawn])
+    along, beside = misfits @ law, _beside_span(misfits, law)
+    lengths = np.sum(along**2, axis=1) / _relative(beside)
+    explained, expected = float(lengths[0]), float(lengths[1:].mean())
+    p_general = _upper_tail(explained, lengths[1:]) if law.shape[1] else 1.0
     if not len(found.rows):
-        return Detection(np.zeros(0), 0.0, 1.0, p_general, p_planned(fitted), explained, float(lengths.mean()))
-    null = found.scores(drawn)
-    centre, spread = null.mean(axis=0), np.maximum(null.std(axis=0), 1e-3)
-    scores = (found.scores(misfit) - centre) / spread
-    largest = float(scores.max())
-    p_library = p_value(largest, ((null - centre) / spread).max(axis=1))
-    return Detection(scores, largest, p_library, p_general, p_planned(fitted), explained, float(lengths.mean()))
+        return Detection(np.zeros(0), 0.0, 1.0, p_general, p_planned(fitted), explained, expected)
+    scores = found.scores(misfits) / np.sqrt(_relative(_beside_each(misfits, found.rows)))
+    centre, spread = scores[1:].mean(axis=0), np.maximum(scores[1:].std(axis=0), 1e-3)
+    scores = (scores - centre) / spread
+    largest = float(scores[0].max())
+    p_library = p_value(largest, scores[1:].max(axis=1))
+    return Detection(scores[0], largest, p_library, p_general, p_planned(fitted), explained, expected)
+
+
+def _beside_span(misfits: Array, columns: Array) -> Array:
+    """(B) the power of misfits (B, N) at the frequencies of orthonormal columns (N, r), without their part along these."""
+    rest = misfits - misfits @ columns @ columns.T
+    weight = np.sum(np.abs(np.fft.rfft(columns, axis=0)) ** 2, axis=1)
+    found: Array = np.abs(np.fft.rfft(rest, axis=1)) ** 2 @ weight
+    return found
+
+
+def _beside_each(misfits: Array, rows: Array) -> Array:
+    """(B, K) likewise, of each unit row (K, N) alone."""
+    along = misfits @ rows.T
+    of_misfits, of_rows = np.fft.rfft(misfits, axis=1), np.fft.rfft(rows, axis=1)
+    weight = np.abs(of_rows) ** 2
+    crossed = (of_misfits.conj() @ (weight * of_rows).T).real
+    found: Array = np.abs(of_misfits) ** 2 @ weight.T - 2 * along * crossed + along**2 * np.sum(weight**2, axis=1)
+    return found
+
+
+def _relative(powers: Array) -> Array:
+    """Powers, the first of the recording and the others of replicates, over the replicates' mean."""
+    found: Array = powers / np.maximum(powers[1:].mean(axis=0), TINIEST)
+    return np.maximum(found, TINIEST)
 
 
 def p_planned(fitted: Fitted) -> float:

@@ -97,7 +97,7 @@ def fit(recordings: Recordings, parts: Sequence[Part], evaluations: int = EVALUA
     Between Jacobians by differences the Jacobian is kept by secants (Broyden 1965); the search then begins once more, with a
     Jacobian by differences, where the first ended.
     """
-    free, misfit, start, bounds = _problem(recordings, parts)
+    free, misfit, start, bounds = problem(recordings, parts)
     if not free:
         return evaluated(recordings, parts)
     for rest in (evaluations, evaluations // 4):
@@ -113,18 +113,19 @@ def fit(recordings: Recordings, parts: Sequence[Part], evaluations: int = EVALUA
 
 def evaluated(recordings: Recordings, parts: Sequence[Part]) -> Fitted:
     """The parts as they are, with the misfit's Jacobian."""
-    free, misfit, start, bounds = _problem(recordings, parts)
+    free, misfit, start, bounds = problem(recordings, parts)
     plain = misfit(start)
     return Fitted(tuple(parts), tuple(free), start, plain, differences(misfit, start, plain, bounds), recordings.samples)
 
 
 def compared(recordings: Recordings, fitted: Fitted) -> Fitted:
     """A model fitted before, with its misfit under the noise of these recordings."""
-    _, misfit, start, _ = _problem(recordings, fitted.parts)
+    _, misfit, start, _ = problem(recordings, fitted.parts)
     return replace(fitted, misfit=misfit(start))
 
 
-def _problem(recordings: Recordings, parts: Sequence[Part]) -> tuple[list[Number], Callable[[Array], Array], Array, Array]:
+def problem(recordings: Recordings, parts: Sequence[Part]) -> tuple[list[Number], Callable[[Array], Array], Array, Array]:
+    """The free numbers of the parts, the misfit as a function of z, z of the parts, and its bounds."""
     free = numbers(recordings.component, parts)
     bounds = np.array([number.bounds for number in free]).reshape(-1, 2)
     start = np.clip(vector(parts, free), bounds[:, 0] + 1e-9, bounds[:, 1] - 1e-9)

@@ -7,7 +7,6 @@ from typing import Any
 
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.digital import Replayed
-from rths_engine.diagnosis.evidence import intervals
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.diagnosis.locate import place
@@ -84,7 +83,7 @@ def _effects(one: Judged, remains: Law | None, level: float) -> list[dict[str, A
         return [_unknown(one, remains, level)]
     chosen = one.selection.chosen
     likely = one.selection.chances
-    ranges = intervals(chosen, one.selection.deviations)
+    ranges = one.selection.ranges
     found = []
     for owner, effect in enumerate(chosen.parts):
         if owner < len(one.component.base):
@@ -92,7 +91,12 @@ def _effects(one: Judged, remains: Law | None, level: float) -> list[dict[str, A
         assert isinstance(effect, Effect)
         chance = sum(p for p, model in zip(likely, one.selection.tried, strict=True) if _holds(one, model, effect))
         numbers = [
-            {"name": number.field, "value": getattr(effect, number.field), **_unit(effect, number.field), "ci90": [low, high]}
+            {
+                "name": number.field,
+                "value": getattr(effect, number.field),
+                **_unit(effect, number.field),
+                "ci90": [number.from_z(low), number.from_z(high)],
+            }
             for number, (low, high) in zip(chosen.free, ranges, strict=True)
             if number.owner == owner
         ]

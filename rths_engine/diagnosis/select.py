@@ -8,13 +8,13 @@ from itertools import zip_longest
 
 import numpy as np
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Loose, key
 from rths_engine.diagnosis.detect import Detection, detect, null_misfits
-from rths_engine.diagnosis.evidence import MATERIAL, STRONG, deviations, probabilities, weighed
+from rths_engine.diagnosis.evidence import MATERIAL, STRONG, probabilities, tempering, weighed
 from rths_engine.diagnosis.fitting import ROUGH, Fitted, Recordings, compared, fit
 from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
 from rths_engine.diagnosis.parallel import each
+from rths_engine.diagnosis.ranges import ranges
 from rths_engine.diagnosis.signatures import Signatures, best_first, general, signatures
 from rths_engine.part import Part
 from rths_engine.physics.effect import Effect, Seen
@@ -37,7 +37,7 @@ class Selection:
     tried: tuple[Fitted, ...]
     chances: tuple[float, ...]  # of each tried
     detections: tuple[Detection, ...]
-    deviations: Array  # of the free numbers chosen, in z
+    ranges: tuple[tuple[float, float], ...]  # of the free numbers chosen, in z
 
     @property
     def effects(self) -> tuple[Part, ...]:
@@ -162,8 +162,9 @@ def _compared(
     order = sorted(range(len(models)), key=weights.__getitem__)
     ranked = tuple(models[place] for place in order)
     chances = tuple(probabilities([weights[place] for place in order]))
-    spread = deviations(ranked[0], null_misfits(recordings, ranked[0], random))
-    return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), spread)
+    noise, temper = null_misfits(recordings, ranked[0], random), tempering(ranked[0].bic, plain.bic)
+    sure = tuple(ranges(recordings, ranked[0], noise, temper))
+    return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), sure)
 
 
 def _best(models: Sequence[Fitted], before: float, seen: Sequence[Seen]) -> Fitted:

@@ -57,6 +57,7 @@ class Effect(Part):
     hook: ClassVar[int]
     neutral: ClassVar[Mapping[str, float]]
     held: ClassVar[tuple[str, ...]] = ()  # numbers that a fit does not move
+    otherwise: ClassVar[Mapping[str, float]] = {}  # what held numbers may as well be
     needs: ClassVar[tuple[str, ...]] = ()
     relatives: ClassVar[tuple[str, ...]] = ()
     noun: ClassVar[str]  # "backlash was left out"

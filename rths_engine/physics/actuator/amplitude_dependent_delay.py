@@ -33,6 +33,7 @@ class AmplitudeDependentDelay(Effect):
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"slope": 0.0}
     held: ClassVar = ("memory",)
+    otherwise: ClassVar = {"memory": 1.0}
     needs: ClassVar = ("x_comp", "x_meas")
     relatives: ClassVar = ("delay_error", "velocity_saturation")
     noun: ClassVar[str] = "a delay that grows with the amplitude"

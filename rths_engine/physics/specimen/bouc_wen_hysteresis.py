@@ -32,6 +32,7 @@ class BoucWenHysteresis(Effect):
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"strength": 0.0}
     held: ClassVar = ("exponent", "fullness")
+    otherwise: ClassVar = {"exponent": 2.0, "fullness": 0.75}
     needs: ClassVar[tuple[str, ...]] = ("x_meas", "f_meas")
     relatives: ClassVar[tuple[str, ...]] = ("coulomb_friction", "stribeck_friction")
     noun: ClassVar[str] = "hysteresis"

@@ -1,0 +1,99 @@
+"""How sure the numbers of a fitted model are: 90 % intervals by the profile of the likelihood."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.stats import chi2
+
+from rths_engine.arrays import Array
+from rths_engine.diagnosis.fitting import Fitted, Recordings, problem
+from rths_engine.diagnosis.parallel import each
+from rths_engine.physics.effect import Effect
+
+RISE = float(chi2.ppf(0.9, 1))  # of chi^2, of one number
+NORMAL_90 = RISE**0.5  # standard deviations each way
+DOUBLINGS, HALVINGS, TURNS = 7, 4, 2
+
+
+def deviations(fitted: Fitted, misfits: Array) -> Array:
+    """Standard deviation of each free number's z, by what the fit to first order makes of other noise: `misfits` (B, N)."""
+    moved = np.linalg.lstsq(fitted.jacobian, misfits.T, rcond=None)[0]
+    found: Array = np.std(moved, axis=1, ddof=1)
+    return found
+
+
+def ranges(recordings: Recordings, fitted: Fitted, misfits: Array, temper: float) -> list[tuple[float, float]]:
+    """90 % interval of each free number: of an effect's, where chi^2, the other numbers moving along, has risen by what noise
+    (`misfits`) and the models' own errors (`temper`, their chi^2 over that of noise) may raise it; wider by what numbers that
+    the fit holds may do."""
+    first = len(recordings.component.base)
+    own = deviations(fitted, misfits) * np.sqrt(temper)
+    plain = np.sqrt(np.maximum(np.diag(np.linalg.pinv(fitted.jacobian.T @ fitted.jacobian)), 1e-300))
+    held = _held(recordings, fitted)
+    profile = _profile(recordings, fitted)
+
+    def interval(place: int) -> tuple[float, float]:
+        z, near = float(fitted.z[place]), NORMAL_90 * float(own[place])
+        low = high = near
+        if fitted.free[place].owner >= first and near > 0:
+            rise = RISE * float(own[place] / plain[place]) ** 2
+            low, high = (max(near, _reach(lambda off: profile(place, off), way, near, rise)) for way in (-1.0, 1.0))
+        more = NORMAL_90 * float(held[place])
+        return z - float(np.hypot(low, more)), z + float(np.hypot(high, more))
+
+    return each(interval, range(len(fitted.free)))
+
+
+def _profile(recordings: Recordings, fitted: Fitted) -> Callable[[int, float], float]:
+    """What chi^2 rises by where a number is off, once the others have followed by steps of Gauss and Newton."""
+    _, misfit, _, bounds = problem(recordings, fitted.parts)
+    least = float(fitted.misfit @ fitted.misfit)
+
+    def rise(place: int, off: float) -> float:
+        others = [one for one in range(len(fitted.free)) if one != place]
+        slopes = fitted.jacobian[:, others]
+        z = fitted.z.copy()
+        z[place] = np.clip(z[place] + off, *bounds[place])
+        z[others] -= np.linalg.lstsq(slopes, fitted.jacobian[:, place] * (z[place] - fitted.z[place]), rcond=None)[0]
+        best = np.inf
+        for turn in range(TURNS):
+            z = np.clip(z, bounds[:, 0], bounds[:, 1])
+            now = misfit(z)
+            best = min(best, float(now @ now) - least)
+            if turn + 1 < TURNS and others:
+                z[others] -= np.linalg.lstsq(slopes, now, rcond=None)[0]
+        return best
+
+    return rise
+
+
+def _reach(rise: Callable[[float], float], way: float, near: float, most: float) -> float:
+    """How far a number may go that way before chi^2 has risen by `most`; `near` is where it would by first order."""
+    inside, outside = 0.0, near
+    for _ in range(DOUBLINGS):
+        if rise(way * outside) > most:
+            break
+        inside, outside = outside, 2 * outside
+    else:
+        return inside
+    for _ in range(HALVINGS):
+        middle = (inside + outside) / 2
+        inside, outside = (inside, middle) if rise(way * middle) > most else (middle, outside)
+    return outside
+
+
+def _held(recordings: Recordings, fitted: Fitted) -> Array:
+    """Root of the sum of squares of what each free number would move by, were a held number what it may as well be."""
+    squares = np.zeros(len(fitted.free))
+    first = len(recordings.component.base)
+    before = recordings.misfit(fitted.parts)
+    for place, part in enumerate(fitted.parts[first:], start=first):
+        assert isinstance(part, Effect)
+        for name, value in part.otherwise.items():
+            parts = [*fitted.parts]
+            parts[place] = part.model_copy(update={name: value})
+            change = recordings.misfit(parts) - before
+            squares += np.linalg.lstsq(fitted.jacobian[: len(change)], change, rcond=None)[0] ** 2
+    return np.sqrt(squares)
