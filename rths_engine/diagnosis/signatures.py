@@ -16,6 +16,7 @@ from rths_engine.physics.effect import Effect
 ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
 ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan
 SLOW = 0.15  # Hz
+LEAST, NEAR = 0.01, 0.5  # of a guess: the smallest that is looked at; as large as guessed
 NOTHING = 1e-9  # of the misfit: a signature so small says nothing
 
 
@@ -37,30 +38,41 @@ class Signatures:
 
 
 def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
-    """Of every effect that the component may leave out, at its guesses, beside the fitted model."""
+    """Of every effect that the component may leave out, from its guesses, beside the fitted model."""
     component = recordings.component
     present = component.present(fitted.parts)
     guesses = [guess for guess in component.hypotheses(recordings.data[0]) if key(guess) not in present]
     before = recordings.joined(recordings.predicted(fitted.parts))
     absorbed = absorber(fitted.jacobian)
 
-    moved = _moved(fitted)
+    moved, misfit = _moved(fitted), fitted.misfit - absorbed @ (absorbed.T @ fitted.misfit)
 
-    def left(guess: Effect) -> tuple[Array, float, float] | None:
+    def seen(guess: Effect) -> tuple[Effect, Array, float, float] | None:
         change = recordings.joined(recordings.predicted([*fitted.parts, guess])) - before
         beyond, size = _beyond(change, absorbed), float(np.linalg.norm(change))
         along = float(abs(change @ moved)) / max(size, 1e-300)
         if beyond is None or (beyond[1] < ABSORBED * size and along < ALONG):
             return None
-        return *beyond, along
+        return guess, *beyond, along
 
-    found = [(guess, row) for guess, row in zip(guesses, each(left, guesses), strict=True) if row is not None]
+    def left(guess: Effect) -> tuple[Effect, Array, float, float] | None:
+        """Of about the size that the misfit has along it: large effects need not be alike small ones."""
+        first = seen(guess)
+        if first is None:
+            return None
+        share = float(misfit @ first[1]) / first[2]
+        share = share if share > 0 or _two_sided(guess) else LEAST
+        if abs(share) > NEAR:
+            return first
+        return seen(guess.times(float(np.copysign(max(abs(share), LEAST), share)))) or first
+
+    found = [row for row in each(left, guesses) if row is not None]
     return Signatures(
-        tuple(guess for guess, _ in found),
-        np.array([row for _, (row, _, _) in found]).reshape(len(found), len(absorbed)),
-        np.array([size for _, (_, size, _) in found]),
-        np.array([_two_sided(guess) for guess, _ in found], dtype=bool),
-        np.array([along for _, (_, _, along) in found]),
+        tuple(guess for guess, _, _, _ in found),
+        np.array([row for _, row, _, _ in found]).reshape(len(found), len(absorbed)),
+        np.array([size for _, _, size, _ in found]),
+        np.array([_two_sided(guess) for guess, _, _, _ in found], dtype=bool),
+        np.array([along for _, _, _, along in found]),
     )
 
 

@@ -72,6 +72,11 @@ class Effect(Part):
         """With sizes moved into their bounds: a recording may hold anything."""
         return cls(**{name: _within(size, cls.model_fields[name].metadata) for name, size in sizes.items()})
 
+    def times(self, share: float) -> Self:
+        """With a share of its size, where that is told from zero."""
+        bounds = {name: type(self).model_fields[name].metadata for name, neutral in self.neutral.items() if neutral == 0.0}
+        return self.model_copy(update={name: _within(share * getattr(self, name), one) for name, one in bounds.items()})
+
     @property
     def id(self) -> str:
         """Its name in plans and diagnoses, unique within a component."""
