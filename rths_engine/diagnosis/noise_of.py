@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.ndimage import uniform_filter1d
@@ -30,8 +31,8 @@ def first_noise(recordings: Recordings) -> Recordings:
 
 
 def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Recordings:
-    """Each sample by 1 / sqrt(1 + s^2 / sigma^2): s is the deviation that noise on the input gives the output there, sigma a
-    robust one of the residual."""
+    """Each sample by 1 / sqrt(1 + s^2 / sigma^2): s is the deviation that noise on the input gives the output there, and that
+    half as many samples of it would make, as where it jumps; sigma a robust one of the residual."""
     residuals = recordings.residuals(fitted.parts)
     weights = []
     for one, residual in zip(recordings.data, residuals, strict=True):
@@ -39,7 +40,8 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
             weights.append(np.ones(residual.shape))
             continue
         draws = [one.redrawn(random) for _ in range(DRAWS)]
-        reached = np.std(each(lambda drawn: recordings.component.predicted(fitted.parts, drawn), draws), axis=0)
+        plain, thin, *drawn = each(partial(recordings.component.predicted, fitted.parts), [one, one.thinned(), *draws])
+        reached = np.hypot(np.std(drawn, axis=0), thin - plain)
         sigma = np.maximum(1.4826 * np.median(np.abs(residual), axis=1, keepdims=True), 1e-300)
         width = max(1, round(SMOOTHED / one.step))
         local = np.sqrt(np.maximum(uniform_filter1d(reached**2, width, axis=1), 0.0))
@@ -54,7 +56,7 @@ def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
     plain = first_noise(replace(recordings, weights=recordings.steady))
     now = evaluated(plain, fitted.parts)
     count = now.samples
-    terms = np.column_stack([signatures(plain, now).rows.T[:count], general_terms(plain, now)[:count]])
+    terms = np.column_stack([signatures(plain, now, sized=False).rows.T[:count], general_terms(plain, now)[:count]])
     residual = now.misfit[:count]
     noises = _noises(plain, residual, residual)
     taken: list[int] = []

@@ -37,8 +37,9 @@ class Signatures:
         return found
 
 
-def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
-    """Of every effect that the component may leave out, from its guesses, beside the fitted model."""
+def signatures(recordings: Recordings, fitted: Fitted, sized: bool = True) -> Signatures:
+    """Of every effect that the component may leave out, at its guesses, beside the fitted model; `sized`: of about the size
+    that the misfit has along it, since large effects need not be alike small ones."""
     component = recordings.component
     present = component.present(fitted.parts)
     guesses = [guess for guess in component.hypotheses(recordings.data[0]) if key(guess) not in present]
@@ -56,10 +57,9 @@ def signatures(recordings: Recordings, fitted: Fitted) -> Signatures:
         return guess, *beyond, along
 
     def left(guess: Effect) -> tuple[Effect, Array, float, float] | None:
-        """Of about the size that the misfit has along it: large effects need not be alike small ones."""
         first = seen(guess)
-        if first is None:
-            return None
+        if first is None or not sized:
+            return first
         share = float(misfit @ first[1]) / first[2]
         share = share if share > 0 or _two_sided(guess) else LEAST
         if abs(share) > NEAR:

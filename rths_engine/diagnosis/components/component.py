@@ -51,6 +51,10 @@ class Data(ABC):
         """As if recorded again: other noise of the same size on the input."""
         return self
 
+    def thinned(self) -> Any:
+        """As if every second sample of the input had not been recorded."""
+        return self
+
     @property
     def band(self) -> Band:
         return Band.of(self.dt)

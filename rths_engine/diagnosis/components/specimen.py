@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
@@ -50,6 +51,13 @@ class SpecimenData(Data):
         drawn.__dict__["smooth"] = self.smooth + self.smoother.error(len(self.x), random)
         drawn.__dict__["step_error"] = self.step_error
         return drawn
+
+    def thinned(self) -> SpecimenData:
+        place = np.arange(len(self.x))
+        thin = replace(self)
+        thin.__dict__["smooth"] = CubicSpline(place[::2], self.smooth[::2])(np.minimum(place, place[::2][-1]))
+        thin.__dict__["step_error"] = self.step_error
+        return thin
 
     @cached_property
     def fine(self) -> Array:

@@ -23,8 +23,8 @@ from rths_engine.physics.structure.stiffness_error import StiffnessError
 from rths_engine.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.plan import Plan
 
-TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.5}
-FINE = 1e-3  # s: a step so small leaves no error of integration beside noise
+TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2}
+FINE = 2e-3  # s: a step so small leaves no error of integration beside noise
 FEW = 20  # degrees of freedom that make such a step cheap
 MOST_STOREYS = 6  # whose unknown laws are looked for
 
