@@ -1,0 +1,43 @@
+"""Diagnoses of a specimen's and of a hybrid test's recording, each of 40 s at 1024 Hz, with Coulomb friction left out."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+
+from rths_engine import measured, recording, templates
+from rths_engine.diagnosis import diagnose
+from rths_engine.physics.specimen.coulomb_friction import CoulombFriction
+from rths_engine.plan import Plan
+from rths_engine.run import simulate
+
+ROUNDS = 3
+DURATION = 40.0
+LEFT_OUT = CoulombFriction(friction=5e3, presliding=1e-4)
+
+
+def diagnoses() -> dict[str, float]:
+    """Seconds by the clock, two threads, from the recording to the verdict."""
+    return {
+        "diagnosis_specimen_s": _timed(templates.template("specimen-mr-damper")),
+        "diagnosis_hybrid_s": _timed(templates.template("table3-04")),
+    }
+
+
+def _timed(plan: Plan) -> float:
+    plan = plan.model_copy(update={"duration": DURATION})
+    first, *others = plan.stations
+    rig = plan.model_copy(update={"stations": (first.model_copy(update={"specimen_physics": (LEFT_OUT,)}), *others)})
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "test.h5"
+        recording.save(path, simulate(rig))
+        recorded = measured.load(path)
+    seconds = []
+    for _ in range(ROUNDS):
+        start = perf_counter()
+        found = diagnose(plan, recorded).verdict
+        seconds.append(perf_counter() - start)
+    assert [one["component"] for one in found["effects"]] == ["specimen:1"], found["effects"]
+    return median(seconds)
