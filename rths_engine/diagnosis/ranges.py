@@ -71,13 +71,10 @@ def _profile(recordings: Recordings, fitted: Fitted) -> Callable[[int, float], f
 
 def _reach(rise: Callable[[float], float], way: float, near: float, most: float) -> float:
     """How far a number may go that way before chi^2 has risen by `most`; `near` is where it would by first order."""
-    inside, outside = 0.0, near
-    for _ in range(DOUBLINGS):
-        if rise(way * outside) > most:
-            break
-        inside, outside = outside, 2 * outside
-    else:
-        return inside
+    offs = near * 2.0 ** np.arange(DOUBLINGS)
+    allowed = [off for off in offs if rise(way * off) <= most]  # not one after another: a moment's profile has barriers
+    inside = max(allowed, default=0.0)
+    outside = 2 * inside if allowed else near
     for _ in range(HALVINGS):
         middle = (inside + outside) / 2
         inside, outside = (inside, middle) if rise(way * middle) > most else (middle, outside)
