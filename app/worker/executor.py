@@ -34,7 +34,7 @@ class Executor:
         self._lock = threading.Lock()
 
     def execute(self, run_id: str) -> None:
-        """Execute a run to its end, again where its engine dies; one that has ended or was cancelled meanwhile is left alone."""
+        """Execute a run to its end, again where its engine dies; one that has ended or was cancelled is left alone."""
         try:
             self._attempt(run_id)
         except EngineDied as died:
