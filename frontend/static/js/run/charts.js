@@ -18,7 +18,7 @@ const CHARTS = {
   ti: { title: "Tracking indicator TI", keys: ["ti"], labels: [""] },
   d_alpha: { title: "Adaptation Δα", keys: ["d_alpha"], labels: [""] },
   energy_error: { title: "Energy error", keys: ["energy_error"], labels: [""] },
-  hysteresis: { title: "Damper force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
+  hysteresis: { title: "Force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
   subspace: { title: "Synchronisation subspace", x: ["x_cmd", "command"], y: ["x_meas", "measured"], alike: true },
 };
 
