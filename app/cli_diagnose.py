@@ -7,7 +7,7 @@ from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
-from app.cli_stability import plan_at
+from app.cli_run_input import plan_at
 from app.reports.diagnosis import report_html
 from app.shown import VERDICTS
 from rths_engine import files, measured

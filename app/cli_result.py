@@ -73,7 +73,7 @@ def _row(name: str, cells: list[str], width: int) -> str:
 
 
 def _cells(station: dict[str, Any], columns: dict[str, tuple[str, int]]) -> list[str]:
-    return ["–" if station[field] is None else f"{station[field]:.{digits}f}" for field, (_, digits) in columns.items()]
+    return ["–" if station[field] is None else f"{station[field]:z.{digits}f}" for field, (_, digits) in columns.items()]
 
 
 def _paper(plan: Plan, station: int) -> list[str]:

@@ -5,19 +5,21 @@ from __future__ import annotations
 import os
 import sys
 from argparse import Namespace
+from contextlib import nullcontext
 from pathlib import Path
 
 from rths_engine.errors import Issue, PlanError, RthsError
 from rths_engine.motion import FileMotion
 from rths_engine.part import validated
 from rths_engine.plan import Plan
+from rths_engine.plan_yaml import LARGEST
 
 STANDARD_INPUT = "-"
 
 
 def read_plan(given: Namespace) -> Plan:
     """Raises PlanError with every issue."""
-    plan = Plan.from_yaml(_text(given.plan))
+    plan = plan_at(given.plan)
     if given.record and plan.driven:
         raise PlanError(Issue("--record", f"is not used: a test of one {plan.test} follows its drive", fix="leave it out"))
     if given.record:
@@ -29,6 +31,11 @@ def read_plan(given: Namespace) -> Plan:
         beside = str(Path(given.plan).parent / plan.motion.path)
         return _with_motion(plan, plan.motion.model_copy(update={"path": beside}))
     return plan
+
+
+def plan_at(path: str) -> Plan:
+    """The plan of a YAML file; - is standard input. Raises PlanError with every issue."""
+    return Plan.from_yaml(_text(path))
 
 
 def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> None:
@@ -43,8 +50,10 @@ def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> N
 
 
 def _text(path: str) -> str:
+    """A plan's text, read no further than one character beyond what a plan may have."""
     try:
-        return sys.stdin.read() if path == STANDARD_INPUT else Path(path).read_text(encoding="utf-8")
+        with nullcontext(sys.stdin) if path == STANDARD_INPUT else Path(path).open(encoding="utf-8") as file:
+            return file.read(LARGEST + 1)
     except UnicodeDecodeError:
         raise PlanError(Issue("PLAN.yaml", "is no text in UTF-8", path, "give a plan as `rths plan` prints it")) from None
     except OSError as error:

@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 import json
-import sys
 from argparse import Namespace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from app.cli_run_input import plan_at
 from rths_engine import stability as engine
-from rths_engine.errors import Issue, PlanError
-from rths_engine.plan import Plan
 from rths_engine.stability import published
 
 
 def stability(given: Namespace) -> None:
     found = _published() if given.plan is None else engine.summary(plan_at(given.plan))
     print(json.dumps(found) if given.json else _limit(found) if given.plan is None else _text(found))
-
-
-def plan_at(path: str) -> Plan:
-    """The plan of a YAML file; - is standard input. Raises PlanError."""
-    try:
-        return Plan.from_yaml(sys.stdin.read() if path == "-" else Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise PlanError(Issue("PLAN.yaml", f"can't be read: {error}", path, "`rths plan NAME` prints one")) from None
 
 
 def _text(found: dict[str, Any]) -> str:

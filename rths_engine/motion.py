@@ -12,6 +12,7 @@ from pydantic import Field
 from rths_engine.arrays import Array
 from rths_engine.errors import Issue, MotionError
 from rths_engine.ground_motions import Motion, MotionLibrary, read
+from rths_engine.ground_motions.readers import check_size
 from rths_engine.ground_motions.scaling import Factor, Scale
 from rths_engine.part import Value, quantity
 
@@ -65,6 +66,7 @@ class FileMotion(Value):
     def unscaled(self, library: MotionLibrary) -> Motion:
         path = Path(self.path)
         try:
+            check_size(path.stat().st_size)
             raw = path.read_bytes()
         except OSError as error:
             raise MotionError(

@@ -7,6 +7,8 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
+from app.config import MEGABYTE
+from app.dependencies import Configured
 from app.live.hub import Hub
 from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
@@ -35,8 +37,8 @@ def lab_now(request: Request, runs: Runs) -> HTMLResponse:
 
 
 @router.get("/new")
-def new(request: Request) -> HTMLResponse:
-    return page(request, "new.html")
+def new(request: Request, configured: Configured) -> HTMLResponse:
+    return page(request, "new.html", limit_mb=configured.upload_limit // MEGABYTE)
 
 
 @router.get("/runs")

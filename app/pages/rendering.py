@@ -31,7 +31,7 @@ PLOTLY = {
 
 def fixed(value: Any, decimals: int = 1) -> str:
     """A number with fixed decimals; a dash where there is none."""
-    return "–" if value is None or isinstance(value, Undefined) else f"{value:.{decimals}f}"
+    return "–" if value is None or isinstance(value, Undefined) else f"{value:z.{decimals}f}"
 
 
 def brief(value: float | None) -> str:

@@ -167,10 +167,7 @@ def _origin(run: dict[str, Any], recording: Recording) -> list[tuple[str, str]]:
 
 def _fixed(value: float | None, digits: int) -> str:
     """With fixed decimals and a real minus; a dash where there is none."""
-    if value is None:
-        return "–"
-    text = f"{value:.{digits}f}"
-    return text.replace("-", "−") if float(text) else text.removeprefix("-")
+    return "–" if value is None else f"{value:z.{digits}f}".replace("-", "−")
 
 
 def _clock(moment: str | None) -> str:

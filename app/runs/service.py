@@ -136,13 +136,13 @@ class RunService:
         if run.state is State.RUNNING:
             self._move(run, State.QUEUED)
         if run.cancel_requested_by:
-            self._end(run, State.CANCELLED, f"Cancelled by {run.cancel_requested_by}; its worker had died.")
+            self._end(run, State.CANCELLED, f"Cancelled by {run.cancel_requested_by}; its worker or engine had died.")
             return None
         if queue.held:
             self._end(run, State.CANCELLED, f"Stopped by {queue.held_by} as it was about to start.")
             return None
         if run.attempt >= MOST_ATTEMPTS:
-            self._end(run, State.FAILED, f"Its worker died {run.attempt} times while running it; it is not tried again.")
+            self._end(run, State.FAILED, f"Its worker or engine died {run.attempt} times; it is not tried again.")
             return None
         self._move(run, State.RUNNING)
         run.attempt += 1

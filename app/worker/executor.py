@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import threading
 import time
@@ -15,9 +16,10 @@ from app.runs.repository import RunRepository
 from app.runs.service import Outcome, RunService
 from app.worker.engine import Done, Job
 from app.worker.link import Link
-from app.worker.pool import EngineProcess, Pool
+from app.worker.pool import EngineDied, EngineProcess, Pool
 from rths_engine.ground_motions import MotionLibrary
 
+log = logging.getLogger("rths.worker")
 HOLD_POLL_S = 0.1
 
 
@@ -32,7 +34,14 @@ class Executor:
         self._lock = threading.Lock()
 
     def execute(self, run_id: str) -> None:
-        """Execute a run to its end. Does nothing for one that has ended or was cancelled meanwhile."""
+        """Execute a run to its end, again where its engine dies; one that has ended or was cancelled is left alone."""
+        try:
+            self._attempt(run_id)
+        except EngineDied as died:
+            log.warning("the engine died (%s) over run %s", died, run_id)
+            self.execute(run_id)
+
+    def _attempt(self, run_id: str) -> None:
         engine = self.pool.take()
         try:
             self._wait_while_held()

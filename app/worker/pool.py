@@ -15,8 +15,11 @@ CANCEL_PATIENCE_S = 2.0
 KILLED = (
     f"The engine did not answer within {CANCEL_PATIENCE_S:g} s of being asked to stop, and was ended; nothing was recorded."
 )
-CRASHED = "The engine process ended unexpectedly (exit code {})."
 Listener = Callable[[Any], None]
+
+
+class EngineDied(Exception):
+    """The engine process ended in the middle of a job; the job can be given to another."""
 
 
 class EngineProcess:
@@ -35,12 +38,14 @@ class EngineProcess:
         self._ready = self._killed = False
 
     def execute(self, job: Job, listener: Listener) -> Done | Failed:
-        """Run a job; what the engine tells meanwhile goes to `listener`. A crash of the engine is a Failed."""
+        """Run a job; what the engine tells meanwhile goes to `listener`. Raises EngineDied."""
         try:
             return self._follow(job, listener)
         except (EOFError, OSError):
             self._process.join(CANCEL_PATIENCE_S)
-            return Failed(KILLED if self._killed else CRASHED.format(self._process.exitcode))
+            if self._killed:
+                return Failed(KILLED)
+            raise EngineDied(f"exit code {self._process.exitcode}") from None
         except BaseException:
             self._process.kill()  # it is in the middle of this job and must not be given another
             self._process.join()

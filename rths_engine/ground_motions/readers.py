@@ -48,11 +48,16 @@ def channels(raw: bytes, filename: str, format: str | None = None) -> tuple[str,
     return _parsed(raw, filename, format, 1).channels or ("acceleration",)
 
 
+def check_size(size: int) -> None:
+    """Raises MotionError for a file of more bytes than any record has."""
+    if size > _LARGEST_FILE:
+        raise MotionError(Issue("file", f"is larger than {_LARGEST_FILE:,} bytes", size, "cut or resample the record"))
+
+
 def _parsed(raw: bytes, filename: str, format: str | None, channel: int) -> Parsed:
     if format is not None and format not in FORMATS:
         raise MotionError(Issue("format", "is no known format", format, "choose one of " + ", ".join(FORMATS)))
-    if len(raw) > _LARGEST_FILE:
-        raise MotionError(Issue("file", f"is larger than {_LARGEST_FILE:,} bytes", len(raw), "cut or resample the record"))
+    check_size(len(raw))
     lines = lines_of(raw)
     found = format or _detected(lines, filename)
     if found == "cosmos":

@@ -10,6 +10,9 @@ from rths_engine.errors import Issue, PlanError
 
 PROBLEM = "its stiffness matrix is singular: it is a mechanism"
 MECHANISM = Issue("structure", PROBLEM, fix="support it or raise its softest stiffness")
+DEPENDENT = Issue(
+    "structure.mass", "the mass matrix is singular", fix="give each degree of freedom mass of its own, or none at all"
+)
 WEIGHTLESS = Issue(
     "structure", "a degree of freedom has next to no mass beside the others", fix="give it more mass, or none at all"
 )
@@ -23,12 +26,16 @@ def circular_frequencies(mass: Array, stiffness: Array) -> Array:
     """
     massive = np.flatnonzero(mass.any(axis=0))
     try:
+        root = cholesky(mass[np.ix_(massive, massive)], lower=True)
+        if _lost(root, mass[massive, massive]):
+            raise PlanError(DEPENDENT)
+    except LinAlgError:
+        raise PlanError(DEPENDENT) from None
+    try:
         factor, lower = cho_factor(stiffness)
-        pivots = np.diagonal(factor) ** 2
-        if not len(massive) or (pivots <= LOST * np.diagonal(stiffness)).any():
+        if not len(massive) or _lost(factor, np.diagonal(stiffness)):
             raise PlanError(MECHANISM)
         flexibility = cho_solve((factor, lower), np.eye(len(mass))[:, massive])[massive]
-        root = cholesky(mass[np.ix_(massive, massive)], lower=True)
         squares = eigvalsh(root.T @ flexibility @ root)  # 1 / omega^2, rising
         if not squares[0] > 0:
             raise PlanError(WEIGHTLESS)
@@ -36,6 +43,11 @@ def circular_frequencies(mass: Array, stiffness: Array) -> Array:
     except (LinAlgError, ValueError):
         raise PlanError(MECHANISM) from None
     return omega
+
+
+def _lost(factor: Array, diagonal: Array) -> bool:
+    """Whether a pivot of a Cholesky factor has cancelled to rounding: the matrix is singular."""
+    return bool((np.diagonal(factor) ** 2 <= LOST * diagonal).any())
 
 
 def rayleigh(mass: Array, stiffness: Array, ratio: float, omega: Array) -> Array:

@@ -183,6 +183,17 @@ def test_a_file_that_is_no_plan_is_refused(
     assert problem in captured.err and not captured.out
 
 
+def test_two_gigabytes_are_refused_unread(write: Write, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    huge = folder / "huge.AT2"
+    huge.touch()
+    os.truncate(huge, 2 << 30)
+    assert main(["run", str(write()), "--record", str(huge)]) == 2
+    assert "file = 2147483648: is larger than 100,000,000 bytes" in capsys.readouterr().err
+    assert main(["run", str(huge)]) == 2
+    assert "the plan has more than 20,000,000 characters" in capsys.readouterr().err
+    assert sorted(path.name for path in folder.iterdir()) == ["huge.AT2", "plan.yaml"]
+
+
 @pytest.fixture
 def columns(folder: Path) -> Path:
     """A record of one column: a pulse of 2 m/s^2 for 0.2 s."""

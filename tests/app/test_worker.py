@@ -122,18 +122,16 @@ def test_a_killed_worker_leaves_one_run_executed_again(service: Service, data: P
     stored_once(service, data, run)
 
 
-def test_a_crashed_engine_is_a_failed_run_and_the_next_test_runs(service: Service, data: Path) -> None:
-    run_id = service.submit(pace=SLOW, duration=30.0)
+def test_a_killed_engine_leaves_one_run_executed_again(service: Service, data: Path) -> None:
+    run_id = service.submit(pace=QUICK, duration=30.0)
     service.wait(run_id, "running")
     with live(service, run_id) as socket:
         watch(socket, enough=30)
     for pid in processes(service, "spawn_main"):
         os.kill(pid, signal.SIGKILL)
     run = service.wait(run_id)
-    assert run["state"] == "failed" and "engine" in run["reason"]
-    assert run["recording"] is None
-    assert not list((data / "recordings").glob(f"*{run_id}*"))
-    assert service.wait(service.submit(duration=2.0))["state"] == "completed"
+    assert (run["state"], run["attempt"]) == ("completed", 2)
+    stored_once(service, data, run)
 
 
 def test_abort_holds_what_waits_and_release_lets_it_run(service: Service) -> None:

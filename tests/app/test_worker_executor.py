@@ -18,6 +18,7 @@ from app.states import State
 from app.worker import executor as module
 from app.worker.engine import Done, Failed, Job
 from app.worker.executor import Executor
+from app.worker.pool import EngineDied
 from rths_engine.ground_motions import MotionLibrary
 from tests.app.conftest import plan
 
@@ -176,6 +177,17 @@ def test_a_run_that_kept_killing_its_worker_is_parked_and_its_viewers_are_told(b
     assert run.state is State.FAILED and "3 times" in (run.reason or "")
     assert bench.files == []
     assert bench.told.ended == [(run.id, MOST_ATTEMPTS)]
+
+
+def test_a_run_that_keeps_killing_its_engine_is_tried_again_and_then_parked(bench: Bench) -> None:
+    def dies(job: Job) -> Done:
+        job.recording.write_bytes(b"half")
+        raise EngineDied("exit code -11")
+
+    run = bench.execute(dies)
+    assert (run.state, run.attempt) == (State.FAILED, MOST_ATTEMPTS)
+    assert "engine died 3 times" in (run.reason or "")
+    assert bench.files == [] and bench.executor.running == {}
 
 
 def test_viewers_are_told_of_a_run_cancelled_after_its_worker_died(bench: Bench) -> None:

@@ -14,7 +14,7 @@ import pytest
 
 from app.worker import pool as module
 from app.worker.engine import Done, Failed, Job
-from app.worker.pool import EngineProcess, Pool
+from app.worker.pool import EngineDied, EngineProcess, Pool
 from tests.app.conftest import plan
 
 SLOW = {"kind": "real_time", "factor": 1.0}
@@ -79,6 +79,12 @@ def test_a_dead_engine_is_replaced(engines: Pool, job: Job) -> None:
     with taken(engines) as another:
         assert another is not engine
         assert isinstance(another.execute(replace(job, plan=plan(duration=1.0)), lambda told: None), Done)
+
+
+def test_an_engine_that_dies_over_a_job_is_told_apart_from_a_failed_test(engine: EngineProcess, job: Job) -> None:
+    with pytest.raises(EngineDied, match="exit code -9"):
+        engine.execute(job, lambda told: os.kill(engine._process.pid or 0, signal.SIGKILL))
+    assert not engine.alive
 
 
 def test_an_engine_left_in_the_middle_of_a_job_is_given_no_other(engine: EngineProcess, job: Job) -> None:

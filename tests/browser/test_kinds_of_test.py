@@ -86,7 +86,7 @@ def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) ->
 
 
 RUNS = {
-    "specimen-mr-damper": ("light", ["Damper force against displacement", "Displacement", "Measured force", "Tracking error"]),
+    "specimen-mr-damper": ("light", ["Force against displacement", "Displacement", "Measured force", "Tracking error"]),
     "actuator-sweep": (
         "dark",
         [

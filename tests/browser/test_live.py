@@ -34,7 +34,7 @@ def test_measures_show_while_the_test_runs_and_end_as_those_stored(idle: Service
     stored = idle.wait(run, "completed")
     for station, tiles in zip(stored["stations"], page.locator(".tiles").all(), strict=False):
         delay = tiles.get_by_text("FEI delay").locator("xpath=following-sibling::dd")
-        expect(delay).to_have_text(f"{station['fei_delay_ms']:.2f} ms")
+        expect(delay).to_have_text(f"{station['fei_delay_ms']:z.2f} ms")
     expect(page.locator(".tiles").last).to_contain_text(f"{stored['input_energy_kNm']:.1f} kN·m")
 
 

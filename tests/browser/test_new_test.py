@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -119,6 +120,17 @@ def test_a_record_is_previewed_and_added_to_the_library(form: Page, tmp_path: Pa
     form.get_by_role("button", name="Add to the library").click()
     expect(form.get_by_label("Record", exact=True)).to_have_value("site-shake")
     expect(form.locator(".good")).to_be_visible()
+
+
+def test_two_gigabytes_are_refused_before_they_are_sent(form: Page, tmp_path: Path) -> None:
+    huge = tmp_path / "huge.AT2"
+    huge.touch()
+    os.truncate(huge, 2 << 30)
+    form.get_by_text("Bring in a record").click()
+    form.get_by_label("File").set_input_files(huge)
+    expect(form.locator(".upload").get_by_role("alert")).to_have_text("huge.AT2 has 2147.5 MB; 20 MB is the most that is taken.")
+    form.get_by_label("Import a plan").set_input_files(huge)
+    expect(form.locator("#verdict .error")).to_contain_text("20 MB is the most")
 
 
 def _velocity_limit(plan: dict[str, Any]) -> float:

@@ -53,6 +53,7 @@ def test_floors_influence_and_strokes_can_be_given() -> None:
         ({"mass": [[0.0, 0.0], [0.0, 0.0]]}, "all zero.*give at least one degree of freedom mass"),
         ({"mass": [[2e5, 0.0], [0.0, -1e5]]}, r"negative eigenvalue -1e\+05 kg"),
         ({"stiffness": [[2.0e7, -2.0e7], [-2.0e7, 2.0e7]]}, "mechanism"),
+        ({"mass": [[1e5, 1e5], [1e5, 1e5]]}, r"structure\.mass: the mass matrix is singular"),
         ({"floors": [1, 3]}, r"structure\.floors: give different degrees of freedom from 1 to 2"),
         ({"influence": [1.0]}, "influence of the ground needs 2 numbers and has 1"),
         ({"drifts": [[1.0]]}, "each row of L needs 2 numbers"),

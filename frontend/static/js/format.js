@@ -12,12 +12,14 @@ export function number(value, digits = 4) {
 
 /** A value read off a chart: as `number`, but what is next to nothing reads 0.000. @param {number | null | undefined} value */
 export function reading(value) {
-  return value != null && Math.abs(value) < 1e-3 ? value.toFixed(3) : number(value);
+  return value != null && Math.abs(value) < 1e-3 ? fixed(value, 3) : number(value);
 }
 
-/** @param {number | null | undefined} value */
+/** With fixed decimals; what rounds to nothing has no sign. @param {number | null | undefined} value */
 export function fixed(value, decimals = 1) {
-  return value == null || !Number.isFinite(value) ? "–" : value.toFixed(decimals);
+  if (value == null || !Number.isFinite(value)) return "–";
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
 /** Date and time of day where the reader is. @param {string | null | undefined} iso */

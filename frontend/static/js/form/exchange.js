@@ -1,6 +1,7 @@
 // @ts-check
 import { api } from "../api.js";
 import { el } from "../dom.js";
+import { withinLimit } from "../limit.js";
 
 /** Hand the plan to the browser as a YAML file. @param {any} plan */
 export async function exportYaml(plan) {
@@ -13,7 +14,7 @@ export async function exportYaml(plan) {
 
 /** The plan in the YAML file chosen. @param {HTMLInputElement} input */
 export async function importYaml(input) {
-  const text = await /** @type {FileList} */ (input.files)[0].text();
+  const text = await withinLimit(/** @type {FileList} */ (input.files)[0]).text();
   input.value = "";
   return api.postText("/plans/read", text, "application/yaml");
 }

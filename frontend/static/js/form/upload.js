@@ -1,6 +1,7 @@
 // @ts-check
 import { ApiError, api, sentence } from "../api.js";
 import { el } from "../dom.js";
+import { withinLimit } from "../limit.js";
 import { labelled } from "./field.js";
 import { previewOf } from "./preview.js";
 
@@ -21,7 +22,7 @@ export function uploadBox(added) {
 
   const form = () => {
     const data = new FormData();
-    data.set("file", file.files[0]);
+    data.set("file", withinLimit(file.files[0]));
     for (const [key, control] of Object.entries({ unit, dt, name })) if (control.value.trim()) data.set(key, control.value.trim());
     return data;
   };

@@ -2,6 +2,7 @@
 import { api, explain } from "../api.js";
 import { byId } from "../dom.js";
 import { size } from "../format.js";
+import { withinLimit } from "../limit.js";
 import { Editor } from "./editor.js";
 import { removal } from "./remove.js";
 
@@ -31,9 +32,12 @@ async function edit(sending, told) {
 /** @param {File | undefined} file */
 function upload(file) {
   if (!file) return;
-  const form = new FormData();
-  form.set("file", file);
-  edit(() => api.postForm("/recordings/files", form), `Reading ${file.name}, ${size(file.size)} …`);
+  const send = () => {
+    const form = new FormData();
+    form.set("file", withinLimit(file));
+    return api.postForm("/recordings/files", form);
+  };
+  edit(send, `Reading ${file.name}, ${size(file.size)} …`);
 }
 
 input.addEventListener("change", () => upload(input.files?.[0]));

@@ -18,15 +18,15 @@ const CHARTS = {
   ti: { title: "Tracking indicator TI", keys: ["ti"], labels: [""] },
   d_alpha: { title: "Adaptation Δα", keys: ["d_alpha"], labels: [""] },
   energy_error: { title: "Energy error", keys: ["energy_error"], labels: [""] },
-  hysteresis: { title: "Damper force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
+  hysteresis: { title: "Force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
   subspace: { title: "Synchronisation subspace", x: ["x_cmd", "command"], y: ["x_meas", "measured"], alike: true },
 };
 
-/** What a station shows in each kind of test, and what of it is large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], wide?: string, square?: string}>} */
+/** What a station shows in each kind of test, and what of it is large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], large: Record<string, string>}>} */
 const SHOWN = {
-  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "subspace", "ti", "d_alpha", "energy_error"] },
-  specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "error"], square: "hysteresis" },
-  actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "ti", "d_alpha"], wide: "displacement" },
+  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "subspace", "ti", "d_alpha", "energy_error"], large: { displacement: "double" } },
+  specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "error"], large: { hysteresis: "square", displacement: "double" } },
+  actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "ti", "d_alpha"], large: { displacement: "wide" } },
 };
 
 /** Build the charts of a plan's test into `host`; the view draws them, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan */
@@ -42,8 +42,7 @@ export function buildCharts(host, store, plan) {
     const wanted = shown.charts.filter((name) => name !== "d_alpha" || station.compensator.kind !== "none");
     const charts = wanted.map((name) => {
       const chart = stationChart(view, CHARTS[name], `s${i + 1}`, series);
-      if (name === shown.wide) chart.figure.element.classList.add("wide");
-      if (name === shown.square) chart.figure.element.classList.add("square");
+      if (shown.large[name]) chart.figure.element.classList.add(shown.large[name]);
       return chart;
     });
     const title = plan.stations.length > 1 ? `${shown.head} ${i + 1}: ${station.name}` : `${shown.head}: ${station.name}`;

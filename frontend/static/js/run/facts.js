@@ -18,7 +18,7 @@ export function facts(run) {
     ...(run.plan ? excitation(run.plan) : []),
     ["Template", run.template],
     ["Seed", run.seed],
-    ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker of the one before died)` : null],
+    ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or engine of the one before died)` : null],
     ["Digest of the plan", run.digest],
     ["Code version", run.code_version],
     ["Floor peaks", run.stations?.length && run.floors_peak_mm?.length ? `${run.floors_peak_mm.map((/** @type {number} */ x) => fixed(x)).join(", ")} mm` : null],

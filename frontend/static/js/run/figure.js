@@ -16,7 +16,7 @@ export class Figure {
     this.keys = keys;
     this.values = series.map(() => el("output", { class: "value", "aria-live": "off" }, "–"));
     const entries = series.map((one, i) =>
-      el("span", { class: "entry" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
+      el("span", { class: one.label ? "entry" : "entry alone" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
     );
     this.at = el("span", { class: "at muted" });
     this.plot = el("div", { class: "plot", role: "img", tabindex: "0", "aria-label": this.describe("no data yet") });

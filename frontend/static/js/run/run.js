@@ -45,14 +45,20 @@ function show() {
   const measured = ended(run.state) && run.recording && (run.stations?.length || run.floors_peak_mm?.length);
   byId("metrics").hidden = !measured;
   if (measured) {
-    tiles?.show(run);
+    showTiles();
     byId("metrics").replaceChildren(...(run.stations.length ? metricsTables(run.stations, paper, run.test) : [floorsTable(run.floors_peak_mm)]));
   }
+}
+
+function showTiles() {
+  tiles?.show(run);
+  if (run.stations.length) tiles?.fold();
 }
 
 /** @param {any} at */
 function showProgress(at) {
   const { simulated_s = 0, duration_s = 0 } = at;
+  byId("advance").hidden = ended(at.state) && simulated_s === null;
   byId("progress").value = duration_s ? simulated_s / duration_s : 0;
   byId("clock").textContent = at.state === "queued" ? "Waiting in the queue" : clock({ ...at, simulated_s, duration_s });
 }
@@ -99,7 +105,7 @@ const viewer = {
       view?.close();
       ({ view, tiles } = buildCharts(byId("charts"), store, run.plan));
       byId("chart-controls").hidden = false;
-      if (ended(run.state)) tiles.show(run);
+      if (ended(run.state)) showTiles();
       showWindow();
     }
     if (run.state !== states) show();

@@ -18,6 +18,11 @@ export class Tiles {
     measures.stations.forEach((station, i) => this.stations[i]?.show(station));
     this.structure.show(measures);
   }
+
+  /** Of an ended run the stations' measures stand in tables. */
+  fold() {
+    this.stations.forEach((list) => (list.element.hidden = true));
+  }
 }
 
 class List {
