@@ -14,14 +14,14 @@ PYTEST ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone check bench prove browser lock clean
+.PHONY: setup run test test-clone check bench prove browser opensees lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
 run: setup
 	@$(BIN)/rths serve --demo
 
-test: setup browser check
+test: setup browser opensees check
 	$(BIN)/pytest -n 2 --dist loadfile $(PYTEST)
 
 test-clone: setup
@@ -80,6 +80,16 @@ browser:
 	    else \
 	        echo "The browser tests need Chromium (on Debian: apt-get install chromium); they are left out without it." >&2; \
 	    fi; }
+
+# The independent solver that tests and benchmarks ask; never installed with the product.
+opensees: $(STAMPS)/package
+	@$(BIN)/python -c 'import openseespy.opensees' 2>/dev/null || { \
+	    $(PIP) install --no-build-isolation -e '.[opensees]'; \
+	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	        apt-get update -qq && apt-get install -y -qq --no-install-recommends libblas3 liblapack3; \
+	    fi; \
+	    $(BIN)/python -c 'import openseespy.opensees' || \
+	        echo "The frame is not compared with OpenSees (on Debian: apt-get install libblas3 liblapack3)." >&2; }
 
 # Renew requirements.lock: the newest releases that pyproject.toml admits.
 lock:
