@@ -1,10 +1,9 @@
 """`python -m benchmarks.calibrate_table4 RECORD [SEED]`: the emulated laboratory from simulations 3 and 4 of Table IV.
 
-Loss: the mean of ln^2(ours/paper) over MTE, RMS, MTI and MEE of both stations in simulations 3 and 4, each at most ln^2 4,
+Loss: the mean of ln^2(ours/paper) over MTE, RMS, MTI and MEE of both stations in simulations 3 and 4, each at most ln^2 20,
 which a wrong sign costs too; plus 10 ln^2 of the floors of simulation 2 over the paper's (geometric mean), which sets the
-record's factor; plus 0.02 for every factor of two, squared, from the EXPECTED values, since 16 numbers can't hold eight
-parameters. A test that trips costs 3. Nothing else of the table is looked at. With a seed it is
-searched over all BOUNDS by differential evolution first; without, the present laboratory is refined, by the simplex method.
+record's factor. A test that trips costs 10. Nothing else of the table is looked at. With a seed all BOUNDS are searched by
+differential evolution first; without, the present laboratory is refined, by the simplex method.
 """
 
 from __future__ import annotations
@@ -29,21 +28,15 @@ from rths_engine.table4.scale import design_basis, floors_excess
 
 # searched on a logarithmic axis, between
 BOUNDS = {
-    "first_time_constant": (26e-3, 32e-3),
-    "second_time_constant": (32e-3, 44e-3),
-    "valve_time": (1e-3, 8e-3),
-    "displacement_noise": (1e-5, 2e-4),
-    "damper_stiffness": (3e7, 1e9),
-    "brace_ratio": (4.0, 60.0),
-    "equivalent_damping": (1e6, 3e7),
+    "first_time_constant": (24e-3, 32e-3),
+    "second_time_constant": (30e-3, 44e-3),
+    "delay_growth": (5e-3, 0.2),
+    "displacement_noise": (5e-6, 2e-4),
     "factor": (0.36, 0.56),
 }
-# the product's defaults, and braces of ten times the storey's stiffness as such frames are designed with
-EXPECTED = {"valve_time": 4e-3, "damper_stiffness": 1e8, "brace_ratio": 10.0, "equivalent_damping": 1e7}
-WEIGHT = 0.02
-WORST, TRIPPED = math.log(4) ** 2, 3.0
+WORST, TRIPPED = math.log(20) ** 2, 10.0
 POPULATION, GENERATIONS = 4, 40
-SIMPLEX, REFINED = 0.06, 200
+SIMPLEX, REFINED = 0.04, 80
 
 
 def main(path: str, seed: int | None) -> None:
@@ -95,8 +88,7 @@ def loss(laboratory: table4.Laboratory, motion: FileMotion, motions: MotionLibra
         for j, station in enumerate(result.summary()["stations"]):
             ratios = [station[field] / published(PAPER[simulation], field, j) for field in MEASURES]
             terms += [min(WORST, math.log(ratio) ** 2) if ratio > 0 else WORST for ratio in ratios]
-    departure = sum(math.log2(getattr(laboratory, name) / value) ** 2 for name, value in EXPECTED.items())
-    return float(np.mean(terms)) + WEIGHT * departure + 10 * floors_excess(motion, motions, laboratory) ** 2
+    return float(np.mean(terms)) + 10 * floors_excess(motion, motions, laboratory) ** 2
 
 
 if __name__ == "__main__":

@@ -24,12 +24,14 @@ from rths_engine.dispatch import (
     resisted,
 )
 from rths_engine.kernel import compiled, entry
+from rths_engine.oscillation import SIZE, half_waves
 from rths_engine.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR
 from rths_engine.restoring import subtract_forces, subtract_product
 from rths_engine.solve import solve
 
 # memory of a station between substeps
-X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, X_TRUE, V_TRUE, X_SENT, X_END, MEMORY = range(13)
+X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, X_TRUE, V_TRUE, X_SENT, X_END, WAVES = range(13)
+MEMORY = WAVES + SIZE  # the last ones are oscillation.half_waves'
 # columns a station records
 STATION_COLUMNS = ("x_cmd", "x_comp", "x_meas", "f_meas", "error", "ti", "d_alpha", "energy_error")
 # parts of a station
@@ -76,7 +78,7 @@ class Setup(NamedTuple):
     dampers: Any  # equal dampers a station stands for (S)
     codes: Any  # part codes (S, 3)
     parameters: Any  # (3, S, widest)
-    limits: Any  # (S, 3), in the order of safety.LIMITS
+    limits: Any  # (S, 4), in the order of safety.LIMITS
     noise: Any  # (Q, S, 2)
 
 
@@ -139,6 +141,9 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
         return 1, x_cmd
     if not _within(velocity, limits[1]):
         return 2, velocity
+    waves = half_waves(memory[WAVES:], velocity, dt)
+    if not _within(waves, limits[3]):
+        return 4, waves
     adapted = parts[COMPENSATOR, j]
     x_last, x_meas_last, ti = memory[X_CMD], memory[X_MEAS], memory[TI]
     x_comp = compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], adapted, x_cmd, x_last, x_meas_last, ti, dt)

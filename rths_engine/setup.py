@@ -95,4 +95,4 @@ def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:
 
 
 def _limits(station: Any) -> tuple[float, ...]:
-    return tuple(getattr(station.limits, name) for name in LIMITS)
+    return tuple(getattr(station.limits, name) or np.inf for name in LIMITS)

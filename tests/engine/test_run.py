@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rths_engine import metrics
+from rths_engine import metrics, oscillation
 from rths_engine.plan import Plan
 from rths_engine.run import Run, simulate
 from tests.engine.plans import LIBRARY, NO_LIMITS, building, completed, make, shaking
@@ -133,6 +133,26 @@ def test_a_trip_ends_the_run_in_the_first_substep_over_the_limit(limit: str, uni
     assert len(tripped.signals) == first
     assert np.array_equal(tripped.signals, free.signals[:first])
     assert "station 2 (S2)" in tripped.trip.sentence
+
+
+def swinging(half_wave: float, ratio: float) -> list[float]:
+    """Length of the row after every half wave of a command whose peaks, 100 mm/s at first, fall by `ratio`."""
+    state, dt = np.zeros(oscillation.SIZE), 1 / 1024
+    each = round(half_wave / dt)
+    peaks = 0.1 * ratio ** np.repeat(np.arange(40), each)
+    velocity = peaks * np.sin(np.pi * (np.arange(40 * each) + 0.5) / each)
+    rows = [oscillation.half_waves(state, v, dt) for v in velocity]
+    return rows[each::each]
+
+
+@pytest.mark.parametrize(
+    ("half_wave", "ratio", "longest"),
+    [(0.1, 1.0, 39), (0.1, 1.2, 39), (0.19, 1.0, 39), (0.21, 1.0, 0), (0.1, 0.75, 1), (0.1, 0.9, 3), (0.1, 0.99, 23)],
+)
+def test_half_waves_are_counted_while_an_oscillation_is_fast_and_does_not_die_out(
+    half_wave: float, ratio: float, longest: int
+) -> None:
+    assert max(swinging(half_wave, ratio)) == longest
 
 
 def test_an_unstable_loop_trips_rather_than_overflows() -> None:
