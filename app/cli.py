@@ -83,6 +83,7 @@ def parser() -> argparse.ArgumentParser:
     prove.add_argument("--only", metavar="KIND/LEVEL", help="cases of one kind of test, one level, or both")
     prove.add_argument("--keep", type=Path, metavar="DIR", help="keep plans, recordings, truths and diagnoses here")
     prove.add_argument("--json", type=Path, required=True, metavar="OUT", help="write every score as one JSON object")
+    prove.add_argument("--picture", type=Path, metavar="OUT.svg", help="draw the rates by how far what is concealed stands out")
     prove.add_argument("--table", action="store_true", help="print a row for each effect as well")
 
     serve = _command(commands, "serve", "app.cli_serve:serve", "start the control room")

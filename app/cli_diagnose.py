@@ -28,16 +28,10 @@ def diagnose(given: Namespace) -> None:
     diagnosis = engine(plan, measured.load(given.recording), heldout, given.level, more=more)
     found = diagnosis.verdict
     if given.json:
-        _write(given.json, json.dumps(found, indent=2, allow_nan=False) + "\n")
+        files.write(given.json, json.dumps(found, indent=2, allow_nan=False) + "\n")
     if given.report:
-        _write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis)))
+        files.write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis)))
     print(_text(found))
-
-
-def _write(path: Path, text: str) -> None:
-    with files.temporary(path) as written:
-        written.write_text(text, encoding="utf-8")
-        written.replace(path)
 
 
 def _facts(given: Namespace) -> list[tuple[str, str]]:

@@ -17,15 +17,15 @@ CHECKOUT = Path(__file__).parent.parent
 def prove(given: Namespace) -> None:
     _checked(given)
     sys.path.insert(0, str(CHECKOUT))
-    proving, table = import_module("tests.proof.proving"), import_module("tests.proof.table")
+    proving, table, drawing = (import_module(f"tests.proof.{name}") for name in ("proving", "table", "drawing"))
     try:
         proving.specs(1, 0, given.only)
     except ValueError as error:
         raise PlanError(Issue("--only", "there is no such kind of case", given.only, str(error))) from None
     result = proving.prove(given.cases, given.seed, given.workers, given.only, given.keep, _told)
-    with files.temporary(given.json) as written:
-        written.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-        written.replace(given.json)
+    files.write(given.json, json.dumps(result, indent=1) + "\n")
+    if given.picture:
+        files.write(given.picture, drawing.svg(result))
     print(table.scores(result))
     if given.table:
         print(table.effects(result["per_case"]))
@@ -38,8 +38,9 @@ def _checked(given: Namespace) -> None:
     for name, least in (("cases", 1), ("workers", 1), ("seed", 0)):
         if getattr(given, name) < least:
             raise PlanError(Issue(f"--{name}", f"needs to be at least {least}", getattr(given, name)))
-    if not given.json.parent.is_dir():
-        raise PlanError(Issue("--json", "there is no such folder", str(given.json.parent), "make it first"))
+    for option, path in (("--json", given.json), ("--picture", given.picture)):
+        if path and not path.parent.is_dir():
+            raise PlanError(Issue(option, "there is no such folder", str(path.parent), "make it first"))
     if given.keep and given.keep.exists() and any(given.keep.iterdir()):
         raise PlanError(Issue("--keep", "is not empty", str(given.keep), "give a new folder"))
 

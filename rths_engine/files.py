@@ -22,6 +22,13 @@ def temporary(target: Path) -> Iterator[Path]:
         path.unlink(missing_ok=True)
 
 
+def write(target: Path, text: str) -> None:
+    """Write a file of text, whole or not at all."""
+    with temporary(target) as written:
+        written.write_text(text, encoding="utf-8")
+        written.replace(target)
+
+
 def sync(path: Path) -> None:
     """Force a file's content, or a folder's names, to the disk."""
     descriptor = os.open(path, os.O_RDONLY)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ import pytest
 from app.cli import main
 from rths_engine.measured.store import load
 from rths_engine.plan import Plan
-from tests.proof import oracle, peer, score, seals, summary, table
+from tests.proof import drawing, oracle, peer, score, seals, summary, table
 from tests.proof.generator.draw import specs
 from tests.proof.generator.draw_specimen import specimen_case
 from tests.proof.proving import diagnosed
@@ -163,6 +164,14 @@ def test_an_oracle_names_a_strong_effect_and_has_all_of_its_own_gain(tmp_path: P
     assert 25 < known["lambda_rival"] <= 1.05 * case.truth.strength  # the baseline is one of the rivals, refitted once more
     assert oracle.gain_share(0.05, 0.01, {"baseline": 0.06, "extended": 0.02}) == pytest.approx(1.0)
     assert oracle.gain_share(0.05, 0.0499, {"baseline": 0.06, "extended": 0.02}) is None
+
+
+def test_a_picture_has_a_point_for_every_rate_that_was_counted() -> None:
+    rates = {name: summary.rate([{"hit": hit} for hit in hits], "hit") for name, hits in (("<10", [1, 0]), (">=100", []))}
+    result = dict.fromkeys(drawing.DRAWN, {"all": rates["<10"], **rates})
+    picture = ElementTree.fromstring(drawing.svg(result))
+    points = [one for one in picture.iter("{http://www.w3.org/2000/svg}circle")]
+    assert len(points) == 2 * len(drawing.DRAWN)  # one of each rate, and one in the legend
 
 
 @pytest.mark.skipif(not peer.installed(), reason="PySINDy is not installed (pip install '.[peer]')")
