@@ -168,7 +168,7 @@ def test_an_oracle_names_a_strong_effect_and_has_all_of_its_own_gain(tmp_path: P
 
 def test_a_picture_has_a_point_for_every_rate_that_was_counted() -> None:
     rates = {name: summary.rate([{"hit": hit} for hit in hits], "hit") for name, hits in (("<10", [1, 0]), (">=100", []))}
-    result = dict.fromkeys(drawing.DRAWN, {"all": rates["<10"], **rates})
+    result = {key: {"all": rates["<10"], **rates} for key in drawing.DRAWN}
     picture = ElementTree.fromstring(drawing.svg(result))
     points = [one for one in picture.iter("{http://www.w3.org/2000/svg}circle")]
     assert len(points) == 2 * len(drawing.DRAWN)  # one of each rate, and one in the legend
