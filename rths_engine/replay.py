@@ -26,13 +26,16 @@ from rths_engine.plan import Plan
 from rths_engine.setup import left_out, setup
 
 
-def specimen(part: Part, extended: Sequence[Effect], x: Array, current: Array, dt: float, start: float = 0.0) -> Array:
-    """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s)."""
+def specimen(
+    part: Part, extended: Sequence[Effect], x: Array, current: Array, dt: float, start: float = 0.0, pressed: float = 0.0
+) -> Array:
+    """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s). `pressed` is the
+    force before."""
     part = amended(part, extended)
     parameters, state = part.build(dt)
     code = specimens.KINDS.index(type(part))
     force: Array = np.empty(len(x))
-    _specimen(x, current, start, dt, code, parameters, state, effects(_stepping(extended), dt), force)
+    _specimen(x, current, start, dt, pressed, code, parameters, state, effects(_stepping(extended), dt), force)
     return force
 
 
@@ -73,8 +76,8 @@ def _stepping(extended: Sequence[Effect]) -> list[Effect]:
 
 
 @entry
-def _specimen(x, current, start, dt, code, parameters, state, extended, force):
-    f, inner, flexibility, last, last_u = 0.0, 0.0, 0.0, x[0], x[0]
+def _specimen(x, current, start, dt, pressed, code, parameters, state, extended, force):
+    f, inner, flexibility, last, last_u = pressed, 0.0, 0.0, x[0], 0.0
     moves, gives, adds, misread = acts(INPUT, extended), acts(SERIES, extended), acts(FORCE, extended), acts(F_SENSOR, extended)
     before = np.empty(state.size)
     for q in range(x.size):
@@ -89,6 +92,7 @@ def _specimen(x, current, start, dt, code, parameters, state, extended, force):
         else:
             f = resist(code, parameters, state, u, dt)
         inner = f
+        last_u = u if q == 0 else last_u
         if adds:
             f = extend_specimen(FORCE, extended, f, u, (u - last_u) / dt, current[q], t, dt)
         last_u = u

@@ -1,4 +1,5 @@
-"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N); `force` is the specimen's at the last substep.
+"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N); `force` is the specimen's at the last substep. The command
+x_comp is a displacement (m), or what else drives the kind.
 
 Each has a `velocity_limit` (m/s) and a `force_limit` (N): what it reaches at most.
 """
@@ -10,6 +11,9 @@ from pydantic import Field
 from rths_engine.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.actuators.second_order import SecondOrderActuator
 from rths_engine.actuators.servo_hydraulic import ServoHydraulicActuator
+from rths_engine.actuators.velocity_drive import VelocityDrive
 
-KINDS = (FirstOrderDelay, SecondOrderActuator, ServoHydraulicActuator)
-Actuator = Annotated[FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator, Field(discriminator="kind")]
+KINDS = (FirstOrderDelay, SecondOrderActuator, ServoHydraulicActuator, VelocityDrive)
+Actuator = Annotated[
+    FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator | VelocityDrive, Field(discriminator="kind")
+]

@@ -19,7 +19,8 @@ from rths_engine.part import Part
 BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, never fitted where no other recording is held out
 ENDS = 0.3  # s at either end, which the filters blur
 PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance
-NOT_WHOLE = 0.25  # of what is beyond the planned model: a named effect that leaves more is not what was left out
+NOT_WHOLE = 0.25  # of what is beyond the planned model: a named effect that leaves more is not what was left out,
+MOST = 0.1  # unless no more of the power of the error on what was not fitted is left
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,12 @@ class Judged:
         """Squared length, in units of the noise, of what a general law could still explain."""
         last = self.selection.detections[-1]
         return max(0.0, last.explained - last.expected)
+
+    @property
+    def shown(self) -> bool:
+        """Whether the effects account for most of the error on what was not fitted."""
+        before, after = (self.nrmse(one.parts, False) for one in (self.selection.baseline, self.selection.chosen))
+        return after**2 <= MOST * before**2
 
     def nrmse(self, parts: Sequence[Part], fitted: bool | None) -> float:
         """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike."""
@@ -99,7 +106,7 @@ def judged(
     if first.p_value > level:
         return Judged(component, name, selection, _calibration(selection, level), False, found.heldout)
     remains = last.p_general <= level and found.left > max(PLAIN, NOT_WHOLE * found.gain)
-    if selection.effects and not remains:
+    if selection.effects and (not remains or found.shown):
         return Judged(component, name, selection, "mismatch", False, found.heldout)
     return Judged(component, name, selection, "mismatch" if remains else "undetermined", remains, found.heldout)
 

@@ -144,7 +144,8 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
     data = StructureData(
         recording.dt, recording.start, recording.of_run, ground, forces, tuple(floors), released, plan.substeps
     )
-    return [(Structure("structure", based(plan, released is not None and not recording.of_run), plan), data)]
+    read = [floor for kind, floor, _ in floors if kind == "x"]
+    return [(Structure("structure", based(plan, released is not None and not recording.of_run, read), plan), data)]
 
 
 def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, Array]) -> Any:

@@ -29,7 +29,8 @@ def as_dict(
     chosen = worst.selection.chosen
     near = alike(worst.recordings, chosen, worst.selection.tried) if worst.effects else []
     group = [", ".join(_names(worst, one)) for one in (chosen, *(model for model, _ in near))]
-    remains = law(worst.recordings, chosen) if worst.unknown or worst.verdict == "undetermined" else None
+    beyond = worst.verdict == "mismatch" and worst.selection.detections[-1].p_general <= level
+    remains = law(worst.recordings, chosen) if beyond or worst.verdict == "undetermined" else None
     ranked = sorted(judged, key=lambda one: -one.gain)
     effects = [effect for one in ranked if one.verdict == "mismatch" for effect in _effects(one, remains, level)]
     return {

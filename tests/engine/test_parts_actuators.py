@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 from rths_engine.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.actuators.second_order import SecondOrderActuator
 from rths_engine.actuators.servo_hydraulic import ServoHydraulicActuator
+from rths_engine.actuators.velocity_drive import VelocityDrive
 
 DT = 1 / 1024
 UNLIMITED = {"velocity_limit": 10.0, "force_limit": 1e8}
@@ -178,3 +179,22 @@ def test_a_small_sine_is_delayed_by_the_phase_of_the_linear_servo_loop() -> None
     # position loop and valve; the oil column at 80 Hz adds nothing at 1 Hz, and the command acts dt early
     loop = 1 / (1 + 0.03 * s * (1 + 0.004 * s))
     assert delay(part, 1e-4, 0.0) == pytest.approx(-np.angle(loop) / (2 * np.pi) - DT, rel=0.02)
+
+
+def test_a_velocity_drive_reaches_its_gain_times_the_voltage_as_a_first_order_lag() -> None:
+    part = VelocityDrive(gain=0.04, time_constant=0.06, rest_voltage=0.05)
+    t = np.arange(1, 1025) * DT
+    path = moved(part, np.full(1024, 0.45))
+    assert path == pytest.approx(0.04 * 0.4 * (t + 0.06 * np.expm1(-t / 0.06)), rel=1e-9, abs=1e-12)
+
+
+def test_a_velocity_drive_asked_for_more_than_its_limit_moves_as_at_its_limit_and_leaves_it_at_once() -> None:
+    part = VelocityDrive(gain=0.04, velocity_limit=0.02)
+    voltage = 3.0 * np.sin(2 * np.pi * 0.8 * np.arange(2048) * DT)
+    assert moved(part, voltage) == pytest.approx(moved(part, np.clip(voltage, -0.5, 0.5)), abs=1e-12)
+
+
+def test_a_velocity_drive_stalls_against_its_force_capacity() -> None:
+    part = VelocityDrive(force_limit=1e5)
+    assert np.all(moved(part, np.full(64, 1.0), 1.1e5) == 0.0)
+    assert moved(part, np.full(64, -1.0), 1.1e5)[-1] < 0.0

@@ -69,6 +69,14 @@ def test_a_spring_behind_a_gap_is_free_within_it_and_shifted_by_half_of_it_beyon
     assert np.abs(force(SPRING, Backlash(gap=gap), x) - exact).max() < 1.01 * one_substep
 
 
+@pytest.mark.parametrize(("pressed", "free"), [(-1.0, 4e-3), (0.0, 2e-3), (1.0, 0.0)])
+def test_the_play_begins_on_the_side_that_a_force_presses_on(pressed: float, free: float) -> None:
+    x = np.linspace(0.0, 0.01, 1024)
+    effects = [Backlash(gap=4e-3), CoulombFriction(friction=1e5, presliding=1e-4)]
+    felt = replay.specimen(NOTHING, effects, x, np.ones_like(x), DT, pressed=pressed)
+    assert x[np.argmax(felt > 0)] == pytest.approx(free, abs=2.1 * 0.01 / 1023)
+
+
 def test_springs_in_series_add_their_flexibilities() -> None:
     x = sine(0.01)
     stiffness = 1 / (1 / 4e6 + 2e-7)

@@ -44,7 +44,9 @@ class ActuatorData(Data):
     def seen(self) -> Seen:
         load = float(np.max(np.abs(self.load)))
         energy = float(np.sum(np.abs(self.load * self.velocity)) * self.dt)
-        x, v = (float(np.max(np.abs(one))) for one in (self.command, self.velocity))
+        moved = self.band.reduced(self.x)  # a command may be a voltage
+        x = min(float(np.max(np.abs(one))) for one in (self.command, moved))
+        v = min(float(np.max(np.abs(one))) for one in (self.velocity, np.gradient(moved, self.step)))
         return Seen(x, v, load, len(self.x) * self.dt, energy, self.dt)
 
 

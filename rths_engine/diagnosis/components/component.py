@@ -56,6 +56,11 @@ class Data(ABC):
         return self
 
     @property
+    def pressed(self) -> float:
+        """Force on a specimen before the start; 0 where none is known."""
+        return 0.0
+
+    @property
     def band(self) -> Band:
         return Band.of(self.dt)
 

@@ -19,6 +19,7 @@ from rths_engine.part import Part, quantity
 from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfForce
 
+AT_REST, SLIGHT = 0.1, 0.02  # s; of the largest force
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
 
@@ -63,6 +64,13 @@ class SpecimenData(Data):
     def fine(self) -> Array:
         """The displacement at the replay's steps."""
         return self.refined(self.smooth)
+
+    @cached_property
+    def pressed(self) -> float:
+        """Force at the start; 0 where it may be noise."""
+        begun = self.force[: max(1, round(AT_REST / self.dt))]
+        force = float(np.mean(begun))
+        return force if abs(force) > max(3 * float(np.std(begun)), SLIGHT * float(np.max(np.abs(self.force)))) else 0.0
 
     @cached_property
     def velocity(self) -> Array:
@@ -130,7 +138,7 @@ def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Ar
     """(1, n) of the force, in the band of the comparison, at the displacement (m) `fine` at the replay's steps. `parts`: the
     specimen, then effects and what of the replay is loose."""
     n = data.finer
-    force = _force(parts, fine, np.repeat(current, n), data.dt / n, data.start)
+    force = _force(parts, fine, np.repeat(current, n), data.dt / n, data)
     late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
     place = np.arange(0, len(force), n) - late
     found = data.reduced(np.interp(place, np.arange(len(force)), force)[None] if late else force[None, ::n])
@@ -142,10 +150,11 @@ def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
     """The step error of the data, from steps half as long."""
     if not data.stepped:
         n = data.finer
-        half = _force(parts, data.refined(x, 2), np.repeat(current, 2 * n), data.dt / (2 * n), data.start)
-        whole = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data.start)
+        half = _force(parts, data.refined(x, 2), np.repeat(current, 2 * n), data.dt / (2 * n), data)
+        whole = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data)
         data.__dict__["step_error"] = data.reduced((half[:: 2 * n] - whole[::n])[None])
 
 
-def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, start: float) -> Array:
-    return replay.specimen(parts[0], [part for part in parts[1:] if isinstance(part, Effect)], x, current, dt, start)
+def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, data: Data) -> Array:
+    effects = [part for part in parts[1:] if isinstance(part, Effect)]
+    return replay.specimen(parts[0], effects, x, current, dt, data.start, data.pressed)

@@ -38,6 +38,14 @@ class Release(Loose):
     scale: ClassVar[float] = 1e-3
 
 
+class Zero(Loose):
+    """What the displacement of a floor reads at rest."""
+
+    floor: int = quantity("Floor", ge=1, default=1)
+    displacement: float = quantity("Displacement read at rest", "m", "mm", default=0.0)
+    scale: ClassVar[float] = 1e-3
+
+
 Kind = Literal["x", "v", "a"]
 
 
@@ -74,7 +82,10 @@ class Structure(Component):
         return TOLERANCES.get(type(part))
 
     def predicted(self, parts: Sequence[Any], data: StructureData) -> Array:
-        return self._shown(self.motion(parts, data), data)
+        zeros = {part.floor: part.displacement for part in parts if isinstance(part, Zero)}
+        read = [zeros.get(floor, 0.0) if kind == "x" else 0.0 for kind, floor, _ in data.floors]
+        found: Array = self._shown(self.motion(parts, data), data) + np.array(read)[:, None]
+        return found
 
     def motion(self, parts: Sequence[Any], data: StructureData, extra: Array | None = None) -> Array:
         """Displacements of the floors (samples, floors), m, in `finer` steps; `extra` (samples, floors) are forces on every
@@ -184,12 +195,14 @@ class Structure(Component):
         return f"structure:{effect.storey}" if isinstance(effect, OfStorey) else "structure"
 
 
-def based(plan: Plan, released: bool) -> tuple[Part, ...]:
-    """What of a structure's plan may be off a little: the stiffness of each storey, the damping, where it was let go."""
+def based(plan: Plan, released: bool, read: Sequence[int]) -> tuple[Part, ...]:
+    """What of a structure's plan may be off a little: the stiffness of each storey, the damping; where it was let go, and the
+    zeros of the displacements `read` then."""
     floors = range(1, len(plan.structure.assemble().floors) + 1)
     stiff = [StiffnessError(storey=storey) for storey in floors]
-    begun = [Release(floor=floor) for floor in floors] if released else []
-    return (*stiff, DampingError(), *begun)
+    if not released:
+        return (*stiff, DampingError())
+    return (*stiff, DampingError(), *(Release(floor=floor) for floor in floors), *(Zero(floor=floor) for floor in read))
 
 
 def _drifts(x: Array) -> Array:

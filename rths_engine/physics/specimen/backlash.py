@@ -18,7 +18,8 @@ class Backlash(Effect):
 
     The specimen's end u has free play g (m) in its connection: after a reversal the specimen unloads, then nothing is felt
     until the play is taken up in the other sense. Contact opens by the force of the last substep. Neutral: g = 0.
-    State: s[0] u, s[1] side in contact, 1, -1 or 0, s[2] whether it has begun; at the start the play is centred.
+    State: s[0] u, s[1] side in contact, 1, -1 or 0, s[2] whether it has begun; at the start a force presses on one side, or
+    the play is centred.
     Source: Nordin and Gutman (2002), Automatica 38, 1633-1649, the dead zone in series. Fails first where the play closes with
     an impact.
     """
@@ -47,7 +48,8 @@ class Backlash(Effect):
     def step(p, s, y, x, v, w, t, dt):
         half = 0.5 * p[0]
         if s[2] == 0.0:
-            s[0] = y
+            s[1] = 1.0 if w > 0.0 else -1.0 if w < 0.0 else 0.0
+            s[0] = y - s[1] * half
             s[2] = 1.0
         if y - s[0] >= half or (s[1] > 0.0 and w > 0.0):
             s[0] = y - half

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Iterator
+from typing import ClassVar, Self
 
-from rths_engine.physics.effect import STOREY
+from rths_engine.physics.effect import STOREY, Seen
 from rths_engine.physics.specimen import coulomb_friction as specimen
 from rths_engine.physics.structure.storey import OfStorey
 
@@ -20,3 +21,10 @@ class CoulombFriction(OfStorey, specimen.CoulombFriction):
     needs: ClassVar = ("x_floor",)
     relatives: ClassVar = ("bouc_wen_hysteresis", "damping_error", "quadratic_damping")
     noun: ClassVar[str] = "Coulomb friction"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        """A free vibration stops at f / F_c quarters of a cycle: more friction does not look like less."""
+        for share in (0.01, 0.1):
+            guess = cls.sized(friction=share * seen.f, presliding=0.01 * seen.x)
+            yield guess.model_copy(update={"storey": seen.storey})
