@@ -36,8 +36,9 @@ class Smoother:
     def of(cls, displacement: Array, dt: float) -> Smoother:
         hop = max(1, round(STRETCH / (HOPS * dt)))
         stretches = ShortTimeFFT(blackmanharris(HOPS * hop, sym=False), hop, 1 / dt, scale_to="psd")
-        power = uniform_filter(np.abs(stretches.stft(_padded(displacement, HOPS * hop))) ** 2, AROUND, mode="nearest")
-        floor = float(np.median(power[len(power) // 2 :]))
+        each = np.abs(stretches.stft(_padded(displacement, HOPS * hop))) ** 2
+        floor = float(np.median(each[len(each) // 2 :])) / np.log(2)  # of noise, powers are exponentially distributed
+        power = uniform_filter(each, AROUND, mode="nearest")
         clear = binary_propagation(power > CLEAR * floor, mask=power > ABOVE_FLOOR * floor)
         kept = np.where(clear, 1 - floor / np.maximum(power, max(floor, 1e-300)), 0.0)
         kept[:3] = 1.0  # of a mean and what is slower than a stretch, little is told

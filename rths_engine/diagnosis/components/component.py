@@ -56,6 +56,11 @@ class Data(ABC):
         return self
 
     @property
+    def ticking(self) -> bool:
+        """Whether what goes in was driven in the recording's steps."""
+        return False
+
+    @property
     def pressed(self) -> float:
         """Force on a specimen before the start; 0 where none is known."""
         return 0.0

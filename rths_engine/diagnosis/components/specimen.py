@@ -19,17 +19,20 @@ from rths_engine.part import Part, quantity
 from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfForce
 
+PADDING = 64  # samples beyond either end
 AT_REST, SLIGHT = 0.1, 0.02  # s; of the largest force
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
 
 @dataclass(frozen=True)
 class SpecimenData(Data):
-    """Measured displacement (m), force (N) and current."""
+    """Measured displacement (m), force (N) and current; `expected` (m) is what the actuator makes of its command, None where
+    that is not known: motion that noise hides, as ripples of a command, is taken from it."""
 
     x: Array
     force: Array
     current: Array
+    expected: Array | None = None
 
     @property
     def raw(self) -> Array:
@@ -37,11 +40,19 @@ class SpecimenData(Data):
 
     @cached_property
     def smoother(self) -> Smoother:
-        return Smoother.of(self.x, self.dt)
+        return Smoother.of(self.x - self._known, self.dt)
 
     @cached_property
     def smooth(self) -> Array:
-        return self.smoother.smoothed(self.x)
+        return self._known + self.smoother.smoothed(self.x - self._known)
+
+    @property
+    def _known(self) -> Array | float:
+        return 0.0 if self.expected is None else self.expected
+
+    @property
+    def ticking(self) -> bool:
+        return self.expected is not None
 
     @property
     def input_noise(self) -> float:
@@ -139,20 +150,32 @@ def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Ar
     specimen, then effects and what of the replay is loose."""
     n = data.finer
     force = _force(parts, fine, np.repeat(current, n), data.dt / n, data)
-    late = sum(part.delay for part in parts if isinstance(part, ClockSkew)) * n / data.dt
-    place = np.arange(0, len(force), n) - late
-    found = data.reduced(np.interp(place, np.arange(len(force)), force)[None] if late else force[None, ::n])
+    found = _late(data.reduced(force[None, ::n]), sum(part.delay for part in parts if isinstance(part, ClockSkew)) / data.step)
     share = sum(part.share for part in parts if isinstance(part, StepError))
     return found if data.step_error is None else found + share * data.step_error
 
 
+def _late(signals: Array, samples: float) -> Array:
+    """Signals (channels, n) of a limited band, delayed by any number of samples."""
+    if not samples:
+        return signals
+    longer = np.pad(signals, ((0, 0), (PADDING, PADDING)), "reflect", reflect_type="odd")
+    turned = np.fft.rfft(longer) * np.exp(-2j * np.pi * np.fft.rfftfreq(longer.shape[1]) * samples)
+    found: Array = np.fft.irfft(turned, longer.shape[1])[:, PADDING:-PADDING]
+    return found
+
+
 def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
-    """The step error of the data, from steps half as long."""
-    if not data.stepped:
-        n = data.finer
-        half = _force(parts, data.refined(x, 2), np.repeat(current, 2 * n), data.dt / (2 * n), data)
-        whole = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data)
-        data.__dict__["step_error"] = data.reduced((half[:: 2 * n] - whole[::n])[None])
+    """The step error of the data: from steps half as long, or, where the motion was that of a controller's steps, from them."""
+    if data.stepped:
+        return
+    n = data.finer
+    whole = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data)[::n]
+    if data.ticking:
+        change = (_force(parts, x, current, data.dt, data) - whole) / 2
+    else:
+        change = _force(parts, data.refined(x, 2), np.repeat(current, 2 * n), data.dt / (2 * n), data)[:: 2 * n] - whole
+    data.__dict__["step_error"] = data.reduced(change[None])
 
 
 def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, data: Data) -> Array:
