@@ -104,8 +104,8 @@ def test_the_report_is_one_file_with_the_verdict_its_tables_and_its_plots(folder
     assert "backlash was left out" in html.partition("<main>")[0]
     for heading in ("Where recording and simulation differ", "What was left out", "Proof on what was not fitted"):
         assert heading in html
-    specs = [json.loads(text) for text in re.findall(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)]
+    found = re.findall(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)
+    specs = [json.loads(text, parse_constant=pytest.fail) for text in found]
     assert [row["name"] for row in specs[0]["rows"]] == ["actuator:1", "specimen:1"]
     assert [trace["name"] for trace in specs[1]["traces"]] == ["Recording", "Before", "After"]
     assert len(specs[1]["spans"]) == 3
-    assert "NaN" not in "".join(json.dumps(spec) for spec in specs)

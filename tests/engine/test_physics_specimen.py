@@ -94,7 +94,7 @@ def test_coulomb_friction_dissipates_four_times_force_and_amplitude_beyond_presl
 
 @pytest.mark.parametrize("velocity", [1e-3, 0.01, 0.1])
 def test_stribeck_friction_in_steady_sliding_follows_its_curve(velocity: float) -> None:
-    effect = StribeckFriction(friction=2e4, breakaway=1e4, stribeck_velocity=0.01, presliding=1e-4)
+    effect = StribeckFriction(friction=2e4, breakaway=1e4, stribeck_velocity=0.01, presliding=1e-5)
     x = velocity * np.arange(400) * DT
     for way in (1, -1):
         steady = force(NOTHING, effect, way * x)[-1]

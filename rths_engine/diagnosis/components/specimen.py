@@ -19,7 +19,7 @@ from rths_engine.part import Part, quantity
 from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfForce
 
-PADDING = 64  # samples beyond either end
+REACH, TAPER = 16, 6.0  # of a delay by a fraction of a sample: samples either side, and the window's beta
 AT_REST, SLIGHT = 0.1, 0.02  # s; of the largest force
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
@@ -156,13 +156,14 @@ def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Ar
 
 
 def _late(signals: Array, samples: float) -> Array:
-    """Signals (channels, n) of a limited band, delayed by any number of samples."""
+    """Signals (channels, n) delayed by a few samples, by a sinc under a Kaiser window: what begins with a jump rings no further
+    than its reach."""
     if not samples:
         return signals
-    longer = np.pad(signals, ((0, 0), (PADDING, PADDING)), "reflect", reflect_type="odd")
-    turned = np.fft.rfft(longer) * np.exp(-2j * np.pi * np.fft.rfftfreq(longer.shape[1]) * samples)
-    found: Array = np.fft.irfft(turned, longer.shape[1])[:, PADDING:-PADDING]
-    return found
+    after = np.arange(-REACH, REACH + 1) - samples
+    taps = np.sinc(after) * np.i0(TAPER * np.sqrt(np.clip(1 - (after / REACH) ** 2, 0, None))) / np.i0(TAPER)
+    longer = np.pad(signals, ((0, 0), (REACH, REACH)), "reflect", reflect_type="odd")
+    return np.array([np.convolve(one, taps, "valid") for one in longer])
 
 
 def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
