@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from benchmarks import against_opensees, drawing, scaling, whole_runs
+from benchmarks import against_opensees, diagnoses, drawing, scaling, whole_runs
 from rths_engine.warm import warm
 from tests.opensees import peer
 
@@ -29,6 +29,7 @@ def main() -> None:
         whole_runs.two_cores,
         whole_runs.memory,
         scaling.step_by_dof,
+        diagnoses.diagnoses,
     ):
         found = part()
         print(json.dumps(found, indent=2), flush=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -84,15 +85,13 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
     for number, station in enumerate(plan.stations, start=1):
         x, force = _moving(recording, "x_meas", number), _moving(recording, "f_meas", number)
         command = _command(plan, station, recording, number)
-        expected: Array | None = None
         if x is not None and command is not None and _same_rate(plan, recording):
-            expected = _expected(station, command, force, recording)
             moved = Actuator(f"actuator:{number}", (station.actuator, *station.actuator_physics))
             found.append((moved, ActuatorData(*base, command, x, force)))
         if force is not None and x is not None:
             pressed = Specimen(f"specimen:{number}", (station.specimen, *station.specimen_physics, *skew))
             current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))
-            found.append((pressed, SpecimenData(*base, x, force, current, expected)))
+            found.append((pressed, SpecimenData(*base, x, force, current)))
         if force is not None and x is None and command is not None:
             planned = (station.actuator, station.specimen, *station.actuator_physics, *station.specimen_physics, *skew)
             chain = Chain(f"specimen:{number}", planned)
@@ -100,10 +99,11 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
     return found
 
 
-def _expected(station: Station, command: Array, force: Array | None, recording: Measured) -> Array:
-    """What the actuator makes of its command, against the force."""
-    load = np.zeros(len(command)) if force is None else force
-    return replay.actuator(station.actuator, station.actuator_physics, command, load, recording.dt, recording.start)
+def foreseen(actuator: Actuator, parts: Sequence[Any], recorded: dict[str, Any]) -> None:
+    """Tell the specimen beside an actuator, in a recording's data by component, where the actuator's `parts` move it."""
+    pressed = f"specimen:{actuator.station}"
+    if actuator.name in recorded and isinstance(recorded.get(pressed), SpecimenData):
+        recorded[pressed] = replace(recorded[pressed], expected=actuator.moved(parts, recorded[actuator.name]))
 
 
 def _moving(recording: Measured, role: str, number: int) -> Array | None:

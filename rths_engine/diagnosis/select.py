@@ -21,7 +21,7 @@ from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.offset import ForceOffset
 
 MOST_EFFECTS = 3  # beside the load cell's zero
-TRIED = 6
+TRIED = 8
 WEAK = 0.25  # of the best score: weaker effects are not tried
 HOPELESS = 60.0  # of BIC behind the best
 FINAL = 8  # evaluations of a fit that only the noise has changed

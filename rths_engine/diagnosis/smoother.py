@@ -37,7 +37,8 @@ class Smoother:
         hop = max(1, round(STRETCH / (HOPS * dt)))
         stretches = ShortTimeFFT(blackmanharris(HOPS * hop, sym=False), hop, 1 / dt, scale_to="psd")
         each = np.abs(stretches.stft(_padded(displacement, HOPS * hop))) ** 2
-        floor = float(np.median(each[len(each) // 2 :])) / np.log(2)  # of noise, powers are exponentially distributed
+        inside = slice(2 * HOPS - stretches.p_min, 2 * HOPS - stretches.p_min + len(displacement) // hop)
+        floor = float(np.median(each[len(each) // 2 : -1, inside])) / np.log(2)  # as of an exponential law
         power = uniform_filter(each, AROUND, mode="nearest")
         clear = binary_propagation(power > CLEAR * floor, mask=power > ABOVE_FLOOR * floor)
         kept = np.where(clear, 1 - floor / np.maximum(power, max(floor, 1e-300)), 0.0)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rths_engine.diagnosis import digital, recorded
+from rths_engine.diagnosis.components import Actuator
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.extend import extended
 from rths_engine.diagnosis.judge import Judged, judged
@@ -55,9 +56,10 @@ def diagnose(
     random = np.random.default_rng(seed)
     found = []
     each = level / len(pairs)
-    for place, (component, data) in enumerate(pairs):
+    first = {component.name: data for component, data in pairs}
+    for place, (component, _) in enumerate(pairs):
         name = _title(plan, component.name)
-        fitted = [data, *(one[component.name] for one in beside if component.name in one)]
+        fitted = [one[component.name] for one in (first, *beside) if component.name in one]
         kept = [one[component.name] for one in others if component.name in one]
 
         def share(done: float, place: int = place, name: str = name) -> None:
@@ -65,6 +67,9 @@ def diagnose(
 
         share(0.0)
         found.append(judged(component, name, fitted, kept, each, random, share))
+        if isinstance(component, Actuator):
+            for one in (first, *beside, *others):
+                recorded.foreseen(component, found[-1].selection.chosen.parts, one)
     told("", 1.0)
     plan_after = extended(plan, found)
     return Diagnosis(plan, tuple(found), tuple(replayed), as_dict(plan, found, replayed, each, plan_after))

@@ -60,7 +60,11 @@ class Actuator(Component):
         return TOLERANCE
 
     def predicted(self, parts: Sequence[Any], data: ActuatorData) -> Array:
-        return data.reduced(replay.actuator(parts[0], parts[1:], data.command, data.load, data.dt, data.start)[None])
+        return data.reduced(self.moved(parts, data)[None])
+
+    def moved(self, parts: Sequence[Any], data: ActuatorData) -> Array:
+        """The displacement read (m) at the recording's step."""
+        return replay.actuator(parts[0], parts[1:], data.command, data.load, data.dt, data.start)
 
     def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
         seen = data.seen()

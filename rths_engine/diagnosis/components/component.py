@@ -56,11 +56,6 @@ class Data(ABC):
         return self
 
     @property
-    def ticking(self) -> bool:
-        """Whether what goes in was driven in the recording's steps."""
-        return False
-
-    @property
     def pressed(self) -> float:
         """Force on a specimen before the start; 0 where none is known."""
         return 0.0
@@ -84,7 +79,7 @@ class Data(ABC):
 
     @cached_property
     def step_error(self) -> Array | None:
-        """(channels, n) of what steps half as long do to the output; None until it is found."""
+        """(channels, n) of what much finer steps do to the output; None until it is found."""
         return None
 
     def reduced(self, signals: Array) -> Array:

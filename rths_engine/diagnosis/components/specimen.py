@@ -20,14 +20,15 @@ from rths_engine.physics.effect import Effect, Seen
 from rths_engine.physics.sensor.channel import OfForce
 
 REACH, TAPER = 16, 6.0  # of a delay by a fraction of a sample: samples either side, and the window's beta
+FINER = 8  # steps of a replay's step, by which its error is told
 AT_REST, SLIGHT = 0.1, 0.02  # s; of the largest force
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
 
 @dataclass(frozen=True)
 class SpecimenData(Data):
-    """Measured displacement (m), force (N) and current; `expected` (m) is what the actuator makes of its command, None where
-    that is not known: motion that noise hides, as ripples of a command, is taken from it."""
+    """Measured displacement (m), force (N) and current; `expected` (m) is what the actuator, as fitted, makes of its command,
+    None where that is not known: motion that noise hides, as ripples of a command, is taken from it."""
 
     x: Array
     force: Array
@@ -49,10 +50,6 @@ class SpecimenData(Data):
     @property
     def _known(self) -> Array | float:
         return 0.0 if self.expected is None else self.expected
-
-    @property
-    def ticking(self) -> bool:
-        return self.expected is not None
 
     @property
     def input_noise(self) -> float:
@@ -101,13 +98,13 @@ class ClockSkew(Loose):
 
 
 class StepError(Loose):
-    """What the replay's steps are off by, in units of what steps half as long change: 2 where that is of first order."""
+    """What the replay's steps are off by, in units of what steps FINER times as fine change."""
 
-    share: float = quantity("Error of the replay's steps", ge=0, le=4, default=2.0)
+    share: float = quantity("Error of the replay's steps", ge=0, le=2, default=FINER / (FINER - 1))
     scale: ClassVar[float] = 1.0
 
 
-SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.5}  # ms; of the difference
+SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.25}  # ms; of the difference
 
 
 @dataclass(frozen=True)
@@ -167,16 +164,14 @@ def _late(signals: Array, samples: float) -> Array:
 
 
 def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
-    """The step error of the data: from steps half as long, or, where the motion was that of a controller's steps, from them."""
+    """The step error of the data, from finer steps."""
     if data.stepped:
         return
     n = data.finer
     whole = _force(parts, data.refined(x), np.repeat(current, n), data.dt / n, data)[::n]
-    if data.ticking:
-        change = (_force(parts, x, current, data.dt, data) - whole) / 2
-    else:
-        change = _force(parts, data.refined(x, 2), np.repeat(current, 2 * n), data.dt / (2 * n), data)[:: 2 * n] - whole
-    data.__dict__["step_error"] = data.reduced(change[None])
+    n *= FINER
+    finest = _force(parts, data.refined(x, FINER), np.repeat(current, n), data.dt / n, data)[::n]
+    data.__dict__["step_error"] = data.reduced((finest - whole)[None])
 
 
 def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, data: Data) -> Array:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.linalg import eigh
 
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
@@ -17,13 +18,14 @@ from rths_engine.diagnosis.components.features import of_motion
 from rths_engine.excitation import FloorForce, Start
 from rths_engine.integrators.cr import CrIntegrator
 from rths_engine.part import Part, quantity
-from rths_engine.physics.effect import GROUND, Effect, Seen
+from rths_engine.physics.effect import GROUND, MATRICES, Effect, Seen
 from rths_engine.physics.structure.damping_error import DampingError
 from rths_engine.physics.structure.stiffness_error import StiffnessError
 from rths_engine.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.plan import Plan
+from rths_engine.structures.assembled import Assembled
 
-TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2}
+FEW_MODES = 3  # whose damping may be off by other shares
 FINE = 2e-3  # s: a step so small leaves no error of integration beside noise
 FEW = 20  # degrees of freedom that make such a step cheap
 MOST_STOREYS = 6  # whose unknown laws are looked for
@@ -36,6 +38,27 @@ class Release(Loose):
     displacement: float = quantity("Displacement at the start", "m", "mm", default=0.0)
     velocity: float = quantity("Velocity at the start", "m/s", "mm/s", default=0.0)
     scale: ClassVar[float] = 1e-3
+
+
+class ModeDamping(Loose):
+    """One mode more damped than the others. M and K a little off leave a C that was made of them off by as much in each."""
+
+    mode: int = quantity("Mode", ge=2, default=2)
+    share: float = quantity("Damping error e of the mode", "1", "%", ge=-0.5, le=0.5, default=0.0)
+    scale: ClassVar[float] = 1.0
+
+
+class AddedDamping(NamedTuple):
+    """As an effect: C + c."""
+
+    damping: Array
+    hook: int = MATRICES
+
+    def assembled(self, built: Assembled) -> Assembled:
+        return built._replace(damping=built.damping + self.damping)
+
+
+TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2, ModeDamping: 0.03}
 
 
 class Zero(Loose):
@@ -100,7 +123,7 @@ class Structure(Component):
             inputs, on = np.column_stack([inputs, extra]), [*on, *range(1, extra.shape[1] + 1)]
         effects = tuple(part for part in parts if isinstance(part, physics.STRUCTURE))
         update: dict[str, Any] = {
-            "structure_physics": (*self.plan.structure_physics, *effects),
+            "structure_physics": (*self.plan.structure_physics, *self._modal(parts), *effects),
             "forces": tuple(FloorForce(floor=floor) for floor in on),
             "start": _start(parts, data),
         }
@@ -130,6 +153,18 @@ class Structure(Component):
     @cached_property
     def built(self) -> Any:
         return self.plan.assembled()
+
+    def _modal(self, parts: Sequence[Any]) -> list[AddedDamping]:
+        own = [part.share * self.dampings[part.mode - 1] for part in parts if isinstance(part, ModeDamping)]
+        return [AddedDamping(sum(own[1:], own[0]))] if own else []
+
+    @cached_property
+    def dampings(self) -> list[Array]:
+        """What each of the lowest modes has of C: (phi^T C phi) M phi phi^T M with unit modal mass."""
+        flexible, modes = eigh(self.built.mass, self.built.stiffness)  # 1 / omega^2, rising
+        shapes = (modes / np.sqrt(np.maximum(flexible, 1e-300)))[:, : -FEW_MODES - 1 : -1].T
+        pushes = [self.built.mass @ shape for shape in shapes]
+        return [shape @ self.built.damping @ shape * np.outer(push, push) for shape, push in zip(shapes, pushes, strict=True)]
 
     def _shown(self, x: Array, data: StructureData) -> Array:
         n = self.finer(data)
@@ -196,13 +231,14 @@ class Structure(Component):
 
 
 def based(plan: Plan, released: bool, read: Sequence[int]) -> tuple[Part, ...]:
-    """What of a structure's plan may be off a little: the stiffness of each storey, the damping; where it was let go, and the
-    zeros of the displacements `read` then."""
+    """What of a structure's plan may be off a little: the stiffness of each storey, the damping, of higher modes too; where it
+    was let go, and the zeros of the displacements `read` then."""
     floors = range(1, len(plan.structure.assemble().floors) + 1)
     stiff = [StiffnessError(storey=storey) for storey in floors]
+    damped = (DampingError(), *(ModeDamping(mode=mode) for mode in range(2, min(FEW_MODES, len(stiff)) + 1)))
     if not released:
-        return (*stiff, DampingError())
-    return (*stiff, DampingError(), *(Release(floor=floor) for floor in floors), *(Zero(floor=floor) for floor in read))
+        return (*stiff, *damped)
+    return (*stiff, *damped, *(Release(floor=floor) for floor in floors), *(Zero(floor=floor) for floor in read))
 
 
 def _drifts(x: Array) -> Array:

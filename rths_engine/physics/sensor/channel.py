@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from rths_engine.physics.effect import F_SENSOR, X_SENSOR, Effect, Seen
+
+CALIBRATED = 2 * math.log(3)  # of BIC: odds of three to one against
 
 
 class Reading(Effect):
@@ -26,6 +29,10 @@ class OfDisplacement(Reading):
     hook: ClassVar[int] = X_SENSOR
     needs: ClassVar = ("x_meas",)
     shown: ClassVar[str] = "mm"
+
+    def doubt(self, seen: Seen) -> float:
+        """An actuator that answers otherwise often reads the same; the sensor was calibrated before the test."""
+        return CALIBRATED
 
     @staticmethod
     def largest(seen: Seen) -> float:

@@ -25,7 +25,7 @@ class CoulombFriction(Effect):
 
     kind: Literal["coulomb_friction"] = "coulomb_friction"
     friction: float = quantity("Friction force F_c", "N", "kN", ge=0, le=1e9, default=0.0)
-    presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", gt=0, le=0.1, default=1e-4)
+    presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", ge=1e-7, le=0.1, default=1e-4)
     title: ClassVar[str] = "Coulomb friction"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"friction": 0.0}

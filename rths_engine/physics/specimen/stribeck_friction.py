@@ -28,7 +28,7 @@ class StribeckFriction(Effect):
     friction: float = quantity("Friction at speed F_c", "N", "kN", ge=0, le=1e9, default=0.0)
     breakaway: float = quantity("Breakaway friction above it F_b", "N", "kN", ge=0, le=1e9, default=0.0)
     stribeck_velocity: float = quantity("Stribeck velocity v_s", "m/s", "mm/s", gt=0, le=10, default=0.01)
-    presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", gt=0, le=0.1, default=1e-4)
+    presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", ge=1e-7, le=0.1, default=1e-4)
     title: ClassVar[str] = "Stribeck friction"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"friction": 0.0, "breakaway": 0.0}
