@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,8 +20,9 @@ from rths_engine.part import Part
 BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, never fitted where no other recording is held out
 ENDS = 0.3  # s at either end, which the filters blur
 PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance
-NOT_WHOLE = 0.25  # of what is beyond the planned model: a named effect that leaves more is not what was left out,
+NOT_WHOLE = 1 / 3  # of what is beyond the planned model: a named effect that leaves more is not what was left out,
 MOST = 0.1  # unless no more of the power of the error on what was not fitted is left
+MORE_THAN_HALF, DOUBTFUL = 0.5, 0.05  # likewise, where what is left is no more than this probable by chance
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class Judged:
 
     @property
     def effects(self) -> tuple[Part, ...]:
-        return () if self.unknown else self.selection.effects
+        return () if self.unknown or self.verdict == "undetermined" else self.selection.effects
 
     @property
     def gain(self) -> float:
@@ -53,11 +55,19 @@ class Judged:
         last = self.selection.detections[-1]
         return max(0.0, last.explained - last.expected)
 
-    @property
-    def shown(self) -> bool:
-        """Whether the effects account for most of the error on what was not fitted."""
+    @cached_property
+    def unproved(self) -> float:
+        """Power of the error on what was not fitted that the effects leave: 1 and more is no proof."""
         before, after = (self.nrmse(one.parts, False) for one in (self.selection.baseline, self.selection.chosen))
-        return after**2 <= MOST * before**2
+        return after**2 / max(before**2, 1e-300)
+
+    def remains(self, level: float) -> bool:
+        """Whether a general law says that what was left out is another than the effects."""
+        chance = self.selection.detections[-1].p_general
+        return self.left > PLAIN and (
+            (chance <= level and self.left > NOT_WHOLE * self.gain)
+            or (chance <= DOUBTFUL and self.left > MORE_THAN_HALF * self.gain)
+        )
 
     def nrmse(self, parts: Sequence[Part], fitted: bool | None) -> float:
         """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike."""
@@ -101,12 +111,12 @@ def judged(
     weights = tuple(np.ones(one.measured.shape) for one in data)
     selection = select(Recordings(component, tuple(data), masks, noises, weights, weights), level, random, told)
     component.settle(selection.chosen.parts, heldout)
-    first, last = selection.detections[0], selection.detections[-1]
+    first = selection.detections[0]
     found = Judged(component, name, selection, "consistent", False, tuple(heldout))
     if first.p_value > level:
         return Judged(component, name, selection, _calibration(selection, level), False, found.heldout)
-    remains = last.p_general <= level and found.left > max(PLAIN, NOT_WHOLE * found.gain)
-    if selection.effects and (not remains or found.shown):
+    remains = found.remains(level)
+    if selection.effects and found.unproved < 1 and (not remains or found.unproved <= MOST):
         return Judged(component, name, selection, "mismatch", False, found.heldout)
     return Judged(component, name, selection, "mismatch" if remains else "undetermined", remains, found.heldout)
 

@@ -17,6 +17,10 @@ class Reading(Effect):
 
     shown: ClassVar[str]  # unit of the reading
 
+    def doubt(self, seen: Seen) -> float:
+        """An actuator that answers otherwise often reads the same; the sensor was calibrated before the test."""
+        return CALIBRATED
+
     @staticmethod
     def largest(seen: Seen) -> float:
         raise NotImplementedError
@@ -29,10 +33,6 @@ class OfDisplacement(Reading):
     hook: ClassVar[int] = X_SENSOR
     needs: ClassVar = ("x_meas",)
     shown: ClassVar[str] = "mm"
-
-    def doubt(self, seen: Seen) -> float:
-        """An actuator that answers otherwise often reads the same; the sensor was calibrated before the test."""
-        return CALIBRATED
 
     @staticmethod
     def largest(seen: Seen) -> float:
