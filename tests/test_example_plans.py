@@ -73,3 +73,13 @@ def test_the_guides_of_a_carriage_rub_as_its_free_vibration_decays() -> None:
     found = diagnose(plan("free_vibration"), measured("free_vibration", A1_05, start=3.12)).verdict
     assert "coulomb_friction" in {one["id"] for one in found["effects"]}
     assert found["fit"]["extended"]["heldout_nrmse"] < 0.5 * found["fit"]["baseline"]["heldout_nrmse"]
+
+
+def test_the_drive_of_a_shaking_table_saturates() -> None:
+    """Fitted on two sines, shown on a sawtooth; the voltage after the limit, which is recorded too, was left out."""
+    fitted, more = (measured("shaking_table", f"Sine{name}.csv") for name in ("A3F08", "A8F4"))
+    found = diagnose(plan("shaking_table"), fitted, [measured("shaking_table", "SawtoothA2F05.csv")], more=[more]).verdict
+    limits = {one["id"]: one["parameters"][0]["value"] for one in found["effects"]}
+    gain = plan("shaking_table").stations[0].actuator.gain  # of a square wave that stays within the limit
+    assert limits["velocity_saturation"] / gain == pytest.approx(0.5, rel=0.05)  # V
+    assert found["fit"]["extended"]["heldout_nrmse"] < 0.6 * found["fit"]["baseline"]["heldout_nrmse"]

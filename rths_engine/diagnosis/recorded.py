@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from rths_engine import replay
+from rths_engine.actuators.velocity_drive import VelocityDrive
 from rths_engine.arrays import Array
 from rths_engine.diagnosis.components import (
     Actuator,
@@ -87,7 +88,7 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
         command = _command(plan, station, recording, number)
         if x is not None and command is not None and _same_rate(plan, recording):
             moved = Actuator(f"actuator:{number}", (station.actuator, *station.actuator_physics))
-            found.append((moved, ActuatorData(*base, command, x, force)))
+            found.append((moved, ActuatorData(*base, command, x, force, isinstance(station.actuator, VelocityDrive))))
         if force is not None and x is not None:
             pressed = Specimen(f"specimen:{number}", (station.specimen, *station.specimen_physics, *skew))
             current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
+from scipy.signal import detrend
 
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
@@ -23,15 +24,21 @@ TOLERANCE = 0.05
 
 @dataclass(frozen=True)
 class ActuatorData(Data):
-    """Command (m), measured displacement (m), force on the actuator (N), None where it was not measured."""
+    """Command (m), measured displacement (m), force on the actuator (N), None where it was not measured. What `wanders` begins
+    anywhere and creeps, as a drive in open loop: origin and slope of its displacement tell nothing."""
 
     command: Array
     x: Array
     force: Array | None
+    wanders: bool = False
 
     @property
     def raw(self) -> Array:
         return self.x[None]
+
+    def reduced(self, signals: Array) -> Array:
+        found = super().reduced(signals)
+        return detrend(found) if self.wanders else found
 
     @cached_property
     def load(self) -> Array:
