@@ -101,7 +101,7 @@ def _hybrid_case(seed: int, level: str, names: list[str], wanted: float, law: st
 
     absorbed = Absorbed(off, dict(moved), [noise], [TOLERANCE] * len(moved) if on_actuator else ())
     lefts = [sized_effect(absorbed, alone, seed, name, wanted, seen) for name in names]
-    strength = absorbed.strength(alone(lefts)) if lefts else None
+    strength = absorbed.weakest(alone, lefts)
     recordings = []
     for place, ground in enumerate(grounds):
         found = looped(place, lefts, True)

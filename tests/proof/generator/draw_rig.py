@@ -59,7 +59,7 @@ def _open_case(test: str, seed: int, level: str, names: list[str], wanted: float
 
     absorbed = Absorbed(off, moved, [noise], tolerances)
     lefts = [sized_effect(absorbed, lambda lefts: out(lefts), seed, name, wanted, seen) for name in names]
-    strength = absorbed.strength(out(lefts)) if lefts else None
+    strength = absorbed.weakest(out, lefts)
     keys = ["x_comp.1", "f_meas.1"] if test == "specimen" else ["x_comp.1", "x_meas.1", "f_meas.1"]
     keys = [key for key in keys if not (level == "missing" and test == "actuator" and key == "f_meas.1")]
     recordings = []

@@ -130,7 +130,7 @@ def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: flo
 
         size = sized(strength_of, wanted, FIRST, most(name))
         lefts.append(left(name, size))
-    strength = absorbed.strength([bench.force(lefts, bench.motion)]) if lefts else None
+    strength = absorbed.weakest(lambda lefts: [bench.force(lefts, bench.motion)], lefts)
     other = bench.moved(float(random.uniform(0.6, 1.4)))
     fitting, heldout = (recorded(bench, lefts, one, noise, displacement_noise) for one in (bench.motion, other))
     planned = {name: value * (1 + random.uniform(-0.04, 0.04)) for name, value in bench.numbers.items()}

@@ -98,7 +98,7 @@ def structure_case(seed: int, level: str, names: list[str], wanted: float, free:
             lambda size, name=name: absorbed.strength(outputs([effect(seed + 1, name, size, seen)])), wanted, start, 0.9
         )
         lefts.append(effect(seed + 1, name, size, seen))
-    strength = absorbed.strength(outputs(lefts)) if lefts else None
+    strength = absorbed.weakest(outputs, lefts)
     other = site.excited(float(random.uniform(0.6, 1.3)))
     fitting, heldout = (recorded(site, lefts, one, keys, noises) for one in (excited, other))
     planned = off(building, random.uniform(-STIFFNESS, STIFFNESS, len(x)), float(random.uniform(-DAMPING, DAMPING)))

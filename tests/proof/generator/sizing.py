@@ -4,14 +4,15 @@
 
 y the noise-free outputs, y_0 those of the baseline, S the spectrum of each output's noise: N_eff times the squared misfit over
 sigma^2, with the noise's colour instead of an N_eff. d is how far a planned number may be off, infinite where it is free.
-The numbers are refitted by REFITS steps of Gauss and Newton with the derivatives at the true numbers; the best of them counts,
-which makes lambda rather too large than too small where the effect is large. S holds the noise of the displacement as the
-baseline takes it to the output, and the sum ends at 50 Hz (`noise.Colour`).
+The numbers are refitted by Gauss and Newton with the derivatives at the true numbers, by steps halved where they go too far,
+which makes lambda rather too large than too small. S holds the noise of the displacement as the baseline takes it to the output, and
+the sum ends at 50 Hz (`noise.Colour`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,8 @@ from tests.proof.generator.noise import Colour
 Outputs = list[Array]
 Output = Callable[[dict[str, float]], Outputs]
 SHIFT = 1e-3  # of a number, for its derivative
-REFITS = 3
+REFITS = 12
+HALVED = (1.0, 0.5, 0.25, 0.125)
 NEGLIGIBLE = 0.03  # of lambda
 
 
@@ -42,16 +44,34 @@ class Absorbed:
     def strength(self, outputs: Outputs) -> float:
         """lambda of the outputs."""
         shares = np.zeros(len(self.numbers))
-        best = np.inf
+        misfit = self._misfit(outputs, shares)
         for _ in range(REFITS):
-            misfit = np.concatenate([self._white(outputs, self._at(shares)), -self.held * shares if len(self.held) else []])
-            best = min(best, float(misfit @ misfit))
             step = np.linalg.lstsq(self.rows, misfit, rcond=1e-10)[0]
-            left = misfit - self.rows @ step
+            best, left = float(misfit @ misfit), misfit - self.rows @ step
             if best - left @ left < NEGLIGIBLE * best:
                 break
-            shares = np.clip(shares + step, -0.8, 4.0)
-        return best
+            nearer = self._nearer(outputs, shares, step, best)
+            if nearer is None:
+                break
+            shares, misfit = nearer
+        return float(misfit @ misfit)
+
+    def weakest(self, outputs: Callable[[list[Any]], Outputs], lefts: list[Any]) -> float | None:
+        """lambda of what was left out; of several, no more than the weakest alone has. None where nothing was left out."""
+        asked = [lefts, *([one] for one in lefts)] if len(lefts) > 1 else [lefts]
+        return min(self.strength(outputs(some)) for some in asked) if lefts else None
+
+    def _nearer(self, outputs: Outputs, shares: Array, step: Array, best: float) -> tuple[Array, Array] | None:
+        """The first of the step, half of it and so on that takes the squared misfit below `best`, with its misfit."""
+        for part in HALVED:
+            moved = np.clip(shares + part * step, -0.8, 4.0)
+            misfit = self._misfit(outputs, moved)
+            if misfit @ misfit < best:
+                return moved, misfit
+        return None
+
+    def _misfit(self, outputs: Outputs, shares: Array) -> Array:
+        return np.concatenate([self._white(outputs, self._at(shares)), -self.held * shares if len(self.held) else []])
 
     def _at(self, shares: Array) -> Outputs:
         moved = {name: value * (1 + share) for (name, value), share in zip(self.numbers.items(), shares, strict=True)}
