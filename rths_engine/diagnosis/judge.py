@@ -42,7 +42,7 @@ class Judged:
 
     @property
     def effects(self) -> tuple[Part, ...]:
-        return () if self.unknown or self.verdict == "undetermined" else self.selection.effects
+        return () if self.unknown else self.selection.effects
 
     @property
     def gain(self) -> float:
@@ -57,7 +57,7 @@ class Judged:
 
     @cached_property
     def unproved(self) -> float:
-        """Power of the error on what was not fitted that the effects leave: 1 and more is no proof."""
+        """Share of the power of the error on what was not fitted that the effects leave."""
         before, after = (self.nrmse(one.parts, False) for one in (self.selection.baseline, self.selection.chosen))
         return after**2 / max(before**2, 1e-300)
 
@@ -116,7 +116,7 @@ def judged(
     if first.p_value > level:
         return Judged(component, name, selection, _calibration(selection, level), False, found.heldout)
     remains = found.remains(level)
-    if selection.effects and found.unproved < 1 and (not remains or found.unproved <= MOST):
+    if selection.effects and (not remains or found.unproved <= MOST):
         return Judged(component, name, selection, "mismatch", False, found.heldout)
     return Judged(component, name, selection, "mismatch" if remains else "undetermined", remains, found.heldout)
 

@@ -28,6 +28,7 @@ from rths_engine.diagnosis.components import (
 )
 from rths_engine.errors import Issue, RecordingError
 from rths_engine.measured import Measured
+from rths_engine.physics.sensor.channel import Reading
 from rths_engine.plan import Plan, Station
 
 LEAST = 200  # samples: fewer hold too little to tell noise from physics
@@ -100,11 +101,16 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
     return found
 
 
-def foreseen(actuator: Actuator, parts: Sequence[Any], recorded: dict[str, Any]) -> None:
-    """Tell the specimen beside an actuator, in a recording's data by component, where the actuator's `parts` move it."""
-    pressed = f"specimen:{actuator.station}"
-    if actuator.name in recorded and isinstance(recorded.get(pressed), SpecimenData):
-        recorded[pressed] = replace(recorded[pressed], expected=actuator.moved(parts, recorded[actuator.name]))
+def foreseen(actuator: Actuator, parts: Sequence[Any], pressed: Specimen, recorded: dict[str, Any]) -> None:
+    """Tell the specimen, in a recording's data by component, where the actuator's `parts` move it, against the force as planned
+    (that measured has noise in common with what is compared), and its reading without what the displacement sensor adds."""
+    if not {actuator.name, pressed.name} <= recorded.keys():
+        return
+    sent, data = recorded[actuator.name], recorded[pressed.name]
+    against = sent if sent.force is None else replace(sent, force=pressed.force(pressed.base, data))
+    expected = actuator.moved([part for part in parts if not isinstance(part, Reading)], against)
+    added = actuator.moved(parts, against) - expected
+    recorded[pressed.name] = replace(data, x=data.x - added, expected=expected)
 
 
 def _moving(recording: Measured, role: str, number: int) -> Array | None:

@@ -45,7 +45,7 @@ class Smoother:
         kept[:3] = 1.0  # of a mean and what is slower than a stretch, little is told
         hidden = uniform_filter(np.where(clear, 0.0, power - floor), WIDELY, mode="nearest") / max(floor, 1e-300)
         near = binary_dilation(clear, np.ones(NEAR, bool)) & (hidden > FAINT)
-        unsure = np.where(clear, kept, np.where(near, np.minimum(hidden, 1.0), 0.0))
+        unsure = np.where(kept > 0, kept, np.where(near, np.minimum(hidden, 1.0), 0.0))
         return cls(stretches, kept, unsure, float(np.sqrt(floor / dt)))
 
     def smoothed(self, displacement: Array) -> Array:

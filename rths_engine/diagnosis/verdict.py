@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rths_engine.diagnosis import digital, recorded
-from rths_engine.diagnosis.components import Actuator
+from rths_engine.diagnosis.components import Actuator, Specimen
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.extend import extended
 from rths_engine.diagnosis.judge import Judged, judged
@@ -57,6 +57,7 @@ def diagnose(
     found = []
     each = level / len(pairs)
     first = {component.name: data for component, data in pairs}
+    specimens = {component.station: component for component, _ in pairs if isinstance(component, Specimen)}
     for place, (component, _) in enumerate(pairs):
         name = _title(plan, component.name)
         fitted = [one[component.name] for one in (first, *beside) if component.name in one]
@@ -67,9 +68,10 @@ def diagnose(
 
         share(0.0)
         found.append(judged(component, name, fitted, kept, each, random, share))
-        if isinstance(component, Actuator):
+        pressed = specimens.get(component.station)
+        if isinstance(component, Actuator) and pressed is not None:
             for one in (first, *beside, *others):
-                recorded.foreseen(component, found[-1].selection.chosen.parts, one)
+                recorded.foreseen(component, found[-1].selection.chosen.parts, pressed, one)
     told("", 1.0)
     plan_after = extended(plan, found)
     return Diagnosis(plan, tuple(found), tuple(replayed), as_dict(plan, found, replayed, each, plan_after))

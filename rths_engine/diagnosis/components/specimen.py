@@ -120,6 +120,11 @@ class Specimen(Component):
     def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
         return pressed(parts, data.fine, data.current, data)
 
+    def force(self, parts: Sequence[Any], data: SpecimenData) -> Array:
+        """The force (N) at the recording's step."""
+        n = data.finer
+        return _force(parts, data.fine, np.repeat(data.current, n), data.dt / n, data)[::n]
+
     def settle(self, parts: Sequence[Any], data: Sequence[SpecimenData]) -> None:
         for one in data:
             settled(parts, one.smooth, one.current, one)
