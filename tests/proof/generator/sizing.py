@@ -5,8 +5,8 @@
 y the noise-free outputs, y_0 those of the baseline, S the spectrum of each output's noise: N_eff times the squared misfit over
 sigma^2, with the noise's colour instead of an N_eff. d is how far a planned number may be off, infinite where it is free.
 The numbers are refitted by Gauss and Newton with the derivatives at the true numbers, by steps halved where they go too far,
-which makes lambda rather too large than too small. S holds the noise of the displacement as the baseline takes it to the output,
-and the sum ends at 50 Hz (`noise.Colour`).
+which makes lambda rather too large than too small. S holds the noise of the displacement as the baseline takes it to the
+output, and the sum ends at 50 Hz (`noise.Colour`).
 """
 
 from __future__ import annotations
