@@ -31,9 +31,9 @@ test-clone: setup
 bench: setup
 	$(BIN)/python -m benchmarks
 
-# Diagnoses of recordings whose left-out physics is known: docs/proof.md. Takes about three hours.
+# Diagnoses of recordings whose left-out physics is known: docs/proof.md. Takes about an hour.
 prove: setup
-	$(BIN)/rths prove --cases 300 --json proof.json --table
+	$(BIN)/rths prove --cases 300 --json proof.json --picture proof.svg --table
 
 check: setup
 	$(BIN)/ruff check .
