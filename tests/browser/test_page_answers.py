@@ -6,6 +6,7 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app import pages
+from app.pages import rendering
 from app.runs.dependency import run_service
 
 
@@ -39,3 +40,18 @@ def test_addresses_of_the_service_are_never_taken_for_pages() -> None:
     client = TestClient(app)
     assert client.get("/nowhere").text.startswith("<!doctype html>")
     assert client.get("/api/v1/nowhere").json() == {"detail": "Not Found"}
+
+
+def test_the_pages_of_a_list_lead_to_their_neighbours_and_no_further() -> None:
+    pages_of = rendering.templates.env.get_template("macros.html").module.pages  # type: ignore[attr-defined]
+    first, middle, last = (
+        pages_of(first, shown, 52, before, after)
+        for first, shown, before, after in (
+            (1, 25, "", "/runs?page=2"),
+            (26, 25, "/a?b&page=1", "/a?b&page=3"),
+            (51, 2, "/p", "/n"),
+        )
+    )
+    assert "1 to 25 of 52" in first and "Previous page" not in first and 'href="/runs?page=2"' in first
+    assert 'href="/a?b&amp;page=1"' in middle and 'href="/a?b&amp;page=3"' in middle
+    assert "51 to 52 of 52" in last and 'href="/p"' in last and "Next page" not in last
