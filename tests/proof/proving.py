@@ -58,6 +58,7 @@ def prove(
         runs = _everywhere(workers, diagnosed, [(folders.shown / spec.name, folders.found) for spec in made], "diagnosed", told)
         seals.verify(folders.sealed, digests)
         seconds = dict(zip([spec.name for spec in made], runs, strict=True))
+        (folders.root / "runs.json").write_text(json.dumps(seconds, indent=1) + "\n", encoding="utf-8")
         asked = [(folders, spec.name, seconds[spec.name]) for spec in made]
         rows = _everywhere(workers, _scored, asked, "scored", told)
         result = {**summary(rows), "seed": seed, "only": only, "level": LEVEL, "per_case": rows}

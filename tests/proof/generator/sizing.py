@@ -42,9 +42,11 @@ class Absorbed:
         self.rows = np.vstack([np.column_stack(columns), np.diag(self.held) if tolerances else np.zeros((0, len(columns)))])
 
     def strength(self, outputs: Outputs) -> float:
-        """lambda of the outputs."""
+        """lambda of the outputs; infinite where they are."""
         shares = np.zeros(len(self.numbers))
         misfit = self._misfit(outputs, shares)
+        if not np.isfinite(misfit).all():
+            return np.inf
         for _ in range(REFITS):
             step = np.linalg.lstsq(self.rows, misfit, rcond=1e-10)[0]
             best, left = float(misfit @ misfit), misfit - self.rows @ step
