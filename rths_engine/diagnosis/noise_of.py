@@ -40,8 +40,9 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
             weights.append(np.ones(residual.shape))
             continue
         draws = [one.redrawn(random) for _ in range(DRAWS)]
-        plain, thin, *drawn = each(partial(recordings.component.predicted, fitted.parts), [one, one.thinned(), *draws])
-        reached = np.hypot(np.std(drawn, axis=0), thin - plain)
+        asked = [one, one.thinned(), one.behind(), *draws]
+        plain, thin, behind, *drawn = each(partial(recordings.component.predicted, fitted.parts), asked)
+        reached = np.sqrt(np.var(drawn, axis=0) + (thin - plain) ** 2 + (behind - plain) ** 2)
         sigma = np.maximum(1.4826 * np.median(np.abs(residual), axis=1, keepdims=True), 1e-300)
         width = max(1, round(SMOOTHED / one.step))
         local = np.sqrt(np.maximum(uniform_filter1d(reached**2, width, axis=1), 0.0))

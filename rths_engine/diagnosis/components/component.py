@@ -55,6 +55,10 @@ class Data(ABC):
         """As if every second sample of the input had not been recorded."""
         return self
 
+    def behind(self) -> Any:
+        """As if the velocity of the input were told by the samples up to its own."""
+        return self
+
     @property
     def pressed(self) -> float:
         """Force on a specimen before the start; 0 where none is known."""
@@ -96,10 +100,13 @@ class Data(ABC):
         displacement need."""
         if self.stepped:
             return signal
+        return np.asarray(CubicSpline(np.arange(len(signal)), signal)(self.places(len(signal), more)))
+
+    def places(self, samples: int, more: int = 1) -> Array:
+        """Of the steps of `refined`, in samples."""
         n = self.finer * more
-        place = np.arange(len(signal))
-        at = np.clip(place[0] + np.arange(len(signal) * n) / n + 0.25 / n, 0, place[-1])
-        return np.asarray(CubicSpline(place, signal)(at))
+        found: Array = np.clip((np.arange(samples * n) + 0.25) / n, 0, samples - 1)
+        return found
 
 
 class Loose(Part):

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from rths_engine import physics, replay
 from rths_engine.arrays import Array
@@ -67,6 +67,18 @@ class SpecimenData(Data):
         thin.__dict__["smooth"] = CubicSpline(place[::2], self.smooth[::2])(np.minimum(place, place[::2][-1]))
         thin.__dict__["step_error"] = self.step_error
         return thin
+
+    def behind(self) -> SpecimenData:
+        """Where a controller's steps move the specimen: by Hermite's cubics with slopes of parabolas through three samples."""
+        if self.expected is None or self.stepped:
+            return self
+        place = np.arange(len(self.x))
+        x = np.concatenate([np.full(2, self.smooth[0]), self.smooth])
+        slopes = 1.5 * x[2:] - 2 * x[1:-1] + 0.5 * x[:-2]
+        late = replace(self)
+        late.__dict__["fine"] = CubicHermiteSpline(place, self.smooth, slopes)(self.places(len(place)))
+        late.__dict__["step_error"] = self.step_error
+        return late
 
     @cached_property
     def fine(self) -> Array:
