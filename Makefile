@@ -31,7 +31,7 @@ test-clone: setup
 bench: setup
 	$(BIN)/python -m benchmarks
 
-# Diagnoses of recordings whose left-out physics is known: docs/proof.md. Takes about an hour.
+# Diagnoses of recordings whose left-out physics is known: docs/proof.md. Takes half an hour to an hour.
 prove: setup
 	$(BIN)/rths prove --cases 300 --json proof.json --picture proof.svg --table
 
