@@ -1,0 +1,24 @@
+"""The measured sets ($RTHS_RECORDINGS) by the plans and mappings in `examples/`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from rths_engine.measured import Measured, imported, read
+from rths_engine.plan import Plan
+from tests.conftest import RECORDINGS
+from tests.test_example_mappings import EXAMPLES, example
+
+
+def plan(name: str) -> Plan:
+    return Plan.from_yaml((EXAMPLES / name / "plan.yaml").read_text(encoding="utf-8"))
+
+
+def measured(folder: str, file: str, **cut: Any) -> Measured:
+    path = RECORDINGS / folder / file
+    if not path.is_file():
+        pytest.skip(f"no recording {path}: set RTHS_RECORDINGS to the folder that holds the sets")
+    mapping = example(folder).model_copy(update=cut)
+    return imported(read(path.read_bytes(), path.name), mapping, path.name)

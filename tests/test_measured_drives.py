@@ -1,0 +1,31 @@
+"""What the simple models of measured drives leave out is named, and shown on what was not fitted."""
+
+from __future__ import annotations
+
+import pytest
+
+from rths_engine.diagnosis import diagnose
+from tests.measured_sets import measured, plan
+
+
+def test_the_carriage_rubs_on_its_guides() -> None:
+    """Fitted on the first two thirds, shown on the last."""
+    fitted, kept = measured("emps", "DATA_EMPS.mat", stop=16.56), measured("emps", "DATA_EMPS.mat", start=16.56)
+    found = diagnose(plan("emps"), fitted, [kept]).verdict
+    assert found["effects"][0]["id"] == "coulomb_friction"
+    friction = found["effects"][0]["parameters"][0]["value"]
+    assert friction == pytest.approx(
+        20.7, rel=0.1
+    )  # Janot, Gautier and Brunot (2019), with inertia and offset fitted beside it
+    assert found["fit"]["baseline"]["heldout_nrmse"] > 0.15
+    assert found["fit"]["extended"]["heldout_nrmse"] < 0.045
+
+
+def test_the_drive_of_a_shaking_table_saturates() -> None:
+    """Fitted on two sines, shown on a sawtooth; the voltage after the limit, which is recorded too, was left out."""
+    fitted, more = (measured("shaking_table", f"Sine{name}.csv") for name in ("A3F08", "A8F4"))
+    found = diagnose(plan("shaking_table"), fitted, [measured("shaking_table", "SawtoothA2F05.csv")], more=[more]).verdict
+    limits = {one["id"]: one["parameters"][0]["value"] for one in found["effects"]}
+    gain = plan("shaking_table").stations[0].actuator.gain  # of a square wave that stays within the limit
+    assert limits["velocity_saturation"] / gain == pytest.approx(0.5, rel=0.05)  # V
+    assert found["fit"]["extended"]["heldout_nrmse"] < 0.6 * found["fit"]["baseline"]["heldout_nrmse"]
