@@ -28,7 +28,7 @@ def diagnosed(name: str) -> Diagnosis:
     return diagnose(Plan.read(carriage), measured("free_vibration", f"{name}_Disp_Free_Vibration_History.txt", start=begun))
 
 
-@pytest.mark.parametrize("name", ["A1-03", "A1-05", "A1-06"])
+@pytest.mark.parametrize("name", DECAYS)
 def test_the_guides_of_a_carriage_rub_as_its_free_vibration_decays(name: str) -> None:
     found = diagnosed(name).verdict
     assert found["effects"][0]["id"] == "coulomb_friction"
