@@ -69,7 +69,7 @@ $(VENDOR)/.installed: frontend/package.json frontend/package-lock.json frontend/
 	@touch $@
 
 $(STAMPS)/compiled: $(ENGINE) $(STAMPS)/package
-	$(BIN)/python -m rths_engine.warm
+	$(BIN)/python -m rths_engine.running.warm
 	@touch $@
 
 # The browser of the tests is Debian's; no test tool downloads one of its own.

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from app.text import refuse_unstorable
-from rths_engine.arrays import Array
-from rths_engine.channels import channels
-from rths_engine.errors import Issue, PlanError
-from rths_engine.ground_motions import Motion, MotionLibrary
-from rths_engine.motion import FileMotion, NoMotion, RecordMotion
-from rths_engine.plan import Plan
-from rths_engine.units import STANDARD_GRAVITY
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.foundation.units import STANDARD_GRAVITY
+from rths_engine.parts.ground_motions import Motion, MotionLibrary
+from rths_engine.planning.motion import FileMotion, NoMotion, RecordMotion
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
+from rths_engine.results.channels import channels
 
 LARGEST_PEAK = 100 * STANDARD_GRAVITY  # far above any shaking, so that only a wrong unit or scale is refused
 LARGEST_RECORDING = 2_000_000_000  # bytes, as in the engine, which is not loaded here
@@ -38,7 +39,7 @@ class Checked:
 def checked(data: Any, motions: MotionLibrary) -> Checked:
     """Raises PlanError or MotionError with every issue found; nothing of the server's files is read but its library."""
     refuse_unstorable(data)
-    plan = Plan.read(data)
+    plan = read_plan(data)
     if isinstance(plan.motion, FileMotion):
         fix = "upload the record and name it"
         raise PlanError(Issue("motion.kind", "files are read by the command line only", plan.motion.path, fix))

@@ -8,9 +8,9 @@ from app.db import unit_of_work
 from app.runs.repository import Filter, Page
 from app.runs.service import MOST_ATTEMPTS, RunService
 from app.states import State
-from rths_engine import templates
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import RealTime
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning import templates
+from rths_engine.planning.plan import RealTime
 
 TEMPLATE = "table3-04"
 SUBMITTER = "demonstration"

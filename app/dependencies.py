@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 
 from app.config import Settings
 from app.db import unit_of_work
-from rths_engine.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions import MotionLibrary
 
 
 def settings(request: Request) -> Settings:

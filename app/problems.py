@@ -15,7 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
 from app.states import IllegalTransition
-from rths_engine.errors import Issue, RecordingError, RthsError
+from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 
 log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"

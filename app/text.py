@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator
 
-from rths_engine.errors import Issue, PlanError
+from rths_engine.foundation.errors import Issue, PlanError
 
 _UNSTORABLE = re.compile("[\x00\ud800-\udfff]")
 _PROBLEM = "holds a character that can't be stored (NUL or half of a surrogate pair)"

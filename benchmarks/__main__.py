@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import against_opensees, diagnoses, drawing, scaling, whole_runs
-from rths_engine.warm import warm
+from rths_engine.running.warm import warm
 from tests.opensees import peer
 
 FOLDER = Path(__file__).parent

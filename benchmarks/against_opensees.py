@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.plans import LIBRARY, STEP, alone, frame, ground
-from rths_engine.plan import Plan
-from rths_engine.run import Run
+from rths_engine.planning.plan import Plan
+from rths_engine.running.run import Run
 from tests.opensees import peer
 
 ROUNDS = 7

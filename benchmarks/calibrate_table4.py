@@ -19,10 +19,10 @@ import numpy as np
 from scipy.optimize import differential_evolution, minimize
 
 from rths_engine import table4
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.ground_motions.scaling import Factor
-from rths_engine.motion import FileMotion
-from rths_engine.run import simulate
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions.scaling import Factor
+from rths_engine.planning.motion import FileMotion
+from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import CALIBRATED, MEASURES, PAPER, published
 from rths_engine.table4.scale import design_basis, floors_excess
 

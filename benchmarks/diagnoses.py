@@ -7,11 +7,13 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
-from rths_engine import measured, recording, templates
 from rths_engine.diagnosis import diagnose
-from rths_engine.physics.specimen.coulomb_friction import CoulombFriction
-from rths_engine.plan import Plan
-from rths_engine.run import simulate
+from rths_engine.parts.physics.specimen.coulomb_friction import CoulombFriction
+from rths_engine.planning import templates
+from rths_engine.planning.plan import Plan
+from rths_engine.recordings import opening
+from rths_engine.recordings import run_file as recording
+from rths_engine.running.run import simulate
 
 ROUNDS = 3
 DURATION = 40.0
@@ -33,7 +35,7 @@ def _timed(plan: Plan) -> float:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "test.h5"
         recording.save(path, simulate(rig))
-        recorded = measured.load(path)
+        recorded = opening.load(path)
     seconds = []
     for _ in range(ROUNDS):
         start = perf_counter()

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
-from rths_engine.run import Run
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
+from rths_engine.running.run import Run
 
 LIBRARY = MotionLibrary(None)
 RECORD = "imperial-valley-1940-el-centro-ns"
@@ -37,7 +38,7 @@ def shear_building(storeys: int) -> dict[str, Any]:
 
 def alone(structure: dict[str, Any], duration: float) -> Plan:
     """The structure under the record, without stations, one substep a step."""
-    return Plan.read(
+    return read_plan(
         {
             "motion": {"kind": "record", "record": RECORD},
             "structure": structure,

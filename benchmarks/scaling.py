@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.plans import LIBRARY, STEP, alone, frame, shear_building
-from rths_engine.kernel import compiled
-from rths_engine.run import Run
+from rths_engine.foundation.kernel import compiled
+from rths_engine.running.run import Run
 
 ROUNDS = 15
 FRAMES = ((1, 1), (1, 3), (2, 4), (4, 5), (8, 4), (10, 7), (20, 7))

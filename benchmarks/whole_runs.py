@@ -14,9 +14,11 @@ from time import perf_counter, process_time
 from typing import Any
 
 from benchmarks.plans import LIBRARY
-from rths_engine import recording, templates
-from rths_engine.run import Run, simulate
-from rths_engine.warm import warm
+from rths_engine.planning import templates
+from rths_engine.planning.reading import plan_to_yaml
+from rths_engine.recordings import run_file as recording
+from rths_engine.running.run import Run, simulate
+from rths_engine.running.warm import warm
 
 ROUNDS = 7
 TABLE3 = "table3-04"
@@ -41,7 +43,7 @@ def table3() -> dict[str, float]:
 def cold() -> dict[str, float]:
     """`rths run` of the same plan as a fresh process, once the engine is compiled."""
     rths = Path(sys.executable).with_name("rths")
-    plan = templates.template(TABLE3).to_yaml()
+    plan = plan_to_yaml(templates.template(TABLE3))
     seconds = []
     for _ in range(ROUNDS + 1):
         start = perf_counter()

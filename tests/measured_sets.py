@@ -6,14 +6,15 @@ from typing import Any
 
 import pytest
 
-from rths_engine.measured import Measured, imported, read
-from rths_engine.plan import Plan
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import plan_from_yaml
+from rths_engine.recordings.measured import Measured, imported, read
 from tests.conftest import RECORDINGS
 from tests.test_example_mappings import EXAMPLES, example
 
 
 def plan(name: str) -> Plan:
-    return Plan.from_yaml((EXAMPLES / name / "plan.yaml").read_text(encoding="utf-8"))
+    return plan_from_yaml((EXAMPLES / name / "plan.yaml").read_text(encoding="utf-8"))
 
 
 def measured(folder: str, file: str, **cut: Any) -> Measured:

@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
-from app.cli import parser
+from app.cli.main import parser
 from app.config import VARIABLES, Settings
 from app.main import create_app
-from rths_engine import integrators
-from rths_engine.plan import Plan
-from rths_engine.run import simulate
-from rths_engine.shapes import SHAPES
+from rths_engine.parts import integrators
+from rths_engine.planning.reading import plan_from_yaml
+from rths_engine.planning.shapes import SHAPES
+from rths_engine.running.run import simulate
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text()
@@ -49,7 +49,7 @@ def test_the_rest_page_names_every_route_and_no_other(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", re.findall(r"^```yaml\n(.*?)^```", (ROOT / "docs" / "tests.md").read_text(), re.M | re.S))
 def test_every_example_of_a_kind_of_test_runs_to_its_end(text: str) -> None:
-    assert simulate(Plan.from_yaml(text)).status == "completed"
+    assert simulate(plan_from_yaml(text)).status == "completed"
 
 
 @pytest.mark.parametrize("kinds", [SHAPES, integrators.KINDS], ids=["shapes", "integrators"])
@@ -60,7 +60,7 @@ def test_the_page_of_tests_names_every_kind(kinds: tuple[type[Any], ...]) -> Non
 
 
 def test_the_licences_of_bundled_records_lie_beside_them() -> None:
-    data = ROOT / "rths_engine" / "ground_motions" / "data"
+    data = ROOT / "rths_engine" / "parts" / "ground_motions" / "data"
     assert sorted(path.name for path in data.glob("LICENSE*"))
     for licence in data.glob("LICENSE*"):
         assert "Permission is hereby granted" in licence.read_text()

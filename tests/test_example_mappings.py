@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rths_engine.measured import Mapping, Measured, imported, read
+from rths_engine.recordings.measured import Mapping, Measured, imported, read
 from tests.conftest import RECORDINGS
 
 EXAMPLES = Path(__file__).parent.parent / "examples"

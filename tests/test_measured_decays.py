@@ -8,7 +8,7 @@ import pytest
 
 from rths_engine.diagnosis import diagnose
 from rths_engine.diagnosis.verdict import Diagnosis
-from rths_engine.plan import Plan
+from rths_engine.planning.reading import read_plan
 from tests.measured_sets import measured, plan
 
 # mass kg, period s, damping ratio as published; displacement m and time s of the largest displacement, at which it is let go
@@ -25,7 +25,7 @@ def diagnosed(name: str) -> Diagnosis:
     storeys = [{"mass": mass, "stiffness": mass * (2 * math.pi / period) ** 2}]
     carriage["structure"] = {"kind": "shear_building", "damping_ratio": ratio, "storeys": storeys}
     carriage["start"] = {"displacement": [start]}
-    return diagnose(Plan.read(carriage), measured("free_vibration", f"{name}_Disp_Free_Vibration_History.txt", start=begun))
+    return diagnose(read_plan(carriage), measured("free_vibration", f"{name}_Disp_Free_Vibration_History.txt", start=begun))
 
 
 @pytest.mark.parametrize("name", DECAYS)

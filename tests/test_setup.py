@@ -24,7 +24,7 @@ PINS = {canonicalize_name(line.partition("==")[0]): line.partition("==")[2] for 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 NPM = json.loads((ROOT / "frontend" / "package.json").read_text())["dependencies"]
 NPM_LOCK = json.loads((ROOT / "frontend" / "package-lock.json").read_text())["packages"]
-MADE_FROM = ["Makefile", "requirements.lock", "pyproject.toml", "app/npm_parts.py", "rths_engine/kernel.py"]
+MADE_FROM = ["Makefile", "requirements.lock", "pyproject.toml", "app/npm_parts.py", "rths_engine/foundation/kernel.py"]
 MADE_FROM += [f"frontend/{name}" for name in ("package.json", "package-lock.json", ".npmrc")]
 
 # stands for Python: makes environments whose own Python notes what it is asked, and fails while a file 'broken' is there
@@ -114,7 +114,12 @@ def project(tmp_path: Path) -> Path:
 @pytest.fixture
 def asked(project: Path) -> Callable[[], list[str]]:
     """What `make setup` asked of the environment's Python since the last look: packages, package, parts, compiled."""
-    steps = {"-r requirements.lock": "packages", "-e .": "package", "app.npm_parts": "parts", "rths_engine.warm": "compiled"}
+    steps = {
+        "-r requirements.lock": "packages",
+        "-e .": "package",
+        "app.npm_parts": "parts",
+        "rths_engine.running.warm": "compiled",
+    }
 
     def since() -> list[str]:
         file = project / "asked"
@@ -149,7 +154,7 @@ def test_set_up_twice_installs_once(project: Path, asked: Callable[[], list[str]
     ("changed", "again"),
     [
         ("frontend/package-lock.json", ["parts"]),
-        ("rths_engine/kernel.py", ["compiled"]),
+        ("rths_engine/foundation/kernel.py", ["compiled"]),
         ("app/npm_parts.py", ["parts"]),
     ],
 )

@@ -20,7 +20,8 @@ from app.queue import DIAGNOSES, DurableQueue
 from app.runs.service import NOBODY, RunService
 from app.states import State
 from rths_engine import __version__
-from rths_engine.measured import Measured, load
+from rths_engine.recordings.measured import Measured
+from rths_engine.recordings.opening import load
 
 LONGEST_NAME = 200
 

@@ -14,8 +14,9 @@ from app.plans.service import PlanService
 from app.problems import Conflict
 from app.runs.service import RunService
 from app.text import refuse_unstorable
-from rths_engine.errors import Issue, PlanError, RthsError
-from rths_engine.plan import Plan
+from rths_engine.foundation.errors import Issue, PlanError, RthsError
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
 
 
 def file_of(given: DiagnosisInput, settings: Settings) -> Path:
@@ -35,9 +36,9 @@ class Sources:
         if len(given) > 1:
             raise PlanError(Issue("plan", f"is given {len(given)} times", ", ".join(given), "give one of them"))
         if asked.plan is not None:
-            return Plan.read(self._read(asked.plan))
+            return read_plan(self._read(asked.plan))
         if asked.template is not None:
-            return Plan.read(self.plans.template(asked.template)["plan"])
+            return read_plan(self.plans.template(asked.template)["plan"])
         run = asked.plan_of_run or asked.recording.run
         if run is None:
             fix = "give plan (JSON or YAML), template or plan_of_run"

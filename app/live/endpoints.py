@@ -16,7 +16,7 @@ from app.live.hub import Hub, LiveRun
 from app.live.messages import progress
 from app.runs.repository import RunRepository
 from app.runs.schemas import RunOut
-from rths_engine.errors import RecordingError
+from rths_engine.foundation.errors import RecordingError
 
 router = APIRouter()
 FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt

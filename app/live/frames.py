@@ -10,8 +10,8 @@ import struct
 
 import numpy as np
 
-from rths_engine.arrays import Array
-from rths_engine.channels import Channel
+from rths_engine.foundation.arrays import Array
+from rths_engine.results.channels import Channel
 
 HEADER = struct.Struct("<II")
 MOST_BUCKETS = 16_384

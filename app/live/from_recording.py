@@ -7,7 +7,7 @@ from typing import Any
 
 from app.live.frames import Decimator, FrameStore, bucket_size
 from app.live.messages import schema
-from rths_engine.recording import load
+from rths_engine.recordings.run_file import load
 
 
 def replay(path: Path, attempt: int) -> tuple[dict[str, Any], FrameStore]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rths_engine.channels import Channel
+from rths_engine.results.channels import Channel
 
 
 def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...]) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from app.problems import NotFound
-from rths_engine import files
-from rths_engine.measured import Table, read
+from rths_engine.foundation import files
+from rths_engine.recordings.measured import Table, read
 
 PART = 1 << 20  # bytes
 _READING = threading.Lock()  # a large file takes some times its size in memory: one is read at a time

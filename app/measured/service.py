@@ -20,9 +20,11 @@ from app.measured.schemas import EarlierMapping, Import, Mapped, Uploaded
 from app.models import MeasuredRecording, RawFile
 from app.problems import Conflict, NotFound
 from app.text import refuse_unstorable
-from rths_engine import __version__, files
-from rths_engine.errors import MeasuredError
-from rths_engine.measured import Mapping, Table, examine, guess, imported, load, mapping_yaml, save
+from rths_engine import __version__
+from rths_engine.foundation import files
+from rths_engine.foundation.errors import MeasuredError
+from rths_engine.recordings.measured import Mapping, Table, examine, guess, imported, mapping_yaml, save
+from rths_engine.recordings.opening import load
 
 KEPT_UNUSED = timedelta(days=1)  # a file from which nothing is imported
 EARLIER = 200  # imports among which a mapping is looked for

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine.arrays import Array
-from rths_engine.decimate import extremes
-from rths_engine.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel
-from rths_engine.measured.roles import ROLES, UNITS, dimension, shown
+from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel
+from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, shown
+from rths_engine.results.decimate import extremes
 
 BUCKETS = 700  # a plot's pixels, about
 LOOP_POINTS = 4000

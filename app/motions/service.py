@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from app.problems import NotFound
-from rths_engine.errors import Issue, MotionError
-from rths_engine.ground_motions import Motion, MotionLibrary, read, response_spectrum, slug
+from rths_engine.foundation.errors import Issue, MotionError
+from rths_engine.parts.ground_motions import Motion, MotionLibrary, read, response_spectrum, slug
 
 PERIODS = np.geomspace(0.02, 6.0, 120)  # s
 DAMPING = 0.05

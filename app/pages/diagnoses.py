@@ -20,7 +20,7 @@ from app.reports.diagnosis_overlay import overlay
 from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
 from app.states import State
-from rths_engine.errors import RthsError
+from rths_engine.foundation.errors import RthsError
 
 LIMIT = 50
 OFFERED = 200  # recordings, and runs

@@ -17,7 +17,7 @@ from app.plans.dependency import Plans
 from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
 from app.states import State
-from rths_engine.errors import RthsError
+from rths_engine.foundation.errors import RthsError
 
 QUEUED_SHOWN = 20
 RECENT_SHOWN = 12

@@ -14,7 +14,7 @@ from starlette.convertors import Convertor, register_url_convertor
 
 from app.pages.rendering import page
 from app.problems import NotFound
-from rths_engine.errors import RthsError
+from rths_engine.foundation.errors import RthsError
 
 log = logging.getLogger(__name__)
 

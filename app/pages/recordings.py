@@ -12,7 +12,7 @@ from app.dependencies import Configured
 from app.measured.dependency import Recordings
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
-from rths_engine.measured import FORMATS
+from rths_engine.recordings.measured import FORMATS
 
 LIMIT = 50
 

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from app.runs.repository import Filter, Page
 from app.states import State
-from rths_engine.errors import Issue, RthsError
+from rths_engine.foundation.errors import Issue, RthsError
 
 LIMIT = 50
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from rths_engine.decimate import extremes
-from rths_engine.errors import PlanError
-from rths_engine.excitation import Drive
-from rths_engine.part import Value, quantity, validated
-from rths_engine.plan_checks import peaks, too_long
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.part import Value, quantity, validated
+from rths_engine.planning.checks import peaks, too_long
+from rths_engine.planning.excitation import Drive
+from rths_engine.results.decimate import extremes
 
 SAMPLES, BUCKETS = 40_000, 500
 

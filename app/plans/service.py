@@ -9,10 +9,12 @@ from app.checking import Checked, checked
 from app.plans.drive import preview
 from app.problems import NotFound
 from app.text import refuse_unstorable
-from rths_engine import plan_yaml, stability, templates
-from rths_engine.errors import Issue, PlanError
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
+from rths_engine import stability
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning import plan_yaml, templates
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import plan_to_yaml, read_plan
 
 LARGEST_YAML = 1_000_000  # bytes; YAML is read at some 50 kB/s
 
@@ -64,11 +66,11 @@ class PlanService:
         except UnicodeDecodeError as error:
             raise PlanError(Issue("", f"the text is not UTF-8: byte {error.start} is wrong", fix="save it as UTF-8")) from None
         refuse_unstorable(data)
-        return Plan.read(data).as_dict()
+        return read_plan(data).as_dict()
 
     def write(self, data: Any) -> str:
         refuse_unstorable(data)
-        return Plan.read(data).to_yaml()
+        return plan_to_yaml(read_plan(data))
 
 
 def _warnings(checked: Checked) -> list[str]:

@@ -6,9 +6,9 @@ import numpy as np
 
 from app.reports.diagnosis_figures import trace
 from app.reports.figures import Panel
-from rths_engine.decimate import extremes
-from rths_engine.measured import Measured
-from rths_engine.measured.roles import shown
+from rths_engine.recordings.measured import Measured
+from rths_engine.recordings.measured.roles import shown
+from rths_engine.results.decimate import extremes
 
 BUCKETS = 700
 MOST = 8  # panels

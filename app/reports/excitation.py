@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from app.reports.figures import Figures, Panel, spectrum_panel
-from rths_engine.errors import MotionError
-from rths_engine.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
-from rths_engine.plan_checks import peaks
-from rths_engine.recording import Recording
-from rths_engine.units import STANDARD_GRAVITY
+from rths_engine.foundation.errors import MotionError
+from rths_engine.foundation.units import STANDARD_GRAVITY
+from rths_engine.parts.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
+from rths_engine.planning.checks import peaks
+from rths_engine.recordings.run_file import Recording
 
 _PERIODS = np.concatenate([[0.0], np.geomspace(0.02, 4.0, 160)])  # s
 _DAMPING = 0.05

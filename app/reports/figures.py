@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from app.reports.packed import Samples, packed
-from rths_engine.decimate import extremes
-from rths_engine.plan import Station
+from rths_engine.planning.plan import Station
+from rths_engine.results.decimate import extremes
 
 POINTS = 130_000  # of all traces together: 2 x 4 bytes a point in base64 make 1.4 MB
 MOST_BUCKETS = 1200

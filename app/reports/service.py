@@ -11,11 +11,11 @@ from app.reports.excitation import excitation
 from app.reports.figures import Figures, Panel, station_panels
 from app.reports.plan_tables import Group, groups
 from app.shown import KINDS, SILENT
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.metrics.decay import free_decay
-from rths_engine.plan import Plan
-from rths_engine.recording import Recording
-from rths_engine.templates import PAPER
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.templates import PAPER
+from rths_engine.recordings.run_file import Recording
+from rths_engine.results.metrics.decay import free_decay
 
 Measure = tuple[str, str, str, int]  # field of the summary, heading, what it is, decimals
 _MEASURES = (

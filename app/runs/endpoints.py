@@ -15,8 +15,8 @@ from app.runs.exports import csv_parts, recording_path, report
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
 from app.states import State
-from rths_engine import plan_yaml
-from rths_engine.errors import Issue, PlanError
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.planning import plan_yaml
 
 router = APIRouter(prefix="/api/v1", tags=["runs"])
 NOBODY = Person()

@@ -15,8 +15,8 @@ from app.config import Settings
 from app.models import Run
 from app.problems import Conflict
 from app.runs.schemas import RunDetail
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.recording import load
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.recordings.run_file import load
 
 ROWS = 4096
 

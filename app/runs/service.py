@@ -20,9 +20,10 @@ from app.runs.repository import MEASURES, SORTS, Filter, Page, RunRepository
 from app.runs.schemas import QueueOut, RunOut
 from app.states import State
 from rths_engine import __version__
-from rths_engine.errors import Issue, PlanError, RthsError
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
+from rths_engine.foundation.errors import Issue, PlanError, RthsError
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
 
 MOST_ATTEMPTS = 3
 WORKER_SILENCE = timedelta(seconds=6)
@@ -74,7 +75,7 @@ class RunService:
         return run
 
     def plan_of(self, run: Run) -> Plan:
-        return Plan.read(run.plan)
+        return read_plan(run.plan)
 
     def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         column, _, station = page.sort.partition(":")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rths_engine import stability
-from rths_engine.plan import Plan
+from rths_engine.planning.reading import read_plan
 
 POINTS = 31
 
@@ -13,5 +13,5 @@ POINTS = 31
 class StabilityService:
     def predict(self, data: Any) -> dict[str, Any]:
         """Radius, verdict, modes, delay margins and the map (null for fewer than two stations). Raises PlanError."""
-        plan = Plan.read(data)
+        plan = read_plan(data)
         return {"name": plan.name, **stability.summary(plan), "map": stability.mapped(plan, POINTS)}

@@ -59,18 +59,18 @@ def serve(pipe: Connection, job: DiagnosisJob) -> None:
 
 
 def _diagnosed(job: DiagnosisJob, pipe: Connection) -> Found | Undone:
-    from rths_engine import measured
     from rths_engine.diagnosis import diagnose
     from rths_engine.diagnosis.pictures import pictures
-    from rths_engine.errors import RthsError
-    from rths_engine.plan import Plan
+    from rths_engine.foundation.errors import RthsError
+    from rths_engine.planning.reading import read_plan
+    from rths_engine.recordings import opening
 
     def tell(doing: str, share: float) -> None:
         pipe.send(Progress(doing, min(1.0, max(0.0, float(share)))))
 
     try:
-        plan, recording = Plan.read(job.plan), measured.load(job.recording)
-        found = diagnose(plan, recording, [measured.load(path) for path in job.heldout], job.level, told=tell)
+        plan, recording = read_plan(job.plan), opening.load(job.recording)
+        found = diagnose(plan, recording, [opening.load(path) for path in job.heldout], job.level, told=tell)
     except RthsError as error:
         return Undone("; ".join(_named(str(issue)) for issue in error.issues))
     return Found(_finite(found.verdict), _finite(pictures(found)))

@@ -62,7 +62,7 @@ class Failed:
 
 def serve(pipe: Connection) -> None:
     """Execute jobs until the worker is gone."""
-    from rths_engine.warm import warm
+    from rths_engine.running.warm import warm
 
     warm()
     try:
@@ -83,14 +83,14 @@ def serve(pipe: Connection) -> None:
 
 
 def _execute(job: Job, pipe: Connection) -> Done | Failed:
-    from rths_engine.errors import RthsError
-    from rths_engine.ground_motions import MotionLibrary
-    from rths_engine.plan import Plan
-    from rths_engine.recording import save
-    from rths_engine.run import Run
+    from rths_engine.foundation.errors import RthsError
+    from rths_engine.parts.ground_motions import MotionLibrary
+    from rths_engine.planning.reading import read_plan
+    from rths_engine.recordings.run_file import save
+    from rths_engine.running.run import Run
 
     try:
-        plan = Plan.read(job.plan)
+        plan = read_plan(job.plan)
         run = Run(plan, MotionLibrary(job.motions))
     except RthsError as error:
         return Failed(str(error))
@@ -106,7 +106,7 @@ class _Telling:
     """Advances a run in chunks at its pace, sends frames and progress, and looks for a cancel between chunks."""
 
     def __init__(self, run: Any, job: Job, pipe: Connection):
-        from rths_engine.metrics import RunningMeasures
+        from rths_engine.results.metrics import RunningMeasures
 
         self.run, self.job, self.pipe = run, job, pipe
         self.elapsed, self.measured = 0.0, 0

@@ -17,7 +17,7 @@ from app.runs.service import Outcome, RunService
 from app.worker.engine import Done, Job
 from app.worker.link import Link
 from app.worker.pool import EngineDied, EngineProcess, Pool
-from rths_engine.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions import MotionLibrary
 
 log = logging.getLogger("rths.worker")
 HOLD_POLL_S = 0.1

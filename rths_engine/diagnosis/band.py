@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.signal import firwin, upfirdn
 
-from rths_engine.arrays import Array
+from rths_engine.foundation.arrays import Array
 
 ANALYSIS_RATE = 128.0  # Hz; what is compared lies below 0.4 of it
 LENGTH = 20  # taps a side and decimated sample

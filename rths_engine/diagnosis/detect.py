@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2, gamma, gumbel_r
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import Signatures, absorber
+from rths_engine.foundation.arrays import Array
 
 REPLICATES = 99
 REDRAWN = 16

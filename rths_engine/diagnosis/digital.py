@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rths_engine import replay
-from rths_engine.arrays import Array
-from rths_engine.excitation import FloorForce
-from rths_engine.measured import Measured
-from rths_engine.plan import Plan
+from rths_engine.foundation.arrays import Array
+from rths_engine.planning.excitation import FloorForce
+from rths_engine.planning.plan import Plan
+from rths_engine.recordings.measured import Measured
+from rths_engine.running import replay
 
 ROUNDING = 1e-5  # of the largest value: files of text keep five digits and more
 

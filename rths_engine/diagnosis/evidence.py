@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from rths_engine.diagnosis.fitting import Fitted
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect, Seen
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect, Seen
 
 MATERIAL = 0.02  # of all that effects account for: what models err by, so that less says little
 STRONG = 6.0  # of BIC: strong evidence (Kass and Raftery 1995)

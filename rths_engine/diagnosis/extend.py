@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from rths_engine import physics
 from rths_engine.diagnosis.components.component import Loose
 from rths_engine.diagnosis.judge import Judged
-from rths_engine.physics.effect import Effect
-from rths_engine.plan import Plan
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.planning.plan import Plan
 
 LEAST = 1e-6  # a share of a structure's number that is worth keeping
 MOST = 8  # effects of a component

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components import Component
 from rths_engine.diagnosis.free import Number, moved, numbers, vector
 from rths_engine.diagnosis.noise import Noise
 from rths_engine.diagnosis.slopes import Slopes, differences
-from rths_engine.part import Part
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
 
 EVALUATIONS = 40
 RUNAWAY = 1e3  # times the largest measured value

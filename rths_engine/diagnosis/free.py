@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import annotated_types
 import numpy as np
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Component, Loose
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect
 
 SMALLEST = 1e-12
 

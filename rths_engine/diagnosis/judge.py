@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from scipy.stats import chi2
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components import Component
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.noise import Noise
 from rths_engine.diagnosis.select import Selection, select
-from rths_engine.part import Part
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
 
 BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, never fitted where no other recording is held out
 ENDS = 0.3  # s at either end, which the filters blur

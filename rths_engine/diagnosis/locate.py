@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.judge import Judged
+from rths_engine.foundation.arrays import Array
 
 WINDOW = 1.0  # s
 BEYOND = 3.0  # standard deviations of the noise

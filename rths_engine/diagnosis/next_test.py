@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components import ActuatorData, SpecimenData
 from rths_engine.diagnosis.fitting import Recordings
 from rths_engine.diagnosis.parallel import each
-from rths_engine.part import Part
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
 
 CYCLES = 6
 FREQUENCIES = (0.1, 0.25, 0.5, 1.0, 2.0)  # Hz

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import solve_toeplitz, toeplitz
 from scipy.signal import lfilter
 
-from rths_engine.arrays import Array
+from rths_engine.foundation.arrays import Array
 
 ORDER, LONG = 12, 128  # the stop band of the decimation takes as many as the first; noise of a second and slower, the other
 

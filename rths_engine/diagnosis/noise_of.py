@@ -9,11 +9,11 @@ from functools import partial
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings, evaluated
 from rths_engine.diagnosis.noise import Noise, coloured
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import general_terms, signatures
+from rths_engine.foundation.arrays import Array
 
 FIRST_GUESS = 0.01  # noise over the output's deviation, before any is known
 LEAST_NOISE = 1e-6  # likewise: below, numbers of a file are rounded

@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 from scipy.signal import welch
 
-from rths_engine.arrays import Array
-from rths_engine.decimate import extremes
 from rths_engine.diagnosis.components.structure import StructureData
 from rths_engine.diagnosis.judge import BLOCKS, ENDS, HELD_OUT, Judged
 from rths_engine.diagnosis.locate import BEYOND, place
 from rths_engine.diagnosis.noise import FREQUENCY, Noise
 from rths_engine.diagnosis.result import ORDER
 from rths_engine.diagnosis.verdict import Diagnosis
-from rths_engine.measured.roles import SHOWN, dimension, to_si
+from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured.roles import SHOWN, dimension, to_si
+from rths_engine.results.decimate import extremes
 
 SCHEMA = "rths-diagnosis-pictures/1"
 POINTS = 3000  # of a plot

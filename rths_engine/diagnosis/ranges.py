@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from scipy.stats import chi2
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.fitting import Fitted, Recordings, problem
 from rths_engine.diagnosis.parallel import each
-from rths_engine.physics.effect import Effect
+from rths_engine.foundation.arrays import Array
+from rths_engine.parts.physics.effect import Effect
 
 RISE = float(chi2.ppf(0.9, 1))  # of chi^2, of one number
 NORMAL_90 = RISE**0.5  # standard deviations each way

@@ -9,9 +9,6 @@ from typing import Any
 import numpy as np
 from scipy.linalg import eigh
 
-from rths_engine import replay
-from rths_engine.actuators.velocity_drive import VelocityDrive
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components import (
     Actuator,
     ActuatorData,
@@ -26,10 +23,13 @@ from rths_engine.diagnosis.components import (
     StructureData,
     based,
 )
-from rths_engine.errors import Issue, RecordingError
-from rths_engine.measured import Measured
-from rths_engine.physics.sensor.channel import Reading
-from rths_engine.plan import Plan, Station
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.parts.actuators.velocity_drive import VelocityDrive
+from rths_engine.parts.physics.sensor.channel import Reading
+from rths_engine.planning.plan import Plan, Station
+from rths_engine.recordings.measured import Measured
+from rths_engine.running import replay
 
 LEAST = 200  # samples: fewer hold too little to tell noise from physics
 MOST = 4_000_000  # samples of a channel

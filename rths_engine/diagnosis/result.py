@@ -13,8 +13,8 @@ from rths_engine.diagnosis.locate import place
 from rths_engine.diagnosis.next_test import next_test
 from rths_engine.diagnosis.separate import alike, separation
 from rths_engine.diagnosis.unknown import Law, law
-from rths_engine.physics.effect import Effect
-from rths_engine.plan import Plan
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.planning.plan import Plan
 
 SCHEMA = "rths-diagnosis/1"
 SHOWN = 8  # candidates

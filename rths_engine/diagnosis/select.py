@@ -16,9 +16,9 @@ from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.ranges import ranges
 from rths_engine.diagnosis.signatures import Signatures, best_first, general, signatures
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect, Seen
-from rths_engine.physics.sensor.offset import ForceOffset
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.sensor.offset import ForceOffset
 
 MOST_EFFECTS = 3  # beside the load cell's zero
 TRIED = 8

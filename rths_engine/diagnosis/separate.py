@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from rths_engine.diagnosis.fitting import Fitted, Recordings
-from rths_engine.part import Part
+from rths_engine.foundation.part import Part
 
 APART = 10.0  # of lambda: below, two models can't be told apart
 

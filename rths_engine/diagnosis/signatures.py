@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
-from rths_engine.physics.effect import Effect
+from rths_engine.foundation.arrays import Array
+from rths_engine.parts.physics.effect import Effect
 
 ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
 ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rths_engine.arrays import Array
+from rths_engine.foundation.arrays import Array
 
 DIFFERENCE = 1e-3  # of a number's scale: wide beside the kinks of friction and play
 KEPT = 2  # steps by secants before differences are taken again

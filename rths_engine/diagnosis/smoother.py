@@ -9,7 +9,7 @@ from scipy.ndimage import binary_dilation, binary_propagation, uniform_filter
 from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import blackmanharris
 
-from rths_engine.arrays import Array
+from rths_engine.foundation.arrays import Array
 
 STRETCH = 2.0  # s, over which a spectrum is told
 HOPS = 8  # a stretch

@@ -14,9 +14,9 @@ from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.extend import extended
 from rths_engine.diagnosis.judge import Judged, judged
 from rths_engine.diagnosis.result import as_dict
-from rths_engine.errors import Issue, RecordingError
-from rths_engine.measured import Measured
-from rths_engine.plan import Plan
+from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.planning.plan import Plan
+from rths_engine.recordings.measured import Measured
 
 Told = Callable[[str, float], None]
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rths_engine.arrays import Array
-from rths_engine.plan import Plan
-from rths_engine.specimens.linear import LinearSpecimen
+from rths_engine.foundation.arrays import Array
+from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.planning.plan import Plan
 from rths_engine.stability import station as stations
 from rths_engine.stability import structure
 from rths_engine.stability.station import Lifted

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rths_engine.arrays import Array
+from rths_engine.foundation.arrays import Array
 from rths_engine.stability.closed_loop import ClosedLoop, stable
 from rths_engine.stability.station import delay
 

@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.arrays import Array
-from rths_engine.compensators.none import NoCompensation
-from rths_engine.integrators.cr import CrIntegrator
-from rths_engine.motion import InlineMotion
-from rths_engine.plan import Plan, Station
-from rths_engine.specimens.linear import LinearSpecimen
+from rths_engine.foundation.arrays import Array
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.compensators.none import NoCompensation
+from rths_engine.parts.integrators.cr import CrIntegrator
+from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.parts.structures.modes import circular_frequencies, rayleigh
+from rths_engine.parts.structures.shear_building import ShearBuilding, Storey
+from rths_engine.planning.motion import InlineMotion
+from rths_engine.planning.plan import Plan, Station
 from rths_engine.stability.closed_loop import stable
 from rths_engine.stability.margins import MOST, crossing
-from rths_engine.structures.modes import circular_frequencies, rayleigh
-from rths_engine.structures.shear_building import ShearBuilding, Storey
 
 MASS = 5e5  # kg, each floor
 STIFFNESS = 5e7  # N/m, each storey (the text prints kN/m; its periods of 1.02 and 0.39 s need N/m)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from rths_engine.errors import PlanError
-from rths_engine.plan import Plan
+from rths_engine.foundation.errors import PlanError
+from rths_engine.planning.plan import Plan
 from rths_engine.stability.closed_loop import ClosedLoop, Mode, stable
 from rths_engine.stability.margins import Map, delay_map, margin
 

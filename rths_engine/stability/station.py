@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.arrays import Array
-from rths_engine.errors import Issue, PlanError
-from rths_engine.plan import Station
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.planning.plan import Station
 
 AMPLITUDE = 1e-9  # m, below any yield, slack or limit; about rest rounding is relative, so nothing is lost
 EXCITED = 24  # controller steps of random command that show which states move

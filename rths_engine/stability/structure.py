@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
-from rths_engine.arrays import Array
-from rths_engine.errors import Issue, PlanError
-from rths_engine.plan import Plan
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.planning.plan import Plan
 
 MOST = 300  # numbers that the structure may be reduced to: the eigenvalues of the loop are computed some hundred times
 REACHED = 1e-9  # a direction shorter than this beside its own length is rounding

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine import templates
-from rths_engine.templates import PaperRow
+from rths_engine.planning import templates
+from rths_engine.planning.templates import PaperRow
 
 PAPER = {row.simulation: row for row in templates.PAPER.values()}
 FLOORS_PEAK_MM = (49.6, 94.6)  # of simulation 2

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rths_engine.actuators.servo_hydraulic import ServoHydraulicActuator
-from rths_engine.compensators import Compensator
-from rths_engine.compensators.aic import AdaptiveInverseCompensation
-from rths_engine.compensators.inverse import InverseCompensation
-from rths_engine.ground_motions.scaling import Factor
-from rths_engine.motion import FileMotion, RecordMotion
-from rths_engine.physics.actuator.amplitude_dependent_delay import AmplitudeDependentDelay
-from rths_engine.plan import Noise, Plan, Station
-from rths_engine.safety import Limits
-from rths_engine.specimens.mr_damper import MrDamper
-from rths_engine.structures.moment_frame import FrameStorey, MomentFrame
-from rths_engine.structures.sections import SECTIONS
-from rths_engine.templates import DAMPERS, FORCE_CAPACITY, PAPER, VELOCITY_CAPACITY, PaperRow
+from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
+from rths_engine.parts.compensators import Compensator
+from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.compensators.inverse import InverseCompensation
+from rths_engine.parts.ground_motions.scaling import Factor
+from rths_engine.parts.physics.actuator.amplitude_dependent_delay import AmplitudeDependentDelay
+from rths_engine.parts.specimens.mr_damper import MrDamper
+from rths_engine.parts.structures.moment_frame import FrameStorey, MomentFrame
+from rths_engine.parts.structures.sections import SECTIONS
+from rths_engine.planning.motion import FileMotion, RecordMotion
+from rths_engine.planning.plan import Noise, Plan, Station
+from rths_engine.planning.safety import Limits
+from rths_engine.planning.templates import DAMPERS, FORCE_CAPACITY, PAPER, VELOCITY_CAPACITY, PaperRow
 
 FLOOR_MASS = 662.9e3  # kg, for T1 = 1.48 s
 BAYS = (9.15,) * 4  # m

@@ -7,10 +7,10 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
-from rths_engine.result import Result
-from rths_engine.run import simulate
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan
+from rths_engine.results.result import Result
+from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import Row
 from rths_engine.table4.laboratory import HEIGHTS
 

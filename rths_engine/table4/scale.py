@@ -7,15 +7,15 @@ from typing import TypeVar
 
 from scipy.optimize import brentq
 
-from rths_engine.errors import Issue, MotionError
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.ground_motions.scaling import Factor
-from rths_engine.motion import FileMotion, RecordMotion
-from rths_engine.run import simulate
-from rths_engine.safety import Limits
+from rths_engine.foundation.errors import Issue, MotionError
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions.scaling import Factor
+from rths_engine.planning.motion import FileMotion, RecordMotion
+from rths_engine.planning.safety import Limits
+from rths_engine.planning.templates import VELOCITY_CAPACITY
+from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import FLOORS_PEAK_MM
 from rths_engine.table4.laboratory import LABORATORY, Laboratory, PlannedRecord, plans
-from rths_engine.templates import VELOCITY_CAPACITY
 
 M = TypeVar("M", RecordMotion, FileMotion)
 LEAST, MOST = 0.01, 50.0

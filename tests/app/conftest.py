@@ -13,7 +13,7 @@ from fastapi.testclient import TestClient
 from app import db, queue
 from app.config import Settings
 from app.main import create_app
-from rths_engine import templates
+from rths_engine.planning import templates
 from tests.browser.service import Service, running
 
 ADDRESS = "http://127.0.0.1:8000"

@@ -14,11 +14,11 @@ import h5py
 import pytest
 from ruamel.yaml import YAML
 
-from app.cli import main
-from rths_engine import templates
-from rths_engine.plan import Plan
-from rths_engine.recording import load
-from rths_engine.run import simulate
+from app.cli.main import main
+from rths_engine.planning import templates
+from rths_engine.planning.reading import plan_from_yaml
+from rths_engine.recordings.run_file import load
+from rths_engine.running.run import simulate
 
 STATION = {
     *("name", "mte_mm", "rms_percent", "mti_mm2", "mee_kNm", "peak_stroke_mm", "peak_force_kN"),
@@ -68,7 +68,7 @@ def test_without_a_name_every_template_is_listed(capsys: pytest.CaptureFixture[s
 @pytest.mark.parametrize("name", templates.names())
 def test_a_printed_template_reads_back_as_the_same_plan(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", name]) == 0
-    assert Plan.from_yaml(capsys.readouterr().out) == templates.template(name)
+    assert plan_from_yaml(capsys.readouterr().out) == templates.template(name)
 
 
 def test_an_unknown_template_is_refused_with_the_names_there_are(capsys: pytest.CaptureFixture[str]) -> None:
@@ -82,7 +82,7 @@ def test_json_is_one_object_with_the_measures_of_the_run(write: Write, capsys: p
     assert main(["run", str(plan), "--json"]) == 0
     found = printed(capsys)
     assert found.keys() == SUMMARY and all(station.keys() == STATION for station in found["stations"])
-    expected = simulate(Plan.from_yaml(plan.read_text())).summary()
+    expected = simulate(plan_from_yaml(plan.read_text())).summary()
     assert {**found, "elapsed_s": 0} == {**expected, "elapsed_s": 0}
 
 
@@ -109,7 +109,7 @@ def test_out_is_a_recording_of_the_plan(write: Write, folder: Path) -> None:
     plan = write()
     assert main(["run", str(plan), "--out", str(folder / "rec.h5")]) == 0
     recording = load(folder / "rec.h5")
-    assert recording.plan == Plan.from_yaml(plan.read_text())
+    assert recording.plan == plan_from_yaml(plan.read_text())
     assert (recording.signals == simulate(recording.plan).signals).all()
 
 
@@ -117,7 +117,7 @@ def test_out_is_a_recording_of_the_plan(write: Write, folder: Path) -> None:
 def test_an_out_that_cannot_be_written_is_refused_before_the_run(
     out: str, problem: str, write: Write, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("app.cli_run.advance", lambda *_: pytest.fail("the test was run"))
+    monkeypatch.setattr("app.cli.run.advance", lambda *_: pytest.fail("the test was run"))
     assert main(["run", str(write()), "--out", out]) == 2
     captured = capsys.readouterr()
     assert problem in captured.err and not captured.out
@@ -228,7 +228,7 @@ def test_a_records_unit_without_a_record_is_refused(write: Write, capsys: pytest
 
 
 def test_motions_lists_every_record_with_its_peak(capsys: pytest.CaptureFixture[str]) -> None:
-    from rths_engine.ground_motions import MotionLibrary
+    from rths_engine.parts.ground_motions import MotionLibrary
 
     assert main(["motions"]) == 0
     heading, *rows = capsys.readouterr().out.splitlines()
@@ -245,6 +245,6 @@ def test_a_reader_that_stops_early_gets_no_traceback() -> None:
 
 
 def test_help_imports_none_of_the_engine_and_the_service() -> None:
-    code = "import sys, app.cli; app.cli.parser().format_help(); print(*sys.modules)"
+    code = "import sys, app.cli.main; app.cli.main.parser().format_help(); print(*sys.modules)"
     loaded = set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split())
     assert not loaded & {"numpy", "numba", "pydantic", "fastapi", "sqlalchemy", "dbos"}

@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 
-from app.cli import main
+from app.cli.main import main
 from app.reports.page import plotly
-from rths_engine import recording
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
-from rths_engine.run import simulate
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import plan_to_yaml, read_plan
+from rths_engine.recordings import run_file as recording
+from rths_engine.running.run import simulate
 
 
 def plan(**more: Any) -> Plan:
@@ -27,13 +28,13 @@ def plan(**more: Any) -> Plan:
     }
     shape = {"kind": "band_noise", "low_frequency": 0.1, "high_frequency": 2.0, "duration": 12.0}
     drive = {"amplitude": 0.03, "shape": shape}
-    return Plan.read({"test": "specimen", "controller_rate": 512.0, "drive": drive, "stations": [station], "seed": 3})
+    return read_plan({"test": "specimen", "controller_rate": 512.0, "drive": drive, "stations": [station], "seed": 3})
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("diagnosis")
-    (made / "plan.yaml").write_text(plan().to_yaml(), encoding="utf-8")
+    (made / "plan.yaml").write_text(plan_to_yaml(plan()), encoding="utf-8")
     left_out = [{"kind": "backlash", "gap": 0.002}]
     recording.save(made / "played.h5", simulate(plan(specimen_physics=left_out), MotionLibrary(None)))
     recording.save(made / "clean.h5", simulate(plan(), MotionLibrary(None)))
@@ -57,7 +58,7 @@ def test_concealed_backlash_is_named_with_its_size_and_proved_on_what_was_not_fi
     assert fit["extended"]["heldout_nrmse"] < 0.5 * fit["baseline"]["heldout_nrmse"]
     assert sum(one["probability"] for one in found["candidates"]) <= 1 + 1e-9
     assert "backlash was left out" in capsys.readouterr().out
-    extended = Plan.read(found["extended_plan"])
+    extended = read_plan(found["extended_plan"])
     assert extended.stations[0].specimen_physics[0].id == "backlash"
 
 
@@ -73,7 +74,7 @@ def test_a_clean_recording_is_not_accused(folder: Path) -> None:
     ("arguments", "told"),
     [
         (["plan.yaml", "none.h5"], "there is no recording none.h5"),
-        (["plan.yaml", "plan.yaml"], "no complete rths-measured/1 or rths-recording/1 recording"),
+        (["plan.yaml", "plan.yaml"], "plan.yaml is not a complete recording"),
         (["two.yaml", "clean.h5"], "is of a test of kind 'specimen'; the plan's is 'hybrid'"),
         (["slow.yaml", "clean.h5"], "512 samples a second; the plan's controller rate is 256 Hz"),
         (["plan.yaml", "clean.h5", "--level", "2"], "rate of false alarms between 0 and 1"),
@@ -85,11 +86,11 @@ def test_what_cant_be_diagnosed_is_refused_with_the_reason(
 ) -> None:
     monkeypatch.chdir(folder)
     slow = plan().model_copy(update={"controller_rate": 256.0})
-    (folder / "slow.yaml").write_text(slow.to_yaml(), encoding="utf-8")
+    (folder / "slow.yaml").write_text(plan_to_yaml(slow), encoding="utf-8")
     first = plan().stations[0].model_dump()
     building = {"kind": "shear_building", "storeys": [{"mass": 1e6, "stiffness": 1e8}]}
     two = {"structure": building, "duration": 1.0, "stations": [{**first, "name": name} for name in ("A", "B")]}
-    (folder / "two.yaml").write_text(Plan.read(two).to_yaml(), encoding="utf-8")
+    (folder / "two.yaml").write_text(plan_to_yaml(read_plan(two)), encoding="utf-8")
     assert main(["diagnose", *arguments]) == 2
     assert told in capsys.readouterr().err
     assert not list(folder.glob(".*.tmp"))

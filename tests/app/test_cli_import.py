@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.cli import main
-from rths_engine import measured
+from app.cli.main import main
+from rths_engine.recordings import measured, opening
 from tests.engine.measurements import COLUMNS, F, csv
 
 
@@ -26,7 +26,7 @@ def test_the_proposed_mapping_imports_its_file(folder: Path, capsys: pytest.Capt
     assert main(["import", "sine.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0
     told = capsys.readouterr()
     assert "rec.h5: 1001 samples at 200 Hz, 5 s" in told.out and "f_meas.1" in told.out and told.err == ""
-    found = measured.load(folder / "rec.h5")
+    found = opening.load(folder / "rec.h5")
     np.testing.assert_allclose(found.get("f_meas", 1), 1e3 * F, rtol=1e-8, atol=1e-4)  # nine digits were written
     assert found.source == str(folder / "sine.csv")
     assert found.source_sha256 == hashlib.sha256(csv()).hexdigest()
@@ -39,7 +39,7 @@ def test_warnings_are_told_and_kept(folder: Path, capsys: pytest.CaptureFixture[
     (folder / "map.yaml").write_text(_mapping(), encoding="utf-8")
     assert main(["import", "sine.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0
     assert "warning: f_meas.1 at 0 s = 1 kN throughout: is constant" in capsys.readouterr().err
-    assert [warning.channel for warning in measured.load(folder / "rec.h5").warnings] == ["f_meas.1"]
+    assert [warning.channel for warning in opening.load(folder / "rec.h5").warnings] == ["f_meas.1"]
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_what_cant_be_used_exits_2_with_the_reason_and_leaves_nothing(
 
 
 def _mapping() -> str:
-    from rths_engine.measured import mapping_yaml
+    from rths_engine.recordings.measured import mapping_yaml
     from tests.engine.measurements import mapping
 
     return mapping_yaml.write(measured.Mapping.read(mapping()))

@@ -15,7 +15,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.cli import main
+from app.cli.main import main
 from tests.browser.service import until
 
 RTHS = [sys.executable, "-m", "app.cli"]

@@ -12,15 +12,16 @@ import sys
 import termios
 from pathlib import Path
 
-from rths_engine import templates
-from rths_engine.plan import RealTime
-from rths_engine.recording import load
+from rths_engine.planning import templates
+from rths_engine.planning.plan import RealTime
+from rths_engine.planning.reading import plan_to_yaml
+from rths_engine.recordings.run_file import load
 
 RTHS = [sys.executable, "-m", "app.cli"]
 
 
 def plan(**changes: object) -> str:
-    return templates.template("table3-04").model_copy(update=changes).to_yaml()
+    return plan_to_yaml(templates.template("table3-04").model_copy(update=changes))
 
 
 def until_shown(terminal: int, pattern: str) -> None:

@@ -9,8 +9,8 @@ import pytest
 
 from app import checking
 from app.config import VARIABLES, Settings, from_environment
-from rths_engine import run
-from rths_engine.errors import RthsError
+from rths_engine.foundation.errors import RthsError
+from rths_engine.running import run
 
 
 @pytest.fixture(autouse=True)

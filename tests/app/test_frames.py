@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from app.live.frames import HEADER, MOST_BUCKETS, Decimator, FrameStore, bucket_size
 from app.live.hub import Hub
-from rths_engine.channels import Channel
+from rths_engine.results.channels import Channel
 
 CHANNELS = (Channel("a", "A", "m", "mm", "s1"), Channel("b", "B", "N", "N", "s1"))
 

@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.cli import main
+from app.cli.main import main
 from app.runs.exports import csv_parts
-from rths_engine import templates
-from rths_engine.examples import EXAMPLES
-from rths_engine.recording import Recording
+from rths_engine.planning import templates
+from rths_engine.planning.examples import EXAMPLES
+from rths_engine.planning.reading import plan_to_yaml
+from rths_engine.recordings.run_file import Recording
 from tests.app.test_reports import RUN, Page, recorded, report_html
 
 WANTED = {
@@ -104,7 +105,7 @@ def test_the_command_line_runs_and_prints_every_kind(name: str, tmp_path: Path, 
 
 def test_a_record_for_a_test_that_follows_its_drive_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "plan.yaml"
-    path.write_text(templates.template("specimen-mr-damper").to_yaml())
+    path.write_text(plan_to_yaml(templates.template("specimen-mr-damper")))
     assert main(["run", str(path), "--record", "shake.at2"]) == 2
     assert "--record" in capsys.readouterr().err
 

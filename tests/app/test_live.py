@@ -19,10 +19,10 @@ from app.live.endpoints import FRAME_HEADER
 from app.live.frames import Decimator, bucket_size
 from app.live.messages import schema
 from app.runs.service import Outcome, RunService
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
-from rths_engine.recording import save
-from rths_engine.run import simulate
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.reading import read_plan
+from rths_engine.recordings.run_file import save
+from rths_engine.running.run import simulate
 from tests.app.conftest import plan
 
 
@@ -31,7 +31,7 @@ class Told:
 
     def __init__(self, client: TestClient, settings: Settings, worker: WebSocketTestSession):
         self.client, self.settings, self.worker = client, settings, worker
-        self.result = simulate(Plan.read(plan()))
+        self.result = simulate(read_plan(plan()))
         self.total = len(self.result.signals)
         self.id: str = client.post("/api/v1/runs", json={"plan": plan(), "submitted_by": "Ana"}).json()["runs"][0]["id"]
         self.attempt = 0

@@ -18,7 +18,7 @@ from app.live.frames import Decimator
 from app.live.messages import progress, schema
 from app.main import create_app
 from app.worker.link import Link, Telling
-from rths_engine.channels import Channel
+from rths_engine.results.channels import Channel
 from tests.browser.service import until
 
 CHANNELS = (Channel("a", "A", "m", "mm", "s1"), Channel("b", "B", "N", "N", "s1"))

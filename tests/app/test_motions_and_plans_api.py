@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from rths_engine.plan import Plan
+from rths_engine.planning.reading import read_plan
 from tests.app.conftest import plan
 
 MOTIONS = "/api/v1/motions"
@@ -82,7 +82,7 @@ def test_a_checked_plan_comes_back_with_digest_periods_and_warnings(client: Test
     checked = client.post("/api/v1/plans/check", json=plan()).json()
     assert checked["summary"]["periods_s"][0] == pytest.approx(1.48)
     assert checked["summary"]["steps"] == 205
-    assert checked["digest"] == Plan.read(checked["plan"]).digest
+    assert checked["digest"] == read_plan(checked["plan"]).digest
     (run,) = client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"]
     assert run["digest"] == checked["digest"]
     assert any("before its record" in warning for warning in checked["warnings"])
@@ -92,7 +92,7 @@ def test_yaml_goes_out_and_comes_back(client: TestClient) -> None:
     text = client.post("/api/v1/plans/write", json=plan()).text
     assert "# N/m" in text
     answer = client.post("/api/v1/plans/read", content=text.encode(), headers={"content-type": "application/yaml"})
-    assert Plan.read(answer.json()) == Plan.read(plan())
+    assert read_plan(answer.json()) == read_plan(plan())
 
 
 @pytest.mark.parametrize("body", [b"a: [", b"\xff\xfe", b"a: &a 1\nb: *a", b"[" * 5000])

@@ -16,7 +16,8 @@ from fastapi.testclient import TestClient
 from app import db
 from app.config import Settings
 from app.models import Base, RawFile
-from rths_engine.measured import Mapping, load
+from rths_engine.recordings.measured import Mapping
+from rths_engine.recordings.opening import load
 from tests.engine import measurements as made
 
 URL = "/api/v1/recordings"

@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
-from rths_engine import templates
-from rths_engine.examples import EXAMPLES
+from rths_engine.planning import templates
+from rths_engine.planning.examples import EXAMPLES
 from tests.app.test_refusals import CHECK, JSON, RUNS, leaves, stored
 
 DRIVE, STABILITY = "/api/v1/plans/drive", "/api/v1/stability"

@@ -16,13 +16,13 @@ import pytest
 from app.reports.packed import packed
 from app.reports.plan_tables import groups
 from app.reports.service import report_html
-from rths_engine import recording as recordings
-from rths_engine import templates
-from rths_engine.decimate import extremes
-from rths_engine.ground_motions import Motion, MotionLibrary, spectral_acceleration
-from rths_engine.plan import Plan, Station
-from rths_engine.recording import Recording
-from rths_engine.run import Run
+from rths_engine.parts.ground_motions import Motion, MotionLibrary, spectral_acceleration
+from rths_engine.planning import templates
+from rths_engine.planning.plan import Plan, Station
+from rths_engine.recordings import run_file as recordings
+from rths_engine.recordings.run_file import Recording
+from rths_engine.results.decimate import extremes
+from rths_engine.running.run import Run
 
 RUN: dict[str, Any] = {
     "id": "0b7c2a52-6a55-4b3e-b1a6-3f6f2a9d1c11",

@@ -18,7 +18,7 @@ from app.runs.repository import RunRepository
 from app.runs.schemas import RunOut
 from app.runs.service import Outcome, RunService
 from app.states import IllegalTransition, State
-from rths_engine.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions import MotionLibrary
 from tests.app.conftest import plan
 
 PATIENCE_S = 10  # far above a statement's time; only a deadlock takes as long

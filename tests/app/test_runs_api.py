@@ -22,10 +22,10 @@ from app.npm_parts import PARTS
 from app.runs.exports import ROWS
 from app.runs.service import Outcome, RunService
 from app.states import TRANSITIONS, IllegalTransition, State, check
-from rths_engine import recording
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
-from rths_engine.run import simulate
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.reading import plan_from_yaml, read_plan
+from rths_engine.recordings import run_file as recording
+from rths_engine.running.run import simulate
 from tests.app.conftest import ADDRESS, plan
 
 RUNS = "/api/v1/runs"
@@ -44,7 +44,7 @@ def execute(client: TestClient, settings: Settings, run_id: str) -> dict[str, An
     with unit_of_work(client.app.state.sessions) as session:
         run = RunService(session, motions).start(run_id, "test")
         assert run is not None
-        result = simulate(Plan.read(run.plan), motions)
+        result = simulate(read_plan(run.plan), motions)
     saved = recording.save(settings.recordings / f"{run_id}.h5", result)
     with unit_of_work(client.app.state.sessions) as session:
         RunService(session, motions).finish(run_id, Outcome(result.summary(), saved.sha256, saved.size))
@@ -59,7 +59,7 @@ def total(client: TestClient) -> int:
 def test_a_plan_is_queued_with_who_when_digest_and_seed(client: TestClient) -> None:
     run = client.get(f"{RUNS}/{submit(client)}").json()
     assert (run["state"], run["submitted_by"], run["seed"], run["template"]) == ("queued", "Ana", 4, "table3-04")
-    assert run["digest"] == Plan.read(run["plan"]).digest
+    assert run["digest"] == read_plan(run["plan"]).digest
     assert datetime.now(UTC) - datetime.fromisoformat(run["submitted_at"]) < timedelta(minutes=1)
 
 
@@ -150,7 +150,7 @@ def test_a_finished_run_gives_measures_recording_csv_report_and_plan(client: Tes
     assert len(lines) == 1 + 2050  # 205 integration steps cover 2 s
     assert float(lines[1].split(",")[0]) == pytest.approx(1 / 1024)
     assert "<html" in client.get(f"{RUNS}/{run_id}/report.html").text
-    assert Plan.from_yaml(client.get(f"{RUNS}/{run_id}/plan.yaml").text) == Plan.read(run["plan"])
+    assert plan_from_yaml(client.get(f"{RUNS}/{run_id}/plan.yaml").text) == read_plan(run["plan"])
 
 
 def test_a_csv_is_the_recording_in_shown_units_to_its_last_row(client: TestClient, settings: Settings) -> None:

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
-from app.cli import main
-from rths_engine import templates
+from app.cli.main import main
+from rths_engine.planning import templates
+from rths_engine.planning.reading import plan_to_yaml
 from tests.app.conftest import plan
 
 
@@ -72,7 +73,7 @@ def test_plotly_comes_from_this_service(client: TestClient) -> None:
 
 def test_the_command_prints_the_prediction(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "plan.yaml"
-    path.write_text(templates.template("table3-10").to_yaml())
+    path.write_text(plan_to_yaml(templates.template("table3-10")))
     assert main(["stability", str(path)]) == 0
     assert "UNSTABLE" in capsys.readouterr().out
     assert main(["stability", str(path), "--json"]) == 0

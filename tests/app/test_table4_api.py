@@ -11,7 +11,7 @@ from app import db
 from app.config import Settings
 from app.runs.service import Outcome, RunService
 from rths_engine import table4
-from rths_engine.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.table4.comparison import MEASURES, PAPER, published, stable
 
 

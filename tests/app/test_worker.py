@@ -16,7 +16,7 @@ import pytest
 from websockets.exceptions import ConnectionClosedError, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
-from rths_engine.recording import load
+from rths_engine.recordings.run_file import load
 from tests.browser.service import Service, running
 
 SLOW = {"kind": "real_time", "factor": 1.0}

@@ -19,7 +19,7 @@ from app.worker import executor as module
 from app.worker.engine import Done, Failed, Job
 from app.worker.executor import Executor
 from app.worker.pool import EngineDied
-from rths_engine.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions import MotionLibrary
 from tests.app.conftest import plan
 
 SUMMARY: dict[str, Any] = {

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from app.worker.engine import Job, _Telling
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.plan import Plan
-from rths_engine.run import Run
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.reading import read_plan
+from rths_engine.running.run import Run
 from tests.app.conftest import plan
 
 
@@ -30,7 +30,7 @@ class Heard:
 
 def test_progress_tells_the_measures_so_far_and_at_last_those_of_the_whole_test(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.worker.engine.PROGRESS_S", 0.0)
-    run = Run(Plan.read(plan()), MotionLibrary(None))
+    run = Run(read_plan(plan()), MotionLibrary(None))
     heard: Any = Heard()
     _Telling(run, Job("id", 1, plan(), Path("unused.h5"), Path("unused")), heard).run_to_end()
     told = [message for message in heard.messages if isinstance(message, dict) and message["type"] == "progress"]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from rths_engine.arrays import Array
-from rths_engine.dispatch import effects, extend_actuator, extend_sensor, extend_specimen, extend_storey
-from rths_engine.kernel import entry
-from rths_engine.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR, Effect, Seen
-from rths_engine.structures.assembled import Assembled
-from rths_engine.structures.shear_building import ShearBuilding
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.kernel import entry
+from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR, Effect, Seen
+from rths_engine.parts.structures.assembled import Assembled
+from rths_engine.parts.structures.shear_building import ShearBuilding
+from rths_engine.running.dispatch import effects, extend_actuator, extend_sensor, extend_specimen, extend_storey
 
 DT = 1 / 512
 TIME = DT * np.arange(int(16 / DT))

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.part import validated
-from rths_engine.plan import Plan, Station
-from rths_engine.run import Run
+from rths_engine.foundation.part import validated
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan, Station
+from rths_engine.planning.reading import read_plan
+from rths_engine.running.run import Run
 
 NO_LIMITS = {"displacement": 10.0, "velocity": 10.0, "force": 1e9}
 LIBRARY = MotionLibrary(None)
@@ -43,7 +44,7 @@ def make(
     rho = {"rho": more.pop("rho")} if "rho" in more else {}
     integrator = {"kind": kind, "dt": dt, "substeps": substeps, **rho}
     more["stations"] = [followed(station) for station in more.get("stations", [])]
-    return Plan.read(
+    return read_plan(
         {"structure": structure, "motion": motion, "integrator": integrator, "controller_rate": substeps / dt, **more}
     )
 

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 from scipy.signal import lfilter
 
-from rths_engine import replay
-from rths_engine.measured import Measured, MeasuredChannel
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect
-from rths_engine.plan import Plan
-from rths_engine.shapes import BandNoise
-from rths_engine.specimens.linear import LinearSpecimen
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
+from rths_engine.planning.shapes import BandNoise
+from rths_engine.recordings.measured import Measured, MeasuredChannel
+from rths_engine.running import replay
 
 RATE, DURATION = 512.0, 12.0
 FINER = 16
@@ -24,7 +25,7 @@ def plan(specimen: Part = BASELINE, **station: Any) -> Plan:
     """A specimen test without compensation."""
     rig = {"compensator": {"kind": "none"}, "specimen": specimen.model_dump(), **station}
     drive = {"amplitude": 0.02, "shape": {"kind": "sine"}}
-    return Plan.read({"test": "specimen", "stations": [rig], "controller_rate": RATE, "drive": drive, "duration": DURATION})
+    return read_plan({"test": "specimen", "stations": [rig], "controller_rate": RATE, "drive": drive, "duration": DURATION})
 
 
 def recording(seed: int, *left_out: Effect, amplitude: float = 0.04, noise: float = 0.01) -> Measured:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine.errors import PlanError
-from rths_engine.part import validated
-from rths_engine.run import Run
-from rths_engine.structures.condensation import condensed
-from rths_engine.structures.moment_frame import MomentFrame
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.part import validated
+from rths_engine.parts.structures.condensation import condensed
+from rths_engine.parts.structures.moment_frame import MomentFrame
+from rths_engine.running.run import Run
 from tests.engine.plans import NO_LIMITS, completed, make, shaking
 from tests.engine.test_frame import paper_frame
 

@@ -11,13 +11,13 @@ from scipy.signal import lfilter
 
 from rths_engine.diagnosis import diagnose
 from rths_engine.diagnosis.noise import FREQUENCY, coloured
-from rths_engine.errors import RecordingError
-from rths_engine.measured import Measured, MeasuredChannel
-from rths_engine.physics.effect import Effect
-from rths_engine.physics.specimen.asymmetry import Asymmetry
-from rths_engine.physics.specimen.backlash import Backlash
-from rths_engine.physics.specimen.coulomb_friction import CoulombFriction
-from rths_engine.plan import Plan
+from rths_engine.foundation.errors import RecordingError
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
+from rths_engine.parts.physics.specimen.backlash import Backlash
+from rths_engine.parts.physics.specimen.coulomb_friction import CoulombFriction
+from rths_engine.planning.reading import read_plan
+from rths_engine.recordings.measured import Measured, MeasuredChannel
 from tests.engine.recorded_specimens import BASELINE, plan, recording
 
 
@@ -49,7 +49,7 @@ def test_what_was_left_out_is_named_sized_and_shown_on_another_recording(effect:
     assert number["ci90"][0] < number["value"] < number["ci90"][1]
     assert found["fit"]["extended"]["heldout_nrmse"] < 1.2 * found["fit"]["noise_floor_nrmse"]
     assert found["fit"]["extended"]["heldout_nrmse"] < 0.5 * found["fit"]["baseline"]["heldout_nrmse"]
-    again = Plan.read(found["extended_plan"])
+    again = read_plan(found["extended_plan"])
     assert getattr(again.stations[0].specimen_physics[0], size) == number["value"]
     assert sum(one["probability"] for one in found["candidates"]) <= 1 + 1e-9
 

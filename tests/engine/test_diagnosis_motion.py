@@ -6,19 +6,20 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from rths_engine import replay
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.actuators.velocity_drive import VelocityDrive
-from rths_engine.arrays import Array
 from rths_engine.diagnosis import diagnose
 from rths_engine.diagnosis.components import ClockSkew, Specimen, SpecimenData, StepError
 from rths_engine.diagnosis.smoother import Smoother
-from rths_engine.measured import Measured, MeasuredChannel
-from rths_engine.part import Part
-from rths_engine.plan import Plan
-from rths_engine.shapes import BandNoise
-from rths_engine.specimens.linear import LinearSpecimen
-from rths_engine.specimens.mr_damper import MrDamper
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.actuators.velocity_drive import VelocityDrive
+from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.parts.specimens.mr_damper import MrDamper
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
+from rths_engine.planning.shapes import BandNoise
+from rths_engine.recordings.measured import Measured, MeasuredChannel
+from rths_engine.running import replay
 
 RATE, DURATION = 512.0, 14.0
 DT = 1 / RATE
@@ -39,7 +40,7 @@ def plan(actuator: Part) -> Plan:
         "limits": {"displacement": 1.0, "velocity": 0.5},
     }
     drive = {"amplitude": 0.02, "shape": {"kind": "sine"}}
-    return Plan.read({"test": "actuator", "stations": [rig], "controller_rate": RATE, "drive": drive, "duration": DURATION})
+    return read_plan({"test": "actuator", "stations": [rig], "controller_rate": RATE, "drive": drive, "duration": DURATION})
 
 
 def measured(**channels: Array) -> Measured:

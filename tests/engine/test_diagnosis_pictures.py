@@ -10,7 +10,7 @@ import pytest
 
 from rths_engine.diagnosis import Diagnosis, diagnose
 from rths_engine.diagnosis.pictures import POINTS, pictures
-from rths_engine.physics.specimen.backlash import Backlash
+from rths_engine.parts.physics.specimen.backlash import Backlash
 from tests.engine import recorded_specimens as made
 
 

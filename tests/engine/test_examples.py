@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine import templates
-from rths_engine.examples import EXAMPLES
-from rths_engine.plan import Plan
-from rths_engine.plan_checks import TESTS
-from rths_engine.result import Result
-from rths_engine.run import simulate
+from rths_engine.planning import templates
+from rths_engine.planning.examples import EXAMPLES
+from rths_engine.planning.kinds_of_test import TESTS
+from rths_engine.planning.reading import read_plan
+from rths_engine.results.result import Result
+from rths_engine.running.run import simulate
 
 
 @pytest.fixture(scope="module")
 def results() -> dict[str, Result]:
-    return {name: simulate(Plan.read(templates.template(name).as_dict())) for name in EXAMPLES}
+    return {name: simulate(read_plan(templates.template(name).as_dict())) for name in EXAMPLES}
 
 
 def test_every_example_runs_to_its_end(results: dict[str, Result]) -> None:

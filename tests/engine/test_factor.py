@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rths_engine.errors import PlanError
-from rths_engine.factor import factorised
-from rths_engine.solve import solve
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.factor import factorised
+from rths_engine.running.solve import solve
 
 
 def coupled(seed: int, size: int) -> np.ndarray:

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine.errors import PlanError
-from rths_engine.part import validated
-from rths_engine.restoring import rows, subtract_forces, subtract_product
-from rths_engine.structures.assembled import Members
-from rths_engine.structures.frame_model import FrameModel, Member
-from rths_engine.structures.moment_frame import MomentFrame
-from rths_engine.structures.sections import SECTIONS
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.part import validated
+from rths_engine.parts.structures.assembled import Members
+from rths_engine.parts.structures.frame_model import FrameModel, Member
+from rths_engine.parts.structures.moment_frame import MomentFrame
+from rths_engine.parts.structures.sections import SECTIONS
+from rths_engine.running.restoring import rows, subtract_forces, subtract_product
 from tests.engine.plans import completed, make, quiet, shaking
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rths_engine.errors import MotionError
-from rths_engine.ground_motions import Motion, MotionLibrary
-from rths_engine.units import STANDARD_GRAVITY
+from rths_engine.foundation.errors import MotionError
+from rths_engine.foundation.units import STANDARD_GRAVITY
+from rths_engine.parts.ground_motions import Motion, MotionLibrary
 
-INDEX = json.loads((files("rths_engine.ground_motions") / "data" / "records.json").read_text(encoding="utf-8"))
+INDEX = json.loads((files("rths_engine.parts.ground_motions") / "data" / "records.json").read_text(encoding="utf-8"))
 SINE = Motion("my-sine", "A sine", 0.01, np.sin(np.arange(200) * 0.1), provenance="made here", event="none")
 
 

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rths_engine.errors import MotionError
-from rths_engine.ground_motions import channels, read
-from rths_engine.units import STANDARD_GRAVITY
+from rths_engine.foundation.errors import MotionError
+from rths_engine.foundation.units import STANDARD_GRAVITY
+from rths_engine.parts.ground_motions import channels, read
 
 DT = 0.01
 SHAPE = 0.3 * np.sin(np.arange(123) * 0.4) * np.exp(-np.arange(123) / 60)  # g

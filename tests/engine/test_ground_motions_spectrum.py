@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rths_engine.errors import MotionError, RthsError
-from rths_engine.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
-from rths_engine.ground_motions.scaling import Factor, ToPga, ToSpectralAcceleration
+from rths_engine.foundation.errors import MotionError, RthsError
+from rths_engine.parts.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
+from rths_engine.parts.ground_motions.scaling import Factor, ToPga, ToSpectralAcceleration
 
 EL_CENTRO = MotionLibrary(None).get("imperial-valley-1940-el-centro-ns")
 BETWEEN_POINTS = 1 - np.cos(np.pi / 20)  # a peak midway between points T/20 apart is missed by this fraction

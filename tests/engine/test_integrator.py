@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine.errors import PlanError
-from rths_engine.factor import factorised
-from rths_engine.integrators.cr import CrIntegrator
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.factor import factorised
+from rths_engine.parts.integrators.cr import CrIntegrator
 from tests.engine.plans import building, completed, make, quiet
 
 PERIOD, RATIO = 0.5, 0.05

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine.errors import PlanError
-from rths_engine.integrators import KINDS
-from rths_engine.integrators.kr_alpha import KrAlphaIntegrator
+from rths_engine.foundation.errors import PlanError
+from rths_engine.parts.integrators import KINDS
+from rths_engine.parts.integrators.kr_alpha import KrAlphaIntegrator
 from rths_engine.stability.closed_loop import ClosedLoop
 from tests.engine.plans import NO_LIMITS, building, completed, make, shaking
 

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from rths_engine import kernel
+from rths_engine.foundation import kernel
 
 
 def test_the_cache_folder_is_keyed_by_every_source_of_the_engine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "specimens").mkdir()
     part = tmp_path / "specimens" / "part.py"
     part.write_text("a = 1\n")
-    monkeypatch.setattr(kernel, "__file__", str(tmp_path / "kernel.py"))
+    monkeypatch.setattr(kernel, "__file__", str(tmp_path / "foundation" / "kernel.py"))
     before = kernel.source_digest()
     part.write_text("a = 2\n")
     assert kernel.source_digest() != before
@@ -27,15 +27,15 @@ def test_fold_calls_the_step_of_its_code() -> None:
 
 
 FOLDED_FIRST = """
-from rths_engine import compensators
-from rths_engine.kernel import fold
+from rths_engine.parts import compensators
+from rths_engine.foundation.kernel import fold
 dispatch = fold([part.step for part in compensators.KINDS])
 for code, part in enumerate(compensators.KINDS):
     dispatch(code, *part().build(1 / 1024), 0.0, 0.0, 0.0, 0.0, 1 / 1024)
 """
 RUN = """
-from rths_engine import templates
-from rths_engine.run import simulate
+from rths_engine.planning import templates
+from rths_engine.running.run import simulate
 print(simulate(templates.template("table3-04").model_copy(update={"duration": 0.5})).signals.tobytes().hex())
 """
 

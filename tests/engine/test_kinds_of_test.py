@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine import plan_checks
-from rths_engine.errors import PlanError
-from rths_engine.excitation import Drive
-from rths_engine.plan import Plan
-from rths_engine.shapes import SHAPES, BandNoise, Chirp, IncreasingCycles, Samples, Sine, Step, Still, Triangle
+from rths_engine.foundation.errors import PlanError
+from rths_engine.planning import checks
+from rths_engine.planning.excitation import Drive
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import plan_from_yaml, plan_to_yaml, read_plan
+from rths_engine.planning.shapes import SHAPES, BandNoise, Chirp, IncreasingCycles, Samples, Sine, Step, Still, Triangle
 from tests.engine.plans import NO_LIMITS, building, completed, make
 
 SINE = {"kind": "sine", "frequency": 0.5, "cycles": 4, "ramps": 1}
@@ -29,7 +30,7 @@ LINEAR = {"kind": "linear", "stiffness": 2.0e6, "damping": 3.0e4}
 
 
 def test_a_specimen_with_an_ideal_actuator_follows_the_drive_and_gives_its_force() -> None:
-    run = completed(Plan.read(driven("specimen")))
+    run = completed(read_plan(driven("specimen")))
     result = run.result("completed", 0.0)
     time = np.arange(1, run.total + 1) * run.dt
     x = 0.02 * Sine(**SINE).sample(time)
@@ -44,7 +45,7 @@ def test_a_specimen_with_an_ideal_actuator_follows_the_drive_and_gives_its_force
 def test_an_actuator_tracks_its_command_with_its_own_lag() -> None:
     """First-order delay: behind a sine by the phase of z / (alpha z - (alpha - 1))."""
     actuator = {**IDEAL, "alpha": 30.0}
-    plan = Plan.read(driven("actuator", station={"actuator": actuator}))
+    plan = read_plan(driven("actuator", station={"actuator": actuator}))
     run = completed(plan)
     z = np.exp(2j * np.pi * 0.5 / 1024)
     gain = z / (30 * z - 29)
@@ -56,10 +57,10 @@ def test_an_actuator_tracks_its_command_with_its_own_lag() -> None:
 
 
 def test_a_test_without_a_structure_has_no_periods_and_no_digest_of_one() -> None:
-    plan = Plan.read(driven("specimen"))
+    plan = read_plan(driven("specimen"))
     assert len(plan.periods()) == 0
     assert plan.driven and plan.step == plan.substep
-    assert Plan.from_yaml(plan.to_yaml()).digest == plan.digest
+    assert plan_from_yaml(plan_to_yaml(plan)).digest == plan.digest
 
 
 def test_a_constant_force_holds_a_storey_at_force_over_stiffness() -> None:
@@ -93,7 +94,7 @@ def test_a_constant_force_holds_a_storey_at_force_over_stiffness() -> None:
 )
 def test_a_plan_that_does_not_fit_its_kind_of_test_is_told_where(changed: dict[str, Any], where: str, told: str) -> None:
     with pytest.raises(PlanError) as caught:
-        Plan.read(
+        read_plan(
             {
                 **driven("specimen", **{k: v for k, v in changed.items() if k == "station"}),
                 **{k: v for k, v in changed.items() if k != "station"},
@@ -120,7 +121,7 @@ def test_an_excitation_that_does_not_fit_the_structure_is_told_where(changed: di
 def test_a_velocity_limit_beyond_the_actuator_is_named_before_the_start() -> None:
     actuator = {"kind": "servo_hydraulic", "velocity_limit": 0.25}
     with pytest.raises(PlanError, match=r"stations\.0\.limits\.velocity.*300 mm/s, more than the actuator's 250 mm/s"):
-        Plan.read(driven("specimen", station={"actuator": actuator, "limits": {}}))
+        read_plan(driven("specimen", station={"actuator": actuator, "limits": {}}))
 
 
 MADE = [
@@ -177,31 +178,31 @@ def test_a_field_declared_for_other_kinds_of_test_is_refused_and_one_for_this_ki
     plain = driven(test) if test in ("specimen", "actuator") else {"test": test, **hybrid}
     if test == "structure":
         plain.pop("stations")
-    Plan.read(plain)
+    read_plan(plain)
     changed = {**plain, field: OTHERWISE[field]}
     if test in USED[field]:
-        Plan.read(changed)
+        read_plan(changed)
     else:
         with pytest.raises(PlanError, match=rf"^{field}\b"):
-            Plan.read(changed)
+            read_plan(changed)
 
 
 @pytest.mark.parametrize(("field", "value"), [("storey", 2), ("dampers", 6), ("equivalent_damping", 1e5)])
 def test_what_a_station_stands_for_in_a_building_is_refused_in_a_test_without_one(field: str, value: float) -> None:
     with pytest.raises(PlanError, match=rf"stations\.0\.{field}.*not used in this kind of test"):
-        Plan.read(driven("specimen", station={field: value}))
+        read_plan(driven("specimen", station={field: value}))
 
 
 @pytest.mark.parametrize("frequency", [1e-300, 1e-4])
 def test_a_drive_without_end_is_refused_before_it_is_sampled(frequency: float) -> None:
     with pytest.raises(PlanError, match=r"drive\.shape.*: lasts .* s; 3600 s is the most"):
-        Plan.read(driven("specimen", drive={"shape": {**SINE, "frequency": frequency}}))
+        read_plan(driven("specimen", drive={"shape": {**SINE, "frequency": frequency}}))
 
 
 def test_a_long_drive_is_checked_against_its_limits_at_some_moments() -> None:
     sine = {"kind": "sine", "frequency": 1.0, "cycles": 3600, "ramps": 0}
     drive = Drive(amplitude=0.02, shape=Sine(**sine))
-    displacement, velocity = plan_checks.peaks(drive, 3600.0, 100_000.0)
+    displacement, velocity = checks.peaks(drive, 3600.0, 100_000.0)
     # 28 moments of every cycle: within half of 1/28 of a cycle from the peak, 1 - cos(pi / 28) = 0.6 % below it at most
     assert displacement == pytest.approx(0.02, rel=0.0063)
     assert velocity == pytest.approx(0.02 * 2 * np.pi, rel=0.0063)
@@ -210,4 +211,4 @@ def test_a_long_drive_is_checked_against_its_limits_at_some_moments() -> None:
 def test_a_drive_that_starts_beside_zero_jumps() -> None:
     samples = {"kind": "samples", "dt": 1.0, "values": [1.0, 1.0]}
     with pytest.raises(PlanError, match=r"drive\.shape.*: reaches 2\.048e\+04 mm/s"):
-        Plan.read(driven("specimen", drive={"amplitude": 0.02, "shape": samples}))
+        read_plan(driven("specimen", drive={"amplitude": 0.02, "shape": samples}))

@@ -9,13 +9,14 @@ import h5py
 import numpy as np
 import pytest
 
-from rths_engine import recording
-from rths_engine.errors import MeasuredError, RecordingError
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.measured import Mapping, Measured, examine, imported, load, save
-from rths_engine.measured.table import Column, Table
-from rths_engine.run import simulate
-from rths_engine.templates import template
+from rths_engine.foundation.errors import MeasuredError, RecordingError
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.templates import template
+from rths_engine.recordings import run_file as recording
+from rths_engine.recordings.measured import Mapping, Measured, examine, imported, save
+from rths_engine.recordings.measured.table import Column, Table
+from rths_engine.recordings.opening import load
+from rths_engine.running.run import simulate
 from tests.engine.measurements import COLUMNS, NAMES, RATE, X, mapping
 
 
@@ -115,7 +116,7 @@ def test_a_recording_comes_back_as_it_was_kept(tmp_path: Path) -> None:
 
 
 def test_nothing_half_written_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rths_engine.measured.store._write", lambda *_: (_ for _ in ()).throw(OSError("disk full")))
+    monkeypatch.setattr("rths_engine.recordings.measured.store._write", lambda *_: (_ for _ in ()).throw(OSError("disk full")))
     with pytest.raises(OSError, match="disk full"):
         save(tmp_path / "rec.h5", imported(table(), Mapping.read(mapping())))
     assert list(tmp_path.iterdir()) == []
@@ -126,7 +127,7 @@ def test_what_is_no_recording_is_refused(tmp_path: Path) -> None:
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file.attrs["schema"] = "other/1"
     for name in ("text.h5", "other.h5"):
-        with pytest.raises(RecordingError, match=f"{name} is no complete rths-measured/1"):
+        with pytest.raises(RecordingError, match=f"{name} is not a"):
             load(tmp_path / name)
     with pytest.raises(RecordingError, match=r"there is no recording none\.h5"):
         load(tmp_path / "none.h5")

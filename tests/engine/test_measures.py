@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine import metrics
-from rths_engine.arrays import Array
-from rths_engine.run import Run
+from rths_engine.foundation.arrays import Array
+from rths_engine.results import metrics
+from rths_engine.running.run import Run
 from tests.engine.plans import building, completed, make, shaking
 
 DT = 1 / 1024

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine.metrics.decay import free_decay
+from rths_engine.results.metrics.decay import free_decay
 
 DT = 1 / 1024
 TIME = np.arange(20 * 1024) * DT

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine import metrics, templates
-from rths_engine.metrics.frequency import RunningFrequency
-from rths_engine.plan import Plan
-from rths_engine.run import Run
+from rths_engine.planning import templates
+from rths_engine.planning.plan import Plan
+from rths_engine.results import metrics
+from rths_engine.results.metrics.frequency import RunningFrequency
+from rths_engine.running.run import Run
 from tests.engine.plans import LIBRARY
 
 # |running - whole|: rounding of sums in another order; the index's segments as metrics.running promises

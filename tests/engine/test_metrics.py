@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine import metrics
+from rths_engine.results import metrics
 
 
 def test_tracking_error_measures_of_a_hand_made_signal() -> None:

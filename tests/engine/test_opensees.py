@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine.part import validated
-from rths_engine.structures.modes import circular_frequencies
-from rths_engine.structures.moment_frame import MomentFrame
+from rths_engine.foundation.part import validated
+from rths_engine.parts.structures.modes import circular_frequencies
+from rths_engine.parts.structures.moment_frame import MomentFrame
 from tests.engine.plans import completed, make
 from tests.engine.test_frame import paper_frame
 from tests.opensees import peer

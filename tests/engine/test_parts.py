@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from rths_engine import actuators, compensators, specimens
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.compensators.aic import AdaptiveInverseCompensation
-from rths_engine.compensators.inverse import InverseCompensation
-from rths_engine.errors import PlanError
-from rths_engine.kernel import fold
-from rths_engine.part import validated
-from rths_engine.specimens.linear import LinearSpecimen
-from rths_engine.specimens.mr_damper import MrDamper
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.kernel import fold
+from rths_engine.foundation.part import validated
+from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.compensators.inverse import InverseCompensation
+from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.parts.specimens.mr_damper import MrDamper
 
 DT = 1 / 1024
 REGISTRIES = {"compensators": compensators, "actuators": actuators, "specimens": specimens}

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.actuators.second_order import SecondOrderActuator
-from rths_engine.actuators.servo_hydraulic import ServoHydraulicActuator
-from rths_engine.actuators.velocity_drive import VelocityDrive
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.actuators.second_order import SecondOrderActuator
+from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
+from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 
 DT = 1 / 1024
 UNLIMITED = {"velocity_limit": 10.0, "force_limit": 1e8}

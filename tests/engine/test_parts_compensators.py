@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.actuators.second_order import SecondOrderActuator
-from rths_engine.compensators.ats import AdaptiveTimeSeries
-from rths_engine.compensators.derivative import DerivativeFeedForward
-from rths_engine.compensators.dual import DualCompensation
-from rths_engine.compensators.inverse import InverseCompensation
-from rths_engine.compensators.phase_lead import PhaseLead
-from rths_engine.compensators.polynomial import PolynomialExtrapolation
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.actuators.second_order import SecondOrderActuator
+from rths_engine.parts.compensators.ats import AdaptiveTimeSeries
+from rths_engine.parts.compensators.derivative import DerivativeFeedForward
+from rths_engine.parts.compensators.dual import DualCompensation
+from rths_engine.parts.compensators.inverse import InverseCompensation
+from rths_engine.parts.compensators.phase_lead import PhaseLead
+from rths_engine.parts.compensators.polynomial import PolynomialExtrapolation
 
 DT = 1 / 1024
 UNLIMITED = {"velocity_limit": 10.0, "force_limit": 1e8}

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine import actuators, compensators, specimens
-from rths_engine.run import simulate
+from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.running.run import simulate
 from tests.engine.plans import LIBRARY, NO_LIMITS, building, completed, make, shaking
 
 TIME = np.arange(801) * 0.01

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rths_engine.errors import PlanError
-from rths_engine.part import validated
-from rths_engine.specimens.bouc_wen import BoucWen
-from rths_engine.specimens.elastomeric import Elastomeric
-from rths_engine.specimens.friction_slider import FrictionSlider
-from rths_engine.specimens.hyperbolic_tangent import HyperbolicTangent
-from rths_engine.specimens.linear import LinearSpecimen
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.part import validated
+from rths_engine.parts.specimens.bouc_wen import BoucWen
+from rths_engine.parts.specimens.elastomeric import Elastomeric
+from rths_engine.parts.specimens.friction_slider import FrictionSlider
+from rths_engine.parts.specimens.hyperbolic_tangent import HyperbolicTangent
+from rths_engine.parts.specimens.linear import LinearSpecimen
 
 DT = 1 / 1024
 

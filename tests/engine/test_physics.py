@@ -12,11 +12,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rths_engine import physics, replay, specimens
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.errors import PlanError
-from rths_engine.part import Value, validated
-from rths_engine.physics.effect import F_SENSOR, GROUND, MATRICES, PART, X_SENSOR, Effect, Seen
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.part import Value, validated
+from rths_engine.parts import physics, specimens
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.physics.effect import F_SENSOR, GROUND, MATRICES, PART, X_SENSOR, Effect, Seen
+from rths_engine.running import replay
 from tests.engine.effects import CURRENT, DT, PATH, SEEN, building, signals, streamed
 
 NAMES = {

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rths_engine.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.actuators.second_order import SecondOrderActuator
-from rths_engine.actuators.servo_hydraulic import ServoHydraulicActuator
-from rths_engine.arrays import Array
-from rths_engine.physics.actuator import (
+from rths_engine.foundation.arrays import Array
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.actuators.second_order import SecondOrderActuator
+from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
+from rths_engine.parts.physics.actuator import (
     AmplitudeDependentDelay,
     Backlash,
     DeadBand,

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine import physics, replay
-from rths_engine.errors import PlanError
-from rths_engine.physics.specimen.backlash import Backlash
-from rths_engine.physics.specimen.viscous_heating import ViscousHeating
-from rths_engine.plan import Plan
-from rths_engine.run import simulate
-from rths_engine.specimens.mr_damper import MrDamper
+from rths_engine.foundation.errors import PlanError
+from rths_engine.parts import physics
+from rths_engine.parts.physics.specimen.backlash import Backlash
+from rths_engine.parts.physics.specimen.viscous_heating import ViscousHeating
+from rths_engine.parts.specimens.mr_damper import MrDamper
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import plan_from_yaml, plan_to_yaml, read_plan
+from rths_engine.running import replay
+from rths_engine.running.run import simulate
 from tests.engine.plans import LIBRARY, building, make, shaking
 from tests.engine.test_kinds_of_test import driven
 
@@ -55,7 +57,7 @@ def test_effects_of_structure_and_motion_at_neutral_values_change_nothing() -> N
 
 def test_a_specimen_in_the_loop_is_the_specimen_replayed() -> None:
     effects = (Backlash(gap=0.004), ViscousHeating(fade=1e-5))
-    plan = Plan.read(
+    plan = read_plan(
         driven(
             "specimen", station={"specimen": {"kind": "mr_damper"}, "specimen_physics": [one.model_dump() for one in effects]}
         )
@@ -66,7 +68,7 @@ def test_a_specimen_in_the_loop_is_the_specimen_replayed() -> None:
     replayed = replay.specimen(MrDamper(), effects, from_rest, np.ones(len(from_rest)), result.dt)[1:]
     # the loop centres the play at its first sample, the replay a substep before, at rest
     assert result.signal("s1.f_meas") == pytest.approx(replayed, abs=1e-6 * np.abs(replayed).max())
-    plain = simulate(Plan.read(driven("specimen", station={"specimen": {"kind": "mr_damper"}})), LIBRARY)
+    plain = simulate(read_plan(driven("specimen", station={"specimen": {"kind": "mr_damper"}})), LIBRARY)
     assert np.abs(plain.signal("s1.f_meas") - replayed).max() > 0.1 * np.abs(replayed).max()
 
 
@@ -93,7 +95,7 @@ def test_a_ground_motion_scaled_wrongly_shakes_a_linear_test_as_much_more() -> N
 
 def test_a_plan_with_effects_survives_yaml() -> None:
     plan = hybrid({"specimen_physics": [{"kind": "backlash", "gap": 0.002}]}, structure_physics=[{"kind": "p_delta"}])
-    assert Plan.from_yaml(plan.to_yaml()).digest == plan.digest
+    assert plan_from_yaml(plan_to_yaml(plan)).digest == plan.digest
 
 
 @pytest.mark.parametrize("kind", ["cubic_stiffness", "mass_error"])
@@ -106,4 +108,4 @@ def test_an_effect_of_a_storey_that_is_not_there_is_told_where(kind: str) -> Non
 def test_effects_of_what_a_test_does_not_have_are_refused(field: str) -> None:
     effect = {"structure_physics": {"kind": "p_delta"}, "motion_physics": {"kind": "scale_error", "share": 0.1}}[field]
     with pytest.raises(PlanError, match=f"{field} = 1: is not used in this kind of test"):
-        Plan.read(driven("specimen", **{field: [effect]}))
+        read_plan(driven("specimen", **{field: [effect]}))

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from rths_engine.physics.effect import Effect
-from rths_engine.physics.input import BaselineDrift, GroundScaleError, LowPass, TimeShift
-from rths_engine.physics.sensor import (
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.input import BaselineDrift, GroundScaleError, LowPass, TimeShift
+from rths_engine.parts.physics.sensor import (
     DisplacementDrift,
     DisplacementDropout,
     DisplacementOffset,

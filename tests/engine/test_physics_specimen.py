@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rths_engine import replay
-from rths_engine.arrays import Array
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect
-from rths_engine.physics.specimen import (
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.specimen import (
     AddedInertia,
     Asymmetry,
     Backlash,
@@ -29,10 +28,11 @@ from rths_engine.physics.specimen import (
     VelocityExponent,
     ViscousHeating,
 )
-from rths_engine.specimens.bouc_wen import BoucWen
-from rths_engine.specimens.friction_slider import FrictionSlider
-from rths_engine.specimens.hyperbolic_tangent import HyperbolicTangent
-from rths_engine.specimens.linear import LinearSpecimen
+from rths_engine.parts.specimens.bouc_wen import BoucWen
+from rths_engine.parts.specimens.friction_slider import FrictionSlider
+from rths_engine.parts.specimens.hyperbolic_tangent import HyperbolicTangent
+from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.running import replay
 from tests.engine.effects import enclosed, stepped
 
 DT = 1 / 1024

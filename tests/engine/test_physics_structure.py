@@ -7,10 +7,10 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from rths_engine.errors import PlanError
-from rths_engine.part import validated
-from rths_engine.physics.effect import Effect
-from rths_engine.physics.structure import (
+from rths_engine.foundation.errors import PlanError
+from rths_engine.foundation.part import validated
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.structure import (
     BaseFlexibility,
     BoucWenHysteresis,
     CoulombFriction,
@@ -25,9 +25,9 @@ from rths_engine.physics.structure import (
     StiffnessError,
     Yielding,
 )
-from rths_engine.restoring import subtract_forces
-from rths_engine.structures.moment_frame import MomentFrame
-from rths_engine.structures.shear_building import ShearBuilding
+from rths_engine.parts.structures.moment_frame import MomentFrame
+from rths_engine.parts.structures.shear_building import ShearBuilding
+from rths_engine.running.restoring import subtract_forces
 from tests.engine.effects import building as built_of
 from tests.engine.effects import enclosed, stepped
 from tests.engine.plans import building, completed, make, shaking

@@ -8,9 +8,11 @@ import h5py
 import numpy as np
 import pytest
 
-from rths_engine import files, recording, templates
-from rths_engine.errors import RecordingError
-from rths_engine.run import Run, simulate
+from rths_engine.foundation import files
+from rths_engine.foundation.errors import RecordingError
+from rths_engine.planning import templates
+from rths_engine.recordings import run_file as recording
+from rths_engine.running.run import Run, simulate
 from tests.engine.plans import LIBRARY
 
 PLAN = templates.template("table3-04").model_copy(update={"duration": 2.0})

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rths_engine import metrics, oscillation
-from rths_engine.plan import Plan
-from rths_engine.run import Run, simulate
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
+from rths_engine.results import metrics
+from rths_engine.running import oscillation
+from rths_engine.running.run import Run, simulate
 from tests.engine.plans import LIBRARY, NO_LIMITS, building, completed, make, shaking
 
 TAU, STIFFNESS, DAMPING, DAMPERS = 0.01, 2.0e6, 4.0e4, 2
@@ -162,7 +164,7 @@ def test_an_unstable_loop_trips_rather_than_overflows() -> None:
         one["specimen"] = {"kind": "linear", "stiffness": 5e9}
         one["compensator"] = {"kind": "none"}
         one["limits"] = {"displacement": 0.2, "velocity": 0.3}
-    result = simulate(Plan.read(data), LIBRARY)
+    result = simulate(read_plan(data), LIBRARY)
     assert result.status == "tripped"
     assert np.isfinite(result.signals).all()
 
@@ -202,7 +204,7 @@ def test_the_second_storey_force_acts_on_both_floors() -> None:
     data = mr_plan().as_dict()
     data["stations"] = data["stations"][1:]
     data["structure"]["damping_ratio"] = 0.0
-    run = Run(Plan.read(data), LIBRARY)
+    run = Run(read_plan(data), LIBRARY)
     run.advance(200)
     force = 2 * run.result("cancelled", 0).signal("s1.f_meas")[-1]
     assert run.plan.drifts().T @ [force] == pytest.approx([-force, force])

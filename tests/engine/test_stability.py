@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from rths_engine import actuators, compensators, specimens, templates
-from rths_engine.plan import Plan, Station
+from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.planning import templates
+from rths_engine.planning.plan import Plan, Station
+from rths_engine.planning.reading import read_plan
 from rths_engine.stability import ClosedLoop, delay_map, mapped, margin, published, stable, summary
 from rths_engine.stability import station as stations
 from tests.engine.plans import NO_LIMITS, building, make, quiet
@@ -138,7 +140,7 @@ def test_the_map_holds_the_radius_of_each_pair_of_delays() -> None:
         changed["stations"][0]["actuator"]["alpha"] = found.first.values[column]
         changed["stations"][1]["actuator"]["alpha"] = found.second.values[row]
         # balancing differs with the matrix size
-        assert found.radius[row, column] == pytest.approx(ClosedLoop(Plan.read(changed)).radius(), abs=1e-9)
+        assert found.radius[row, column] == pytest.approx(ClosedLoop(read_plan(changed)).radius(), abs=1e-9)
     assert (found.first.present, found.second.present) == (30.0, 45.0)
     assert found.radius.max() > 1 > found.radius.min()
 
@@ -156,7 +158,7 @@ def frame(equivalent_stiffness: float) -> Plan:
     data["structure"] = {"kind": "moment_frame", "bays": [9.15] * 4, "storeys": storeys}
     for one in data["stations"]:
         one["equivalent_stiffness"] = equivalent_stiffness
-    return Plan.read(data)
+    return read_plan(data)
 
 
 def test_a_frame_with_stiff_dampers_needs_their_equivalent_stiffness_in_the_integrator() -> None:

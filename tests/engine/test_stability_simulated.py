@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine.plan import Plan
-from rths_engine.run import Run
+from rths_engine.planning.plan import Plan
+from rths_engine.running.run import Run
 from rths_engine.stability import ClosedLoop
 from tests.engine.plans import LIBRARY, NO_LIMITS, building, make, quiet
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from rths_engine import templates
-from rths_engine.result import Result
-from rths_engine.run import simulate
+from rths_engine.planning import templates
+from rths_engine.results.result import Result
+from rths_engine.running.run import simulate
 
 
 @pytest.fixture(scope="module")

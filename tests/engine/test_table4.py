@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from rths_engine import table4
-from rths_engine.ground_motions import MotionLibrary
-from rths_engine.motion import FileMotion
-from rths_engine.run import simulate
-from rths_engine.safety import Limits
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.motion import FileMotion
+from rths_engine.planning.safety import Limits
+from rths_engine.running.run import simulate
 from rths_engine.stability.closed_loop import ClosedLoop
 from rths_engine.stability.closed_loop import stable as is_stable
 from rths_engine.table4 import running

@@ -10,9 +10,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from rths_engine.structures.moment_frame import LEAN_AREA, LEAN_INERTIA, MomentFrame
-from rths_engine.structures.sections import SECTIONS
-from rths_engine.units import STANDARD_GRAVITY
+from rths_engine.foundation.units import STANDARD_GRAVITY
+from rths_engine.parts.structures.moment_frame import LEAN_AREA, LEAN_INERTIA, MomentFrame
+from rths_engine.parts.structures.sections import SECTIONS
 
 PYTHON = os.environ.get("RTHS_OPENSEES_PYTHON") or sys.executable
 INSTALL = "pip install '.[opensees]' and Debian's libblas3 and liblapack3, or RTHS_OPENSEES_PYTHON=a Python that has it"

@@ -10,15 +10,17 @@ from typing import Any
 import h5py
 import numpy as np
 
-from rths_engine import physics, replay
-from rths_engine.arrays import Array
-from rths_engine.integrators.cr import CrIntegrator
-from rths_engine.part import Part
-from rths_engine.physics.effect import GROUND, Effect, Seen
-from rths_engine.physics.structure.damping_error import DampingError
-from rths_engine.physics.structure.stiffness_error import StiffnessError
-from rths_engine.physics.structure.storey import drift
-from rths_engine.plan import Plan
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts import physics
+from rths_engine.parts.integrators.cr import CrIntegrator
+from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.structure.damping_error import DampingError
+from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
+from rths_engine.parts.physics.structure.storey import drift
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import plan_from_yaml
+from rths_engine.running import replay
 
 FINE = 2.5e-4  # s: substeps of replays of a specimen
 STEP = 1e-3  # s: of a structure
@@ -37,7 +39,7 @@ class Case:
     @classmethod
     def opened(cls, shown: Path, sealed: Path) -> Case:
         truth = json.loads((sealed / "truth.json").read_text(encoding="utf-8"))
-        plan = Plan.from_yaml((shown / "plan.yaml").read_text(encoding="utf-8"))
+        plan = plan_from_yaml((shown / "plan.yaml").read_text(encoding="utf-8"))
         seen, hidden = ([_channels(folder / name) for name in ("fit.h5", "heldout.h5")] for folder in (shown, sealed))
         with h5py.File(shown / "fit.h5") as file:
             dt = float(file.attrs["dt"])

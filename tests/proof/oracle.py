@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from rths_engine.arrays import Array
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect
 from tests.proof.generator.noise import TRUSTED, Colour
 from tests.proof.models import Case, model
 

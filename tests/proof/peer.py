@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine.arrays import Array
+from rths_engine.foundation.arrays import Array
 from tests.proof.models import Case, SpecimenModel, model
 from tests.proof.oracle import Fit, Oracle
 

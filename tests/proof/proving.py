@@ -68,7 +68,7 @@ def prove(
 
 def diagnosed(case: Path, found: Path) -> dict[str, Any]:
     """`rths diagnose` on what is shown of a case; how it ended and the seconds it took."""
-    from app.cli import main
+    from app.cli.main import main
 
     out, said = found / f"{case.name}.json", io.StringIO()
     arguments = ["diagnose", str(case / "plan.yaml"), str(case / "fit.h5"), "--holdout", str(case / "heldout.h5")]

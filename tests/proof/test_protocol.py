@@ -10,9 +10,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from app.cli import main
-from rths_engine.measured.store import load
-from rths_engine.plan import Plan
+from app.cli.main import main
+from rths_engine.planning.reading import plan_from_yaml
+from rths_engine.recordings.measured.store import load
 from tests.proof import drawing, oracle, peer, score, seals, summary, table
 from tests.proof.generator.draw import specs
 from tests.proof.generator.draw_specimen import specimen_case
@@ -141,7 +141,7 @@ def test_a_case_is_readable_diagnosed_and_its_truth_is_not_shown(tmp_path: Path)
     spec = next(one for one in specs(60, 3, "specimen/plain") if one.made["law"] == "linear")
     shown, sealed = tmp_path / "shown" / spec.name, tmp_path / "sealed" / spec.name
     spec.case().write(shown, sealed)
-    plan, recording = Plan.from_yaml((shown / "plan.yaml").read_text()), load(shown / "fit.h5")
+    plan, recording = plan_from_yaml((shown / "plan.yaml").read_text()), load(shown / "fit.h5")
     assert plan.test == recording.test == "specimen" and recording.dt == pytest.approx(plan.substep)
     assert {"x_meas.1", "f_meas.1"} <= set(recording.keys)
     assert {file.name for file in shown.iterdir()} == {"plan.yaml", "fit.h5", "heldout.h5"}

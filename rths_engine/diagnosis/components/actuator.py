@@ -10,13 +10,14 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.signal import detrend
 
-from rths_engine import physics, replay
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
 from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect, Seen
-from rths_engine.physics.sensor.channel import OfDisplacement
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement
+from rths_engine.running import replay
 
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfDisplacement))
 TOLERANCE = 0.05

@@ -8,14 +8,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from rths_engine import physics, replay
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.actuator import TOLERANCE, ActuatorData
 from rths_engine.diagnosis.components.component import Component, Feature, Signal
 from rths_engine.diagnosis.components.features import of_motion, of_position
 from rths_engine.diagnosis.components.specimen import SENSORS, SPREADS, pressed, settled
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect, Seen
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.running import replay
 
 
 @dataclass(frozen=True)

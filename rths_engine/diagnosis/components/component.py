@@ -11,11 +11,11 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.band import Band
-from rths_engine.part import Part
-from rths_engine.physics.effect import Effect, Seen
-from rths_engine.physics.sensor.channel import Reading
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.sensor.channel import Reading
 
 REPLAY_RATE = 1024.0  # Hz
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Feature
-from rths_engine.stop import stop
+from rths_engine.foundation.arrays import Array
+from rths_engine.running.stop import stop
 
 Terms = list[tuple[str, str, Array]]  # formula, words, values
 STOPS = (0.1, 0.3, 0.7)

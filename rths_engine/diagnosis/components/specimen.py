@@ -10,14 +10,15 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from rths_engine import physics, replay
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
 from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
 from rths_engine.diagnosis.smoother import Smoother
-from rths_engine.part import Part, quantity
-from rths_engine.physics.effect import Effect, Seen
-from rths_engine.physics.sensor.channel import OfForce
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, quantity
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.sensor.channel import OfForce
+from rths_engine.running import replay
 
 REACH, TAPER = 16, 6.0  # of a delay by a fraction of a sample: samples either side, and the window's beta
 FINER = 8  # steps of a replay's step, by which its error is told

@@ -11,19 +11,20 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh
 
-from rths_engine import physics, replay
-from rths_engine.arrays import Array
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
 from rths_engine.diagnosis.components.features import of_motion
-from rths_engine.excitation import FloorForce, Start
-from rths_engine.integrators.cr import CrIntegrator
-from rths_engine.part import Part, quantity
-from rths_engine.physics.effect import GROUND, MATRICES, Effect, Seen
-from rths_engine.physics.structure.damping_error import DampingError
-from rths_engine.physics.structure.stiffness_error import StiffnessError
-from rths_engine.physics.structure.storey import OfStorey, drift, stiffness
-from rths_engine.plan import Plan
-from rths_engine.structures.assembled import Assembled
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, quantity
+from rths_engine.parts import physics
+from rths_engine.parts.integrators.cr import CrIntegrator
+from rths_engine.parts.physics.effect import GROUND, MATRICES, Effect, Seen
+from rths_engine.parts.physics.structure.damping_error import DampingError
+from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
+from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
+from rths_engine.parts.structures.assembled import Assembled
+from rths_engine.planning.excitation import FloorForce, Start
+from rths_engine.planning.plan import Plan
+from rths_engine.running import replay
 
 FEW_MODES = 3  # whose damping may be off by other shares
 FINE = 2e-3  # s: a step so small leaves no error of integration beside noise

@@ -1,0 +1,1 @@
+"""The command line `rths`: one command a file."""

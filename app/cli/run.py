@@ -1,0 +1,97 @@
+"""`rths run`: run a plan without a server."""
+
+from __future__ import annotations
+
+import json
+import math
+import signal
+import sys
+import time
+from argparse import Namespace
+from collections.abc import Iterable
+from types import FrameType
+from typing import Any
+
+from tqdm import tqdm
+
+from app.cli.main import DONE, FAILED, INTERRUPTED, UNUSABLE
+from app.cli.result import text
+from app.cli.run_input import check_folder, read_plan
+from app.cli.settings import settings
+from rths_engine.foundation.errors import Issue, RthsError
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.recordings.run_file import save
+from rths_engine.running.run import Run
+from rths_engine.running.warm import warm
+
+CHUNK_S = 0.02  # of a test in real time
+CHUNK_STEPS = 64  # of a test as fast as possible
+NAP_S = 0.1
+
+
+def run(given: Namespace) -> int:
+    """Exit code: 0 when a test was made (tripped too), 2 for unusable input, 130 when interrupted, 1 when not stored."""
+    try:
+        if given.out:
+            check_folder(given.out)
+        plan = read_plan(given)
+        test = Run(plan, MotionLibrary(settings(given).motions))
+    except RthsError as error:
+        return _failed(error.issues, given.json, UNUSABLE)
+    with Interrupt() as interrupt:
+        elapsed_s = advance(test, interrupt)
+    status = "tripped" if test.trip else "completed" if test.finished else "cancelled"
+    result = test.result(status, elapsed_s)
+    try:
+        if given.out:
+            save(given.out, result)
+    except OSError as error:
+        return _failed([Issue("--out", f"the recording was not stored: {error}", str(given.out))], given.json, FAILED)
+    summary = result.summary()
+    print(json.dumps(summary) if given.json else text(plan, summary, given.out))
+    return INTERRUPTED if status == "cancelled" else DONE
+
+
+class Interrupt:
+    """Whether Ctrl-C was pressed; pressed again it ends the program at once."""
+
+    def __enter__(self) -> Interrupt:
+        self.asked = False
+        self._before = signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        signal.signal(signal.SIGINT, self._before)
+
+    def _note(self, _: int, frame: FrameType | None) -> None:
+        self.asked = True
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def advance(test: Run, interrupt: Interrupt) -> float:
+    """Run to the end at the plan's pace, or until interrupted. Returns the wall time (s)."""
+    warm()
+    pace, step = test.plan.pace, test.plan.step
+    factor = pace.factor if pace.kind == "real_time" else math.inf
+    steps = max(1, round(CHUNK_S * factor / step)) if math.isfinite(factor) else CHUNK_STEPS
+    start = time.perf_counter()
+    layout = "{l_bar}{bar}| {n:.1f} of {total:.1f} s simulated in {elapsed}, {remaining} left"
+    with tqdm(total=test.total * test.dt, bar_format=layout, leave=False, disable=None) as bar:
+        while not test.finished and not interrupt.asked:
+            ahead = test.done * test.dt / factor - (time.perf_counter() - start)
+            if ahead > 0:
+                time.sleep(min(ahead, NAP_S))
+            else:
+                new = test.advance(steps)
+                bar.update((new.stop - new.start) * test.dt)
+    return time.perf_counter() - start
+
+
+def _failed(issues: Iterable[Issue], as_json: bool, code: int) -> int:
+    found = list(issues)
+    for issue in found:
+        print(f"rths run: {issue}", file=sys.stderr)
+    if as_json:
+        answer: dict[str, Any] = {"status": "failed", "errors": [issue.as_dict() for issue in found]}
+        print(json.dumps(answer))
+    return code

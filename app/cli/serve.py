@@ -1,0 +1,76 @@
+"""`rths serve`: the control room, until Ctrl-C."""
+
+from __future__ import annotations
+
+import errno
+import socket
+from argparse import Namespace
+from contextlib import suppress
+
+import uvicorn
+from fastapi import FastAPI
+
+from app.cli.main import DONE, FAILED
+from app.cli.settings import stored
+from app.config import Settings
+from app.demonstration import queue_demonstration
+from app.main import create_app
+from rths_engine.foundation.errors import Issue, RthsError
+
+GRACE_S = 2
+
+
+def serve(given: Namespace) -> int:
+    settings = stored(given, embedded_worker=not given.no_worker)
+    listening = listen(settings)
+    server = Server(create_app(settings), settings, given.demo)
+    with suppress(KeyboardInterrupt):
+        server.run(sockets=[listening])
+    if not server.started:
+        return FAILED
+    print("\nStopped.")
+    return DONE
+
+
+class Server(uvicorn.Server):
+    """Queues the demonstration, where wanted, and prints the address once the service answers."""
+
+    def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
+        super().__init__(uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=GRACE_S))
+        self.app, self.settings, self.demonstrate = app, settings, demonstrate
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if not self.started:
+            return
+        if self.demonstrate:
+            queue_demonstration(self.app)
+        print(f"\nRTHS control room: {address(self.settings)}")
+        print(f"Data folder: {self.settings.data.resolve()}\nCtrl-C stops it.", flush=True)
+
+
+def listen(settings: Settings) -> socket.socket:
+    """A socket at the service's address. Raises RthsError when it is taken or can't be used."""
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    found = socket.socket(family, socket.SOCK_STREAM)
+    found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        found.bind((settings.host, settings.port))
+        found.listen()
+    except OSError as error:
+        found.close()
+        raise RthsError(_unusable(settings, error)) from None
+    return found
+
+
+def address(settings: Settings) -> str:
+    host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
+    return f"http://[{host}]:{settings.port}/" if ":" in host else f"http://{host}:{settings.port}/"
+
+
+def _unusable(settings: Settings, error: OSError) -> Issue:
+    if error.errno == errno.EADDRINUSE:
+        other = settings.port + 1
+        fix = f"stop the program that listens there, or choose another: RTHS_PORT={other} make run, rths serve --port {other}"
+        return Issue("port", "is taken", settings.port, fix)
+    return Issue("host", f"can't be listened on: {error.strerror}", f"{settings.host}:{settings.port}", "choose another --host")

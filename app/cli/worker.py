@@ -1,0 +1,24 @@
+"""`rths worker`, `rths migrate`."""
+
+from __future__ import annotations
+
+import logging
+import os
+import socket
+from argparse import Namespace
+
+from app import db, queue
+from app.cli.settings import stored
+from app.worker.main import work
+
+
+def worker(given: Namespace) -> None:
+    settings = stored(given)
+    logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
+    work(settings, given.web, given.name or f"{socket.gethostname()}-{os.getpid()}")
+
+
+def migrate(given: Namespace) -> None:
+    settings = stored(given)
+    db.migrate(settings.url)
+    queue.migrate(settings.url)

@@ -1,0 +1,171 @@
+"""What every part of a plan is: a frozen value in SI whose fields declare label, unit and bounds once for all uses.
+
+Validation, the JSON schema, the web form's labels and the report read the same declaration.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+from annotated_types import MaxLen
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic.fields import FieldInfo
+
+from rths_engine.foundation import units
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError, RthsError
+
+LONGEST_TEXT = 80  # characters of a refused text that are told
+T = TypeVar("T", bound=BaseModel)
+
+
+def quantity(
+    label: str,
+    unit: str = "1",
+    shown: str | None = None,
+    *,
+    default: Any = ...,
+    help: str = "",
+    tests: Sequence[str] = (),
+    **bounds: Any,
+) -> Any:
+    """Declare a field holding SI `unit`, shown to people in `shown`; `bounds` are pydantic's gt, ge, lt, le.
+
+    `tests` are the kinds of test that use the field, where not every one does.
+    """
+    shown = shown or unit
+    extra: dict[str, Any] = {"unit": unit, "shown": shown, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
+    extra |= {"tests": list(tests)} if tests else {}
+    return Field(default, title=label, description=help or None, json_schema_extra=extra, **bounds)
+
+
+class Value(BaseModel):
+    """A frozen, fully checked value. Numbers are SI; text such as `"36007 kN/m"` is read with its unit."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        validate_default=True,
+        model_title_generator=lambda kind: getattr(kind, "title", kind.__name__),
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_units(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        read = dict(data)
+        for name, field in cls.model_fields.items():
+            extra = field.json_schema_extra
+            if name in read and isinstance(extra, dict) and "unit" in extra and not _too_long(read[name], field):
+                read[name] = _in_si(read[name], str(extra["unit"]))
+        return read
+
+
+class Part(Value):
+    """A part with a compiled step. `kind` is its name in plans, `title` its name for people.
+
+    `build(dt)` gives the parameter and the initial state vector that the compiled `step` works on.
+    """
+
+    title: ClassVar[str]
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        raise NotImplementedError
+
+
+def validated(model: type[T], data: Any) -> T:
+    """`data` as a `model`. Raises PlanError listing every issue with its path, value and bound."""
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        details = error.errors(include_url=False)
+        raise PlanError(_issue(detail, data) for detail in details if not _follows(detail, details)) from None
+
+
+def _follows(detail: Any, details: list[Any]) -> bool:
+    """Whether a list only seems too short because items of it were refused."""
+    inside = detail["loc"]
+    return detail["type"] == "too_short" and any(
+        other is not detail and other["loc"][: len(inside)] == inside for other in details
+    )
+
+
+def _too_long(value: Any, field: FieldInfo) -> bool:
+    """Whether a list will be refused for its length, so that its items need not be looked at."""
+    most = min((bound.max_length for bound in field.metadata if isinstance(bound, MaxLen)), default=math.inf)
+    return isinstance(value, list | tuple) and len(value) > most
+
+
+@dataclass(frozen=True, slots=True)
+class _Unread:
+    """Text that is no quantity; pydantic refuses it where it stands, and the issue says what is wrong with it."""
+
+    text: str
+    problem: str
+
+
+def _in_si(value: Any, unit: str) -> Any:
+    if isinstance(value, str):
+        try:
+            return units.parse(value, unit)
+        except RthsError as error:
+            return _Unread(value, error.issues[0].problem)
+    if isinstance(value, list | tuple):
+        return [_in_si(item, unit) for item in value]
+    return value
+
+
+def _issue(detail: Any, data: Any) -> Issue:
+    where = ".".join(str(step) for step in _path(detail["loc"], data))
+    problem = str(detail["msg"]).removeprefix("Value error, ")
+    given = detail["input"]
+    if isinstance(given, _Unread):
+        return Issue(where, given.problem, given.text if len(given.text) <= LONGEST_TEXT else given.text[:LONGEST_TEXT] + "…")
+    value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
+    return Issue(where, _plain(detail, problem), value)
+
+
+def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
+    """The path into `data`: pydantic's location without the tags it adds for the chosen kind and channel."""
+    path: list[int | str] = []
+    for position, step in enumerate(loc):
+        inside = (isinstance(data, Mapping) and step in data) or (
+            isinstance(data, list | tuple) and isinstance(step, int) and step < len(data)
+        )
+        if inside:
+            data = data[step]
+        elif step in (data.get("kind"), data.get("channel")) if isinstance(data, Mapping) else position < len(loc) - 1:
+            continue
+        path.append(step)
+    return path
+
+
+_PLAIN = {
+    "greater_than": "needs a value > {gt}",
+    "greater_than_equal": "needs a value >= {ge}",
+    "less_than": "needs a value < {lt}",
+    "less_than_equal": "needs a value <= {le}",
+    "finite_number": "needs a finite number, not NaN or infinity",
+    "missing": "is required",
+    "too_short": "needs at least {min_length} item(s)",
+    "too_long": "takes at most {max_length} item(s)",
+    "string_too_short": "needs at least {min_length} character(s)",
+    "string_too_long": "takes at most {max_length} characters",
+    "extra_forbidden": "is not a field of this part",
+    "float_type": "needs a number",
+    "float_parsing": "needs a number",
+    "int_type": "needs a whole number",
+    "int_parsing": "needs a whole number",
+    "int_from_float": "needs a whole number",
+}
+
+
+def _plain(detail: Any, problem: str) -> str:
+    template = _PLAIN.get(detail["type"])
+    bounds = {name: f"{bound:g}" if isinstance(bound, float) else bound for name, bound in detail.get("ctx", {}).items()}
+    return template.format(**bounds) if template else problem[:1].lower() + problem[1:]

@@ -1,0 +1,19 @@
+"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N); `force` is the specimen's at the last substep. The command
+x_comp is a displacement (m), or what else drives the kind.
+
+Each has a `velocity_limit` (m/s) and a `force_limit` (N): what it reaches at most.
+"""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.actuators.second_order import SecondOrderActuator
+from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
+from rths_engine.parts.actuators.velocity_drive import VelocityDrive
+
+KINDS = (FirstOrderDelay, SecondOrderActuator, ServoHydraulicActuator, VelocityDrive)
+Actuator = Annotated[
+    FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator | VelocityDrive, Field(discriminator="kind")
+]

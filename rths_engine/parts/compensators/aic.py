@@ -1,0 +1,39 @@
+"""Adaptive inverse compensation (AIC)."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, quantity
+
+
+class AdaptiveInverseCompensation(Part):
+    """d_p[q] = alpha d_c[q] - (alpha - 1) d_c[q-1],  alpha = alpha_es + d_alpha   (7a)
+    d_alpha = kp TI + ki integral of TI dt   (7b)
+
+    TI is the tracking indicator (m^2) up to the last substep; the integral is trapezoidal. The published gains hold for
+    TI in mm^2: kp = 0.4 1/mm^2 and ki = kp/10 per second.
+    State: s[0] d_alpha (recorded), s[1] integral of TI (m^2 s), s[2] last TI (m^2).
+    Fails first when the command barely moves, since TI then carries no information on the delay.
+    Source: Chen and Ricles (2012), EESD 41, 549-569, equations (7a) and (7b).
+    """
+
+    kind: Literal["aic"] = "aic"
+    alpha_es: float = quantity("Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="start value of α")
+    kp: float = quantity("Proportional gain kp", "1/(m^2)", "1/(mm^2)", ge=0, le=1e8, default=0.4e6)
+    ki: float = quantity("Integral gain ki", "1/(m^2*s)", "1/(mm^2*s)", ge=0, le=1e8, default=0.04e6, help="published as kp/10")
+    title: ClassVar[str] = "Adaptive inverse (AIC)"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.alpha_es, self.kp, self.ki]), np.zeros(3)
+
+    @staticmethod
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
+        s[1] += 0.5 * (ti + s[2]) * dt
+        s[2] = ti
+        s[0] = p[1] * ti + p[2] * s[1]
+        alpha = p[0] + s[0]
+        return alpha * x_cmd - (alpha - 1.0) * x_cmd_last

@@ -1,0 +1,32 @@
+"""Inverse compensation: the inverse of the first-order delay, as an extrapolation of the command."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, quantity
+
+
+class InverseCompensation(Part):
+    """d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1]   (7a with d_alpha = 0).
+
+    Exact inverse of `FirstOrderDelay` (5a) when alpha_es equals the actuator's alpha; alpha_es = 1 is no compensation.
+    State: none. Fails first when the actuator's delay is estimated wrongly or changes during the test.
+    Source: Chen and Ricles (2009), J. Eng. Mech. 135; equation numbers from Chen and Ricles (2012), EESD 41, 549-569.
+    """
+
+    kind: Literal["inverse"] = "inverse"
+    alpha_es: float = quantity(
+        "Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="(α_es − 1) controller steps of delay"
+    )
+    title: ClassVar[str] = "Inverse"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.alpha_es]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
+        return p[0] * x_cmd - (p[0] - 1.0) * x_cmd_last

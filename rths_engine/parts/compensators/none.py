@@ -1,0 +1,24 @@
+"""No compensation: d_p[q] = d_c[q]."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
+
+
+class NoCompensation(Part):
+    """d_p[q] = d_c[q]: the actuator's delay goes uncorrected and feeds energy into the structure."""
+
+    kind: Literal["none"] = "none"
+    title: ClassVar[str] = "None"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
+        return x_cmd

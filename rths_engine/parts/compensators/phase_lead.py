@@ -1,0 +1,36 @@
+"""First-order phase-lead compensation."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, quantity
+
+
+class PhaseLead(Part):
+    """r T d_p' + d_p = d_c + T d_c',  0 <= r < 1;  frequency response (1 + i omega T) / (1 + i omega r T)
+
+    Discretised by the backward difference, as the actuator (5a) is, so that r = 0 with T = (alpha - 1) dt inverts it exactly.
+    The delay taken away at low frequency is (1 - r) T; noise is amplified at most 1 / r times.
+    State: s[0] unused, s[1] the last compensated command less the last command (m), from rest 0.
+    Fails first above 1 / (2 pi T) Hz, where the amplitude grows faster than the actuator's falls.
+    Source: Zhao, French, Shield and Posbergh (2003), "Considerations for the development of real-time dynamic testing using
+    servo-hydraulic actuation", EESD 32, 1773-1794.
+    """
+
+    kind: Literal["phase_lead"] = "phase_lead"
+    lead_time: float = quantity("Lead time T", "s", "ms", ge=0, le=1, default=0.032)
+    lag_ratio: float = quantity("Lag time over lead time r", ge=0, lt=1, default=0.1, help="noise grows at most 1/r times")
+    title: ClassVar[str] = "Phase lead"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        lag = self.lag_ratio * self.lead_time
+        return np.array([(self.lead_time - lag) / (dt + lag), lag / (dt + lag)]), np.zeros(2)
+
+    @staticmethod
+    def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
+        s[1] = p[1] * s[1] + p[0] * (x_cmd - x_cmd_last)
+        return x_cmd + s[1]

@@ -1,0 +1,74 @@
+"""From bytes to lines, and from lines to numbers, with the line number in every error."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from rths_engine.foundation.errors import Issue, MotionError
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?"
+_GLUED = re.compile(NUMBER)
+_CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
+_LONGEST_LINE = 100_000
+
+
+def lines_of(raw: bytes) -> list[str]:
+    """The lines of a text file: UTF-8 with or without BOM, or Latin-1; any line end. Raises MotionError for binary content."""
+    if not raw.strip():
+        raise MotionError(Issue("file", "is empty", fix="choose a record file"))
+    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise MotionError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))
+    control = _CONTROL.search(raw)
+    if control or raw.startswith(b"%PDF"):
+        where = f"byte {control.start()}" if control else "file"
+        fix = "give the record as text: PEER AT2, COSMOS V2 or plain columns"
+        raise MotionError(Issue(where, "is binary content, not a text file", fix=fix))
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    lines = text.replace("\x1a", "").splitlines()
+    for number, line in enumerate(lines, start=1):
+        if len(line) > _LONGEST_LINE:
+            problem = f"has {len(line)} characters; at most {_LONGEST_LINE} fit a line"
+            raise MotionError(Issue(f"line {number}", problem, fix="write a few numbers on each line"))
+    return lines
+
+
+def value(token: str) -> float | None:
+    """`token` as a number, Fortran's D exponent included; None where it is none."""
+    try:
+        return float(token.replace("D", "E").replace("d", "e")) if "_" not in token else None
+    except ValueError:
+        return None
+
+
+def numbers(line: str, where: str, width: int = 0) -> list[float]:
+    """The numbers of a line, also where fixed columns of `width` touch. Raises MotionError naming what is no number."""
+    line = line.rstrip()
+    if not width and "_" not in line:
+        try:
+            return [float(token) for token in line.split()]
+        except ValueError:
+            pass  # the slow way below reads touching numbers and D exponents, or says what is wrong
+    if width:
+        tokens = [field for start in range(0, len(line), width) if (field := line[start : start + width].strip())]
+    else:
+        tokens = line.split()
+    found: list[float] = []
+    for token in tokens:
+        number = value(token)
+        if number is not None:
+            found.append(number)
+            continue
+        parts = _GLUED.findall(token)
+        if len(parts) < 2 or "".join(parts) != token:
+            raise MotionError(Issue(where, "is no number", token, "mend or remove it: after the header there are numbers only"))
+        found += [float(part.replace("D", "E").replace("d", "e")) for part in parts]
+    return found
+
+
+def block(lines: Iterable[tuple[int, str]], width: int = 0) -> list[float]:
+    """All numbers of (line number, line) pairs."""
+    return [number for at, line in lines for number in numbers(line, f"line {at}", width)]

@@ -1,0 +1,33 @@
+"""Acceleration units as headers write them."""
+
+from __future__ import annotations
+
+import re
+
+from rths_engine.foundation import units
+from rths_engine.foundation.errors import Issue, MotionError
+
+ACCELERATION_UNITS = tuple(name for name, (dimension, _) in units.UNITS.items() if dimension == "acceleration")
+
+_PER_SECOND_SQUARED = r"\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*(?:2|²)|\s*/\s*s(?:ec)?\s*/\s*s(?:ec)?"
+_WRITTEN = (
+    ("cm/s^2", re.compile(rf"\bcm(?:{_PER_SECOND_SQUARED})(?![a-z])|\bgals?\b", re.IGNORECASE)),
+    ("mm/s^2", re.compile(rf"\bmm(?:{_PER_SECOND_SQUARED})(?![a-z])", re.IGNORECASE)),
+    ("in/s^2", re.compile(rf"\bin(?:{_PER_SECOND_SQUARED})(?![a-z])", re.IGNORECASE)),
+    ("m/s^2", re.compile(rf"(?<![a-z])m(?:{_PER_SECOND_SQUARED})(?![a-z])", re.IGNORECASE)),
+    ("g", re.compile(r"[(\[]\s*g(?:'s)?\s*[)\]]|\bunits?\s*(?:of|in|are|[:=])*\s*g(?:'s)?\b|\bin g\b", re.IGNORECASE)),
+)
+
+
+def unit_in(text: str) -> str | None:
+    """The acceleration unit that `text` names, None where it names none or more than one."""
+    found = [unit for unit, pattern in _WRITTEN if pattern.search(text)]
+    return found[0] if len(found) == 1 else None
+
+
+def checked_unit(unit: str) -> str:
+    """`unit` when it is one of acceleration. Raises MotionError listing those there are."""
+    plain = unit.strip().replace("²", "^2")
+    if plain not in ACCELERATION_UNITS:
+        raise MotionError(Issue("unit", "is no unit of acceleration", unit, "choose one of " + ", ".join(ACCELERATION_UNITS)))
+    return plain

@@ -1,0 +1,13 @@
+"""Integrators: parts that turn M, C, K into the scheme that the loop steps."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from rths_engine.parts.integrators.central_difference import CentralDifference
+from rths_engine.parts.integrators.cr import CrIntegrator
+from rths_engine.parts.integrators.kr_alpha import KrAlphaIntegrator
+from rths_engine.parts.integrators.newmark import ExplicitNewmark
+
+KINDS = (CrIntegrator, KrAlphaIntegrator, ExplicitNewmark, CentralDifference)
+Integrator = Annotated[CrIntegrator | KrAlphaIntegrator | ExplicitNewmark | CentralDifference, Field(discriminator="kind")]

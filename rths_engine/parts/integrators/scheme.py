@@ -1,0 +1,21 @@
+"""What an integrator hands to the loop."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from rths_engine.foundation.arrays import Array
+
+
+class Scheme(NamedTuple):
+    """D A[i] = (1 - w) R[i] + c[i-1],  c[i] = w R[i] - E A[i],  R = F - C v - r
+    v[i+1] = v[i] + dt A[i];  x[i+1] = x[i] + dt v[i+1] + s dt^2 A[i]
+
+    A (m/s^2) is the weighted acceleration. Every explicit integrator here has this form: one solve with D a step, and no
+    inverse of M. The velocity of the loop is (1/2 + s) dt behind the displacement, as a backward difference is.
+    """
+
+    effective: Array  # D (n, n), kg
+    held: Array | None = None  # E (n, n), kg, or None for a scheme that keeps nothing of the last step
+    weight: float = 0.0  # w
+    shift: float = 0.0  # s

@@ -1,0 +1,49 @@
+"""A drive that leaves small errors standing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import COMMAND, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class DeadBand(Effect):
+    """y = x + e - clip(e, -b, b),  e = d - x
+
+    The drive sees of the error e between command d and piston x only what exceeds b (m), as behind a valve with overlap:
+    within b the piston rests, beyond it lags by b more. Neutral: b = 0. No state.
+    Source: Merritt (1967), "Hydraulic Control Systems", Wiley, overlapped spools. Fails first where dither bridges the overlap.
+    """
+
+    kind: Literal["dead_band"] = "dead_band"
+    half_width: float = quantity("Half width b", "m", "mm", ge=0, le=0.1, default=0.0)
+    title: ClassVar[str] = "Dead band"
+    hook: ClassVar[int] = COMMAND
+    neutral: ClassVar = {"half_width": 0.0}
+    needs: ClassVar = ("x_comp", "x_meas")
+    relatives: ClassVar = ("backlash", "stick_friction")
+    noun: ClassVar[str] = "a dead band"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.01, 0.05):
+            yield cls.sized(half_width=share * seen.x)
+
+    def says(self) -> str:
+        return f"does not react to errors below {said(self.half_width, 'mm')}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.half_width]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        error = y - x
+        if abs(error) <= p[0]:
+            return x
+        return y - p[0] if error > 0.0 else y + p[0]

@@ -1,0 +1,49 @@
+"""More or less delay than the actuator model has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.delay import HEAD, delayed, ring
+from rths_engine.parts.physics.effect import COMMAND, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class DelayError(Effect):
+    """y(t) = d(t - T)
+
+    The command d reaches the actuator T (s) later than its model has it, or for T < 0 earlier: then on its last slope,
+    y = d + |T| v, right while omega |T| is small. Linear between substeps. Neutral: T = 0. State: `physics.delay`.
+    Source: Horiuchi et al. (1999), EESD 28, 1121-1141: a delay T acts as the negative damping -k T of a specimen k.
+    Fails first where the delay changes with amplitude or frequency.
+    """
+
+    kind: Literal["delay_error"] = "delay_error"
+    delay: float = quantity("Delay beyond the model T", "s", "ms", ge=-0.1, le=0.2, default=0.0)
+    title: ClassVar[str] = "Delay error"
+    hook: ClassVar[int] = COMMAND
+    neutral: ClassVar = {"delay": 0.0}
+    needs: ClassVar = ("x_comp", "x_meas")
+    relatives: ClassVar = ("second_order_lag", "amplitude_dependent_delay", "backlash")
+    noun: ClassVar[str] = "a delay error"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(delay=0.005)
+
+    def says(self) -> str:
+        way = "later" if self.delay >= 0 else "earlier"
+        return f"follows its command {said(abs(self.delay), 'ms')} {way} than its model"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        state = ring(self.delay, dt)
+        return np.array([self.delay / dt, len(state) - HEAD]), state
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return delayed(s, int(p[1]), y, p[0])

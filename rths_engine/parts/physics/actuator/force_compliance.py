@@ -1,0 +1,51 @@
+"""A piston that gives way to the force on it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import PISTON, TINY, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class ForceCompliance(Effect):
+    """y = y_0 - c,  tau c' = phi F - c
+
+    The oil column and the rod give way by phi (m/N) under the specimen's force F of the last substep, over tau (s), which also
+    keeps the explicit step stable, about while phi k < 2 tau / dt for a specimen of stiffness k. Neutral: phi = 0.
+    State: s[0] c. Source: Merritt (1967), "Hydraulic Control Systems", Wiley.
+    Fails first where the controller takes the deflection back slowly, by its integral part.
+    """
+
+    kind: Literal["force_compliance"] = "force_compliance"
+    flexibility: float = quantity("Flexibility φ", "m/N", "mm/kN", ge=0, le=1, default=0.0)
+    lag: float = quantity("Lag τ", "s", "ms", gt=0, le=1, default=0.005)
+    title: ClassVar[str] = "Force compliance"
+    hook: ClassVar[int] = PISTON
+    neutral: ClassVar = {"flexibility": 0.0}
+    held: ClassVar = ("lag",)
+    needs: ClassVar = ("x_comp", "x_meas", "f_meas")
+    relatives: ClassVar = ("gain_error", "stick_friction")
+    noun: ClassVar[str] = "compliance under force"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.01, 0.05):
+            yield cls.sized(flexibility=share / max(seen.stiffness, TINY))
+
+    def says(self) -> str:
+        return f"gives way by {said(self.flexibility, 'mm/kN')} under the force on it"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.flexibility, -math.expm1(-dt / self.lag)]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        s[0] += p[1] * (p[0] * w - s[0])
+        return y - s[0]

@@ -1,0 +1,45 @@
+"""A piston that moves by another amount than commanded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import PISTON, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class GainError(Effect):
+    """y = (1 + e) d
+
+    e of either sign: a position loop without integral part, or calibrated on another transducer. Neutral: e = 0. No state.
+    Fails first where the gain depends on the frequency.
+    """
+
+    kind: Literal["gain_error"] = "gain_error"
+    share: float = quantity("Gain error e", "1", "%", ge=-0.9, le=1, default=0.0)
+    title: ClassVar[str] = "Gain error"
+    hook: ClassVar[int] = PISTON
+    neutral: ClassVar = {"share": 0.0}
+    needs: ClassVar = ("x_comp", "x_meas")
+    relatives: ClassVar = ("force_compliance", "scale_error")
+    noun: ClassVar[str] = "a gain error"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(share=0.02)
+
+    def says(self) -> str:
+        way = "further" if self.share >= 0 else "less"
+        return f"moves {said(abs(self.share), '%')} {way} than commanded"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.share]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return (1.0 + p[0]) * y

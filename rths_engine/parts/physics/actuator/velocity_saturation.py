@@ -1,0 +1,46 @@
+"""A drive that reaches less velocity than its model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, quantity
+from rths_engine.parts.physics.effect import PART, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class VelocitySaturation(Effect):
+    """|y'| <= v_max
+
+    The velocity limit of the actuator's model becomes the smaller of its own and v_max (m/s), for both directions: a pump or a
+    valve that gives less flow than its data sheet. Neutral: v_max = 10 m/s, beyond any actuator here.
+    Source: Merritt (1967), "Hydraulic Control Systems", Wiley. Fails first where extension and retraction differ.
+    """
+
+    kind: Literal["velocity_saturation"] = "velocity_saturation"
+    velocity_limit: float = quantity("Velocity limit v_max", "m/s", "mm/s", gt=0, le=10, default=10.0)
+    title: ClassVar[str] = "Velocity saturation"
+    hook: ClassVar[int] = PART
+    neutral: ClassVar = {"velocity_limit": 10.0}
+    needs: ClassVar = ("x_comp", "x_meas")
+    relatives: ClassVar = ("amplitude_dependent_delay", "delay_error")
+    noun: ClassVar[str] = "saturation of the velocity"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.6, 0.8, 0.95):
+            yield cls.sized(velocity_limit=share * seen.v)
+
+    def says(self) -> str:
+        return f"moves no faster than {said(self.velocity_limit, 'mm/s')}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def amended(self, part: Part) -> Part:
+        limit = getattr(part, "velocity_limit", None)
+        return part if limit is None else part.model_copy(update={"velocity_limit": min(limit, self.velocity_limit)})

@@ -1,0 +1,32 @@
+"""A signal late by a fraction of substeps, or early by extrapolation."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.kernel import compiled
+
+HEAD = 2  # of the state: place of the newest sample in the ring, whether it has begun
+
+
+def ring(longest: float, dt: float) -> Array:
+    """State that remembers a signal for `longest` seconds."""
+    return np.zeros(HEAD + math.ceil(max(longest, 0.0) / dt) + 2)
+
+
+@compiled
+def delayed(s, length, y, late):
+    """y as it was `late` substeps ago, linear in between; for late < 0 on its last slope. `length` of the ring in use."""
+    if s[1] == 0.0:
+        s[HEAD : HEAD + length] = y
+        s[1] = 1.0
+    newest = (int(s[0]) + 1) % length
+    s[0] = newest
+    s[HEAD + newest] = y
+    whole = min(max(math.floor(late), 0), length - 2)
+    near = s[HEAD + (newest - whole) % length]
+    far = s[HEAD + (newest - whole - 1) % length]
+    return near + min(late - whole, 1.0) * (far - near)

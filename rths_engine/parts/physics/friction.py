@@ -1,0 +1,17 @@
+"""What laws of dry friction share."""
+
+from __future__ import annotations
+
+import math
+
+from rths_engine.foundation.kernel import compiled
+
+PRESLIDING = 0.02  # of the stroke: friction that builds up over more is rather a hysteresis of its own
+
+
+@compiled
+def bristle(z, moved):
+    """z of z' = v - |v| z after a straight move, in units of the pre-sliding displacement. Source: Dahl (1968), exponent 1."""
+    if moved >= 0.0:
+        return 1.0 - (1.0 - z) * math.exp(-moved)
+    return (1.0 + z) * math.exp(moved) - 1.0

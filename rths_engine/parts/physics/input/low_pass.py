@@ -1,0 +1,55 @@
+"""A ground motion without its high frequencies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class LowPass(Effect):
+    """T a' + a = a_g,  T = 1 / (2 pi f_c)
+
+    The ground motion has passed a first-order filter of the corner frequency f_c, of a table or an amplifier. Exact for a_g
+    linear between samples, at rest before the first. Neutral: T = 0. Fails first with the steeper filters of digital recorders.
+    """
+
+    kind: Literal["low_pass"] = "low_pass"
+    time_constant: float = quantity("Time constant T", "s", "ms", ge=0, le=10, default=0.0)
+    title: ClassVar[str] = "Low-pass of the ground motion"
+    hook: ClassVar[int] = GROUND
+    neutral: ClassVar = {"time_constant": 0.0}
+    needs: ClassVar = ("ag",)
+    relatives: ClassVar = ("scale_error", "time_shift")
+    noun: ClassVar[str] = "a low-pass of the ground motion"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for frequency in (3.0, 15.0):
+            yield cls(time_constant=1 / (2 * math.pi * frequency))
+
+    def says(self) -> str:
+        corner = said(1 / (2 * math.pi * max(self.time_constant, 1e-9)), "Hz")
+        return f"has lost half its power at {corner} and more above"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def shaken(self, ground: Array, dt: float) -> Array:
+        if self.time_constant == 0.0:
+            return ground
+        ratio = self.time_constant / dt
+        decay = math.exp(-1 / ratio)
+        mean = ratio * (1 - decay)
+        numerator = [1 - mean, mean - decay]
+        from scipy.signal import lfilter  # here, because it takes 0.7 s to load
+
+        passed: Array = lfilter(numerator, [1.0, -decay], ground)
+        return passed

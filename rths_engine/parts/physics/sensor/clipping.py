@@ -1,0 +1,58 @@
+"""A sensor at the end of its range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.wording import said
+
+
+class Clipping(Reading):
+    """y = min(max(w, -L), L)
+
+    The sensor or its amplifier reads no more than L (m or N), either way. Neutral: L at its upper bound. No state.
+    Fails first where the range is not centred.
+    """
+
+    kind: Literal["clipping"] = "clipping"
+    limit: float
+    relatives: ClassVar = ("scale_error",)
+    noun: ClassVar[str] = "clipping of the sensor"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.7, 0.95):
+            yield cls.sized(limit=share * cls.largest(seen))
+
+    def says(self) -> str:
+        return f"reads no more than {said(self.limit, self.shown)}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.limit]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return min(max(y, -p[0]), p[0])
+
+
+class DisplacementClipping(OfDisplacement, Clipping):
+    """x_meas = min(max(x, -L), L)"""
+
+    limit: float = quantity("Limit L", "m", "mm", gt=0, le=1e3, default=1e3)
+    title: ClassVar[str] = "Clipping of the displacement sensor"
+    neutral: ClassVar = {"limit": 1e3}
+
+
+class ForceClipping(OfForce, Clipping):
+    """f_meas = min(max(f, -L), L)"""
+
+    limit: float = quantity("Limit L", "N", "kN", gt=0, le=1e12, default=1e12)
+    title: ClassVar[str] = "Clipping of the load cell"
+    neutral: ClassVar = {"limit": 1e12}

@@ -1,0 +1,60 @@
+"""A sensor that stands still for a while."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.gate import past
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.wording import said
+
+
+class Dropout(Reading):
+    """y(t) = w(t_0) for t_0 < t <= t_0 + D
+
+    The reading of the moment t_0 (s) is held for D (s): samples lost on their way. At the ends by the share of the substep.
+    Neutral: D = 0. State: s[0] the last reading before t_0. Fails first where lost samples read zero.
+    """
+
+    kind: Literal["dropout"] = "dropout"
+    time: float = quantity("Begin t₀", "s", ge=0, le=1e5, default=0.0)
+    duration: float = quantity("Duration D", "s", ge=0, le=1e5, default=0.0)
+    neutral: ClassVar = {"duration": 0.0}
+    relatives: ClassVar = ("clipping",)
+    noun: ClassVar[str] = "a dropout of the sensor"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for part in (0.15, 0.35, 0.55, 0.75):
+            yield cls.sized(time=part * seen.time, duration=0.1 * seen.time)
+
+    def says(self) -> str:
+        return f"holds its reading from {said(self.time, 's')} for {said(self.duration, 's')}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.time, self.time + self.duration]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        lost = past(t, p[0], dt) - past(t, p[1], dt)
+        if t <= p[0]:
+            s[0] = y
+        return y + lost * (s[0] - y)
+
+
+class DisplacementDropout(OfDisplacement, Dropout):
+    """x_meas(t) = x(t_0) for t_0 < t <= t_0 + D"""
+
+    title: ClassVar[str] = "Dropout of the displacement sensor"
+
+
+class ForceDropout(OfForce, Dropout):
+    """f_meas(t) = f(t_0) for t_0 < t <= t_0 + D"""
+
+    title: ClassVar[str] = "Dropout of the load cell"

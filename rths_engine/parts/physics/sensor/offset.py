@@ -1,0 +1,56 @@
+"""A sensor that reads too much by a constant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.wording import said
+
+
+class Offset(Reading):
+    """y = w + o
+
+    The zero of the sensor is off by o (m or N): a transducer moved, a bridge not balanced. Neutral: o = 0. No state.
+    Fails first where the zero moves with time.
+    """
+
+    kind: Literal["offset"] = "offset"
+    error: float
+    neutral: ClassVar = {"error": 0.0}
+    relatives: ClassVar = ("drift",)
+    noun: ClassVar[str] = "an offset of the sensor"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls.sized(error=0.02 * cls.largest(seen))
+
+    def says(self) -> str:
+        return f"reads {said(abs(self.error), self.shown)} too {'much' if self.error >= 0 else 'little'}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.error]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return y + p[0]
+
+
+class DisplacementOffset(OfDisplacement, Offset):
+    """x_meas = x + o"""
+
+    error: float = quantity("Offset o", "m", "mm", ge=-1, le=1, default=0.0)
+    title: ClassVar[str] = "Offset of the displacement sensor"
+
+
+class ForceOffset(OfForce, Offset):
+    """f_meas = f + o"""
+
+    error: float = quantity("Offset o", "N", "kN", ge=-1e9, le=1e9, default=0.0)
+    title: ClassVar[str] = "Offset of the load cell"

@@ -1,0 +1,54 @@
+"""A sensor that reads too much by a share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.wording import said
+
+
+class ScaleError(Reading):
+    """y = (1 + e) w
+
+    The sensor's factor is off by the share e: another calibration, another range. Neutral: e = 0. No state.
+    Fails first where the error depends on the reading.
+    """
+
+    kind: Literal["scale_error"] = "scale_error"
+    share: float = quantity("Scale error e", "1", "%", ge=-0.9, le=9, default=0.0)
+    neutral: ClassVar = {"share": 0.0}
+    relatives: ClassVar = ("gain_error",)
+    noun: ClassVar[str] = "a scale error of the sensor"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(share=0.03)
+
+    def says(self) -> str:
+        return f"reads {said(abs(self.share), '%')} too {'much' if self.share >= 0 else 'little'}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.share]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return (1.0 + p[0]) * y
+
+
+class DisplacementScaleError(OfDisplacement, ScaleError):
+    """x_meas = (1 + e) x"""
+
+    title: ClassVar[str] = "Scale error of the displacement sensor"
+
+
+class ForceScaleError(OfForce, ScaleError):
+    """f_meas = (1 + e) f"""
+
+    title: ClassVar[str] = "Scale error of the load cell"

@@ -1,0 +1,57 @@
+"""A sensor that reads late or early."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.delay import HEAD, delayed, ring
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.wording import said
+
+
+class TimeSkew(Reading):
+    """y(t) = w(t - T)
+
+    The reading is late by T (s), by a filter or another clock, or early for T < 0: then on its last slope, which is right while
+    omega |T| is small. Linear between substeps. Neutral: T = 0. State: `physics.delay`.
+    Fails first where a filter also takes amplitude away.
+    """
+
+    kind: Literal["time_skew"] = "time_skew"
+    delay: float = quantity("Time skew T, positive where late", "s", "ms", ge=-0.1, le=0.2, default=0.0)
+    neutral: ClassVar = {"delay": 0.0}
+    relatives: ClassVar = ("delay_error", "second_order_lag")
+    noun: ClassVar[str] = "a time skew of the sensor"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(delay=0.005)
+
+    def says(self) -> str:
+        return f"reads {said(abs(self.delay), 'ms')} {'late' if self.delay >= 0 else 'early'}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        state = ring(self.delay, dt)
+        return np.array([self.delay / dt, len(state) - HEAD]), state
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return delayed(s, int(p[1]), y, p[0])
+
+
+class DisplacementTimeSkew(OfDisplacement, TimeSkew):
+    """x_meas(t) = x(t - T)"""
+
+    title: ClassVar[str] = "Time skew of the displacement sensor"
+
+
+class ForceTimeSkew(OfForce, TimeSkew):
+    """f_meas(t) = f(t - T)"""
+
+    title: ClassVar[str] = "Time skew of the load cell"

@@ -1,0 +1,51 @@
+"""Mass that moves with the piston before the load cell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class AddedInertia(Effect):
+    """f = f_0 + m (x[q] - 2 x[q-1] + x[q-2]) / dt^2
+
+    m (kg) of clevis, rod or fixture between load cell and specimen. The second difference is the acceleration half a substep
+    before v. Neutral: m = 0. State: s[0] x[q-1], s[1] x[q-2], s[2] samples seen, up to 2; no force before the third.
+    Fails first on displacements with measurement noise, which it turns into force by 4 / dt^2: smooth them before.
+    """
+
+    kind: Literal["added_inertia"] = "added_inertia"
+    mass: float = quantity("Mass m", "kg", "t", ge=0, le=1e7, default=0.0)
+    title: ClassVar[str] = "Added inertia"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"mass": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("parallel_stiffness",)
+    noun: ClassVar[str] = "the inertia of moving parts"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls.sized(mass=0.1 * seen.f / max(seen.acceleration, 1e-6))
+
+    def says(self) -> str:
+        return f"is measured together with {said(self.mass, 'kg')} of moving mass"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.mass]), np.zeros(3)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        acceleration = 0.0
+        if s[2] > 1.5:
+            acceleration = (x - 2.0 * s[0] + s[1]) / (dt * dt)
+        s[1] = s[0]
+        s[0] = x
+        s[2] = min(s[2] + 1.0, 2.0)
+        return y + p[0] * acceleration

@@ -1,0 +1,44 @@
+"""Strength that differs by direction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class Asymmetry(Effect):
+    """f = (1 + a) f_0 for f_0 > 0, (1 - a) f_0 for f_0 < 0
+
+    Neutral: a = 0. Fails first where the asymmetry is of the displacement and not of the force.
+    """
+
+    kind: Literal["asymmetry"] = "asymmetry"
+    share: float = quantity("Asymmetry a", "1", "%", ge=-0.9, le=0.9, default=0.0)
+    title: ClassVar[str] = "Asymmetry"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"share": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("offset",)
+    noun: ClassVar[str] = "asymmetry of the strength"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(share=0.1)
+
+    def says(self) -> str:
+        way = "positive" if self.share > 0 else "negative"
+        return f"is {said(abs(self.share), '%')} stronger than on average in {way} force, and as much weaker in the other"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.share]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return y * (1.0 + p[0]) if y > 0.0 else y * (1.0 - p[0])

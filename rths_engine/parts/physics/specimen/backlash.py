@@ -1,0 +1,62 @@
+"""Backlash between actuator and specimen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import INPUT, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class Backlash(Effect):
+    """|x - u| <= g/2;  u = x -+ g/2 in contact, which lasts while the specimen's force presses on it;  u rests in between
+
+    The specimen's end u has free play g (m) in its connection: after a reversal the specimen unloads, then nothing is felt
+    until the play is taken up in the other sense. Contact opens by the force of the last substep. Neutral: g = 0.
+    State: s[0] u, s[1] side in contact, 1, -1 or 0, s[2] whether it has begun; at the start a force presses on one side, or
+    the play is centred.
+    Source: Nordin and Gutman (2002), Automatica 38, 1633-1649, the dead zone in series. Fails first where the play closes with
+    an impact.
+    """
+
+    kind: Literal["backlash"] = "backlash"
+    gap: float = quantity("Free play g", "m", "mm", ge=0, le=0.5, default=0.0)
+    title: ClassVar[str] = "Backlash"
+    hook: ClassVar[int] = INPUT
+    neutral: ClassVar = {"gap": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("series_compliance", "pinching")
+    noun: ClassVar[str] = "backlash"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.01, 0.05, 0.2):
+            yield cls.sized(gap=share * seen.x)
+
+    def says(self) -> str:
+        return f"moves freely over {said(self.gap, 'mm')} after each reversal"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.gap]), np.zeros(3)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        half = 0.5 * p[0]
+        if s[2] == 0.0:
+            s[1] = 1.0 if w > 0.0 else -1.0 if w < 0.0 else 0.0
+            s[0] = y - s[1] * half
+            s[2] = 1.0
+        if y - s[0] >= half or (s[1] > 0.0 and w > 0.0):
+            s[0] = y - half
+            s[1] = 1.0
+        elif s[0] - y >= half or (s[1] < 0.0 and w < 0.0):
+            s[0] = y + half
+            s[1] = -1.0
+        else:
+            s[1] = 0.0
+        return s[0]

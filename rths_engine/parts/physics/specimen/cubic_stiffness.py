@@ -1,0 +1,46 @@
+"""A spring that hardens or softens with its stroke."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, TINY, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class CubicStiffness(Effect):
+    """f = f_0 + k_3 x^3
+
+    k_3 (N/m^3), positive where it hardens. Neutral: k_3 = 0. No state. At amplitude X of a sine it adds the stiffness
+    3/4 k_3 X^2 to the first harmonic and k_3 X^3 / 4 of third harmonic.
+    Source: Duffing's spring; Nayfeh and Mook (1979), "Nonlinear Oscillations", Wiley. Fails first at a stop.
+    """
+
+    kind: Literal["cubic_stiffness"] = "cubic_stiffness"
+    stiffness: float = quantity("Cubic stiffness k₃", "N/m^3", "kN/m^3", ge=-1e18, le=1e18, default=0.0)
+    title: ClassVar[str] = "Cubic stiffness"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"stiffness": 0.0}
+    needs: ClassVar[tuple[str, ...]] = ("x_meas", "f_meas")
+    relatives: ClassVar[tuple[str, ...]] = ("parallel_stiffness", "pinching")
+    noun: ClassVar[str] = "cubic stiffness"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls.sized(stiffness=0.1 * seen.stiffness / max(seen.x * seen.x, TINY))
+
+    def says(self) -> str:
+        way = "hardens" if self.stiffness >= 0 else "softens"
+        return f"{way} with its stroke by {said(abs(self.stiffness), 'kN/m^3')}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.stiffness]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return y + p[0] * x * x * x

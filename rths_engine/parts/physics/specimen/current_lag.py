@@ -1,0 +1,56 @@
+"""Force that follows the current late."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class CurrentLag(Effect):
+    """f = f_0 (i_0 + i_f) / (i_0 + |i|),  tau i_f' = |i| - i_f
+
+    The coil's field, and with it the force, follows the current i (A) over tau (s); i_0 is the current that would make the
+    force without current: the force of the model is taken as proportional to i_0 + |i|. Exact for a current held over the
+    substep. Neutral: tau = 0. State: s[0] i_f, s[1] whether it has begun; at the start i_f = |i|.
+    Source: Jiang and Christenson (2012), Smart Mater. Struct. 21, 065002, first-order inductance of a large MR damper.
+    Fails first where the magnetic circuit saturates, and where eddy currents make the lag depend on the step.
+    """
+
+    kind: Literal["current_lag"] = "current_lag"
+    lag: float = quantity("Lag τ", "s", "ms", ge=0, le=10, default=0.0)
+    off_current: float = quantity("Current of the force without current i₀", "A", gt=0, le=100, default=0.5)
+    title: ClassVar[str] = "Current lag"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"lag": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas", "current")
+    relatives: ClassVar = ("strength_drop",)
+    noun: ClassVar[str] = "the lag of the current"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for lag in (0.02, 0.2):
+            yield cls(lag=lag)
+
+    def says(self) -> str:
+        return f"follows its current {said(self.lag, 'ms')} late"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        decay = math.exp(-dt / self.lag) if self.lag > 0 else 0.0
+        return np.array([decay, self.off_current]), np.zeros(2)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        current = abs(w)
+        if s[1] == 0.0:
+            s[0] = current
+            s[1] = 1.0
+        s[0] = current + p[0] * (s[0] - current)
+        return y * (p[1] + s[0]) / (p[1] + current)

@@ -1,0 +1,49 @@
+"""Force that is pinched about the middle of the stroke."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class Pinching(Effect):
+    """f = f_0 (1 - d exp(-(x / x_p)^2))
+
+    d is the share of the force that is lost about x = 0 and x_p (m) half the width of the pinch. Neutral: d = 0. No state.
+    Source: the Gaussian slip zone of Baber and Noori (1985), J. Eng. Mech. 111, 1010-1026, in the force.
+    Fails first where the pinch moves with the force or the largest excursion so far.
+    """
+
+    kind: Literal["pinching"] = "pinching"
+    depth: float = quantity("Depth of the pinch d", "1", "%", ge=0, le=0.99, default=0.0)
+    width: float = quantity("Half width of the pinch x_p", "m", "mm", gt=0, le=1, default=5e-3)
+    title: ClassVar[str] = "Pinching"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"depth": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("backlash", "cubic_stiffness")
+    noun: ClassVar[str] = "pinching"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.1, 0.4):
+            yield cls.sized(depth=0.3, width=share * seen.x)
+
+    def says(self) -> str:
+        return f"loses {said(self.depth, '%')} of its force within {said(self.width, 'mm')} of the middle of its stroke"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.depth, self.width]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        ratio = x / p[1]
+        return y * (1.0 - p[0] * math.exp(-ratio * ratio))

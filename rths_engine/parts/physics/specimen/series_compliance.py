@@ -1,0 +1,46 @@
+"""Compliance in series with the specimen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import SERIES, TINY, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+
+class SeriesCompliance(Effect):
+    """u + phi f(u) = x
+
+    phi (m/N) is the flexibility of clevises, load cell or frame between the measured displacement x and the specimen's end u.
+    Solved in every substep with the specimen's own law. Neutral: phi = 0. No state.
+    Fails first where the supports have mass.
+    """
+
+    kind: Literal["series_compliance"] = "series_compliance"
+    flexibility: float = quantity("Flexibility φ", "m/N", "mm/kN", ge=0, le=1, default=0.0)
+    title: ClassVar[str] = "Series compliance"
+    hook: ClassVar[int] = SERIES
+    neutral: ClassVar = {"flexibility": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("backlash",)
+    noun: ClassVar[str] = "compliance in series"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.005, 0.03, 0.15):
+            yield cls.sized(flexibility=share / max(seen.stiffness, TINY))
+
+    def says(self) -> str:
+        return f"gives way by {said(self.flexibility, 'mm/kN')} before the specimen"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.flexibility]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return y + p[0]

@@ -1,0 +1,64 @@
+"""Friction that falls with the velocity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, Effect, Seen, beyond
+from rths_engine.parts.physics.friction import PRESLIDING, bristle
+from rths_engine.parts.physics.wording import said
+
+
+class StribeckFriction(Effect):
+    """f = f_0 + (F_c + F_b exp(-(v / v_s)^2)) z,  x_e z' = v - |v| z
+
+    F_c friction at speed, F_c + F_b breakaway friction (N), v_s Stribeck velocity (m/s), x_e pre-sliding displacement (m).
+    Neutral: F_c = F_b = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun.
+    Source: Armstrong-Helouvry, Dupont and Canudas de Wit (1994), Automatica 30, 1083-1138.
+    Fails first where the friction lags the velocity (frictional memory).
+    """
+
+    kind: Literal["stribeck_friction"] = "stribeck_friction"
+    friction: float = quantity("Friction at speed F_c", "N", "kN", ge=0, le=1e9, default=0.0)
+    breakaway: float = quantity("Breakaway friction above it F_b", "N", "kN", ge=0, le=1e9, default=0.0)
+    stribeck_velocity: float = quantity("Stribeck velocity v_s", "m/s", "mm/s", gt=0, le=10, default=0.01)
+    presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", ge=1e-7, le=0.1, default=1e-4)
+    title: ClassVar[str] = "Stribeck friction"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"friction": 0.0, "breakaway": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("coulomb_friction", "bouc_wen_hysteresis")
+    noun: ClassVar[str] = "Stribeck friction"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.03, 0.15):
+            friction = 0.1 * seen.f
+            yield cls.sized(friction=friction, breakaway=friction, stribeck_velocity=share * seen.v, presliding=0.01 * seen.x)
+
+    def doubt(self, seen: Seen) -> float:
+        return beyond(self.presliding, PRESLIDING * seen.x)
+
+    def says(self) -> str:
+        most, least = said(self.friction + self.breakaway, "kN"), said(self.friction, "kN")
+        return (
+            f"resists motion with {most} of friction at low speed and {least} well above {said(self.stribeck_velocity, 'mm/s')}"
+        )
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.friction, self.breakaway, self.stribeck_velocity, self.presliding]), np.zeros(3)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        if s[2] > 0.0:
+            s[1] = bristle(s[1], (x - s[0]) / p[3])
+        s[0] = x
+        s[2] = 1.0
+        ratio = v / p[2]
+        return y + (p[0] + p[1] * math.exp(-ratio * ratio)) * s[1]

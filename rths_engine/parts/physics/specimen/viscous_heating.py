@@ -1,0 +1,57 @@
+"""Force that fades as the specimen heats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.wording import said
+
+LEAST = 0.05  # of the cold force
+
+
+class ViscousHeating(Effect):
+    """f = f_0 max(1 - phi E, 0.05),  E' = f v
+
+    E (J) is the work done on the specimen so far, of which all that its springs do not give back heats it, and phi (1/J) the
+    force it loses for that. Trapezoidal rule. Neutral: phi = 0.
+    State: s[0] E, s[1] x and s[2] f of the last substep, s[3] whether it has begun.
+    Source: Makris, Roussos, Whittaker and Kelly (1998), J. Eng. Mech. 124, 1217-1223: no heat leaves in a
+    short test.
+    Fails first where the heat leaves within the test, and where the force fades to less than half: viscosity then levels out.
+    """
+
+    kind: Literal["viscous_heating"] = "viscous_heating"
+    fade: float = quantity("Fade per dissipated energy φ", "1/J", "1/MJ", ge=0, le=1, default=0.0)
+    title: ClassVar[str] = "Viscous heating"
+    hook: ClassVar[int] = FORCE
+    neutral: ClassVar = {"fade": 0.0}
+    needs: ClassVar = ("x_meas", "f_meas")
+    relatives: ClassVar = ("strength_drop",)
+    noun: ClassVar[str] = "viscous heating"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for loss in (0.1, 0.4):
+            yield cls.sized(fade=loss / max(seen.energy, 1.0))
+
+    def says(self) -> str:
+        return f"loses {said(self.fade * 1e6, '%')} of its force for every MJ it dissipates"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.fade]), np.zeros(4)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        force = y * min(max(1.0 - p[0] * s[0], LEAST), 1.0)
+        if s[3] > 0.0:
+            s[0] += 0.5 * (force + s[2]) * (x - s[1])
+        s[1] = x
+        s[2] = force
+        s[3] = 1.0
+        return force

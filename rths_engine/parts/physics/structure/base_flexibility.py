@@ -1,0 +1,72 @@
+"""A base that sways."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import MATRICES, TINY, Effect, Seen
+from rths_engine.parts.physics.wording import said
+from rths_engine.parts.structures.assembled import Assembled, Members
+
+HORIZONTAL = (0, 3)  # of a member's six end displacements
+
+
+class BaseFlexibility(Effect):
+    """V = b / phi: one more degree of freedom b without mass, y = x - iota b,  K -> T^T K T + e e^T / phi,  T = [1, -iota]
+
+    The structure stands on a spring of flexibility phi (m/N) under its base shear V, dampers of the lowest storey on it too; x
+    stays relative to the ground. A single storey's period lengthens by sqrt(1 + phi k). Neutral: phi = 0.
+    Source: Veletsos and Meek (1974), EESD 3, 121-138, the sway of a structure on its soil.
+    Fails first where the base also rocks.
+    """
+
+    kind: Literal["base_flexibility"] = "base_flexibility"
+    flexibility: float = quantity("Flexibility φ", "m/N", "mm/kN", ge=0, le=1, default=0.0)
+    title: ClassVar[str] = "Base flexibility"
+    hook: ClassVar[int] = MATRICES
+    neutral: ClassVar = {"flexibility": 0.0}
+    needs: ClassVar = ("x_floor",)
+    relatives: ClassVar = ("stiffness_error", "p_delta")
+    noun: ClassVar[str] = "the flexibility of the base"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls.sized(flexibility=0.05 / max(seen.stiffness, TINY))
+
+    def says(self) -> str:
+        return f"gives way at its base by {said(self.flexibility, 'mm/kN')}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def assembled(self, built: Assembled) -> Assembled:
+        if self.flexibility == 0.0:
+            return built
+        count = len(built.mass)
+        relative = np.column_stack([np.eye(count), -built.influence])
+        spring = np.zeros((count + 1, count + 1))
+        spring[count, count] = 1 / self.flexibility
+        return Assembled(
+            np.pad(built.mass, (0, 1)),
+            relative.T @ built.damping @ relative,
+            relative.T @ built.stiffness @ relative + spring,
+            relative.T @ built.elastic @ relative + spring,
+            np.append(built.influence, 0.0),
+            built.floors,
+            built.drifts @ relative,
+            _standing(built.members, count),
+            base=count,
+        )
+
+
+def _standing(members: Members, base: int) -> Members:
+    """The members with their supported horizontal ends on the base."""
+    dofs = members.dofs.copy()
+    for end in HORIZONTAL:
+        dofs[dofs[:, end] < 0, end] = base
+    return members._replace(dofs=dofs)

@@ -1,0 +1,22 @@
+"""A Bouc-Wen element between two floors."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from rths_engine.parts.physics.effect import STOREY
+from rths_engine.parts.physics.specimen import bouc_wen_hysteresis as specimen
+from rths_engine.parts.physics.structure.storey import OfStorey
+
+
+class BoucWenHysteresis(OfStorey, specimen.BoucWenHysteresis):
+    """f = F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
+
+    x drift of the storey. Else as `physics.specimen.bouc_wen_hysteresis`.
+    """
+
+    title: ClassVar[str] = "Bouc-Wen hysteresis of a storey"
+    hook: ClassVar[int] = STOREY
+    needs: ClassVar = ("x_floor",)
+    relatives: ClassVar = ("coulomb_friction", "yielding")
+    noun: ClassVar[str] = "hysteresis"

@@ -1,0 +1,44 @@
+"""A structure damped more or less than its model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import MATRICES, Effect, Seen
+from rths_engine.parts.physics.wording import said
+from rths_engine.parts.structures.assembled import Assembled
+
+
+class DampingError(Effect):
+    """(1 + e) C
+
+    Every modal damping ratio of the structure is off by the share e. Neutral: e = 0.
+    Source: Chopra, Dynamics of Structures, chapter 11. Fails first where one mode is off and another is not.
+    """
+
+    kind: Literal["damping_error"] = "damping_error"
+    share: float = quantity("Damping error e", "1", "%", ge=-1, le=20, default=0.0)
+    title: ClassVar[str] = "Damping error"
+    hook: ClassVar[int] = MATRICES
+    neutral: ClassVar = {"share": 0.0}
+    needs: ClassVar = ("x_floor",)
+    relatives: ClassVar = ("coulomb_friction", "quadratic_damping")
+    noun: ClassVar[str] = "a damping error"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(share=0.2)
+
+    def says(self) -> str:
+        return f"has {said(abs(self.share), '%')} {'more' if self.share >= 0 else 'less'} damping than its model"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def assembled(self, built: Assembled) -> Assembled:
+        return built._replace(damping=(1 + self.share) * built.damping)

@@ -1,0 +1,51 @@
+"""A storey that strikes a stop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+from pydantic import Field
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.wording import said
+
+
+class GapContact(OfStorey):
+    """f = k_c (x - g) for x > g,  k_c (x + g) for x < -g
+
+    Beyond the drift g (m) a stop or a neighbouring building of stiffness k_c (N/m) is in contact, on both sides or on one. No
+    energy is lost. Neutral: k_c = 0. No state.
+    Source: the linear spring element of Anagnostopoulos (1988), EESD 16, 443-456. Fails first where impacts dissipate, and with
+    a stop so stiff that contact lasts but a few integration steps.
+    """
+
+    kind: Literal["gap_contact"] = "gap_contact"
+    gap: float = quantity("Gap g", "m", "mm", ge=0, le=10, default=0.0)
+    stiffness: float = quantity("Contact stiffness k_c", "N/m", "kN/m", ge=0, le=1e12, default=0.0)
+    side: Literal["both", "positive", "negative"] = Field("both", title="Side")
+    title: ClassVar[str] = "Gap and contact"
+    neutral: ClassVar = {"stiffness": 0.0}
+    relatives: ClassVar = ("cubic_stiffness", "pinching")
+    noun: ClassVar[str] = "contact after a gap"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        guess = cls.sized(gap=0.7 * seen.x, stiffness=0.5 * seen.stiffness)
+        for side in ("both", "positive", "negative"):
+            yield guess.model_copy(update={"storey": seen.storey, "side": side})
+
+    def says(self) -> str:
+        where = {"both": "both sides", "positive": "the positive side", "negative": "the negative side"}[self.side]
+        return f"strikes a stop of {said(self.stiffness, 'kN/m')} after {said(self.gap, 'mm')} on {where}"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.gap, self.stiffness, self.side != "negative", self.side != "positive"]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        return y + p[1] * (p[2] * max(x - p[0], 0.0) + p[3] * min(x + p[0], 0.0))

@@ -1,0 +1,49 @@
+"""A floor heavier or lighter than its model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import MATRICES, Seen
+from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.wording import said
+from rths_engine.parts.structures.assembled import Assembled
+
+
+class MassError(OfStorey):
+    """S M S,  S = diag(1, .., sqrt(1 + e), .., 1)
+
+    The mass of the floor on top of the storey is off by the share e; of a mass matrix that is not diagonal its coupling scales
+    by sqrt(1 + e), so that it stays positive. Damping stays. Neutral: e = 0.
+    Source: Chopra, Dynamics of Structures, chapter 9. Fails first where the floor's rotational mass matters.
+    """
+
+    kind: Literal["mass_error"] = "mass_error"
+    share: float = quantity("Mass error e", "1", "%", ge=-0.95, le=10, default=0.0)
+    title: ClassVar[str] = "Mass error"
+    hook: ClassVar[int] = MATRICES
+    neutral: ClassVar = {"share": 0.0}
+    relatives: ClassVar = ("stiffness_error",)
+    noun: ClassVar[str] = "a mass error"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(storey=seen.storey, share=0.05)
+
+    def says(self) -> str:
+        return f"carries a floor {said(abs(self.share), '%')} {'heavier' if self.share >= 0 else 'lighter'} than its model"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def assembled(self, built: Assembled) -> Assembled:
+        self.check(built)
+        scale = np.ones(len(built.mass))
+        scale[built.floors[self.storey - 1]] = math.sqrt(1 + self.share)
+        return built._replace(mass=built.mass * np.outer(scale, scale))

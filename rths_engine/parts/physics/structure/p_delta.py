@@ -1,0 +1,53 @@
+"""Gravity that works on the drift."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import MATRICES, Effect, Seen
+from rths_engine.parts.physics.structure.storey import drift, stiffened
+from rths_engine.parts.physics.wording import said
+from rths_engine.parts.structures.assembled import Assembled
+
+
+class PDelta(Effect):
+    """K - mu lambda K_G,  K_G = sum over storeys of W_s l_s^T l_s,  lambda the least root of det(K - lambda K_G) = 0
+
+    W_s (kg) is the mass above storey s and l_s takes x to its drift, for storeys of equal height; mu is the gravity load as
+    a share of the load lambda K_G at which the structure buckles sideways: K stays positive definite for mu < 1.
+    For one storey mu is the stability coefficient W g / (k h). Neutral: mu = 0.
+    Source: the linearised geometric stiffness of Wilson and Habibullah (1987), Earthquake Spectra 3, 289-298.
+    Fails first at drifts where the structure yields and where storeys differ in height.
+    """
+
+    kind: Literal["p_delta"] = "p_delta"
+    load: float = quantity("Gravity load over buckling load μ", "1", "%", ge=0, le=0.95, default=0.0)
+    title: ClassVar[str] = "P-delta"
+    hook: ClassVar[int] = MATRICES
+    neutral: ClassVar = {"load": 0.0}
+    needs: ClassVar = ("x_floor",)
+    relatives: ClassVar = ("stiffness_error", "base_flexibility")
+    noun: ClassVar[str] = "the P-delta effect"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(load=0.05)
+
+    def says(self) -> str:
+        return f"is softened by gravity, at {said(self.load, '%')} of the load at which it buckles sideways"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def assembled(self, built: Assembled) -> Assembled:
+        masses = (built.mass @ built.influence)[list(built.floors)]
+        above = np.cumsum(masses[::-1])[::-1]
+        rows = np.array([drift(built, storey) for storey in range(1, len(masses) + 1)]).reshape(-1, len(built.mass))
+        geometric = rows.T @ (above[:, None] * rows)
+        largest = np.linalg.eigvals(np.linalg.solve(built.stiffness, geometric)).real.max(initial=0.0)
+        return stiffened(built, -self.load / largest * geometric) if largest > 0 else built

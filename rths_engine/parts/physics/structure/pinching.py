@@ -1,0 +1,49 @@
+"""A storey that slips about the middle of its drift."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.wording import said
+
+
+class Pinching(OfStorey):
+    """f = -d w exp(-(x / x_p)^2)
+
+    The share d of the storey's elastic force w is missing about the drift x = 0, over x_p (m): bolts in their holes, cracks
+    that have to close. Neutral: d = 0. No state.
+    Source: the Gaussian slip zone of Baber and Noori (1985), J. Eng. Mech. 111, 1010-1026, without its dissipation.
+    Fails first where the slip grows with the largest drift so far.
+    """
+
+    kind: Literal["pinching"] = "pinching"
+    depth: float = quantity("Depth of the pinch d", "1", "%", ge=0, le=0.99, default=0.0)
+    width: float = quantity("Half width of the pinch x_p", "m", "mm", gt=0, le=1, default=5e-3)
+    title: ClassVar[str] = "Pinching of a storey"
+    neutral: ClassVar = {"depth": 0.0}
+    relatives: ClassVar = ("cubic_stiffness", "gap_contact")
+    noun: ClassVar[str] = "pinching"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.15, 0.5):
+            yield cls.sized(depth=0.3, width=share * seen.x).model_copy(update={"storey": seen.storey})
+
+    def says(self) -> str:
+        return f"loses {said(self.depth, '%')} of its force within {said(self.width, 'mm')} of the middle of its drift"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.depth, self.width]), np.zeros(1)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        ratio = x / p[1]
+        return y - p[0] * w * math.exp(-ratio * ratio)

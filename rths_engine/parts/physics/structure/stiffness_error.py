@@ -1,0 +1,48 @@
+"""A storey stiffer or softer than its model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import MATRICES, Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffened, stiffness
+from rths_engine.parts.physics.wording import said
+from rths_engine.parts.structures.assembled import Assembled
+
+
+class StiffnessError(OfStorey):
+    """K + e k l^T l,  k = 1 / (l K^-1 l^T)
+
+    l takes x to the drift of the storey, and k is its stiffness against a pair of forces along the drift: of a shear building
+    the storey's own. K stays positive definite for every e > -1. Damping stays. Neutral: e = 0.
+    Source: Chopra, Dynamics of Structures, chapter 9, and the Sherman-Morrison formula.
+    Fails first where columns below and above share the error.
+    """
+
+    kind: Literal["stiffness_error"] = "stiffness_error"
+    share: float = quantity("Stiffness error e", "1", "%", ge=-0.95, le=10, default=0.0)
+    title: ClassVar[str] = "Stiffness error"
+    hook: ClassVar[int] = MATRICES
+    neutral: ClassVar = {"share": 0.0}
+    relatives: ClassVar = ("mass_error", "p_delta", "base_flexibility")
+    noun: ClassVar[str] = "a stiffness error"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        yield cls(storey=seen.storey, share=-0.05)
+
+    def says(self) -> str:
+        return f"is {said(abs(self.share), '%')} {'stiffer' if self.share >= 0 else 'softer'} than its model"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def assembled(self, built: Assembled) -> Assembled:
+        self.check(built)
+        row = drift(built, self.storey)
+        return stiffened(built, self.share * stiffness(built, row) * np.outer(row, row))

@@ -1,0 +1,53 @@
+"""Effects of one storey of a structure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import STOREY, Effect, Seen
+from rths_engine.parts.structures.assembled import Assembled
+
+
+class OfStorey(Effect):
+    """y = f(drift of storey s), against the drift."""
+
+    storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground")
+    hook: ClassVar[int] = STOREY
+    needs: ClassVar = ("x_floor",)
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for guess in super().guesses(seen):
+            yield guess.model_copy(update={"storey": seen.storey})
+
+    def check(self, built: Assembled) -> None:
+        """Raises PlanError where the structure has no such storey."""
+        count = len(built.floors)
+        if self.storey > count:
+            raise PlanError(Issue("storey", f"the structure has {count} storeys", self.storey, "give one of them"))
+
+
+def drift(built: Assembled, storey: int) -> Array:
+    """Row (n) that takes x to the drift of a storey from 1."""
+    row: Array = np.zeros(len(built.mass))
+    row[built.floors[storey - 1]] = 1.0
+    below = built.floors[storey - 2] if storey > 1 else built.base
+    if below >= 0:
+        row[below] = -1.0
+    return row
+
+
+def stiffness(built: Assembled, row: Array) -> float:
+    """1 / (l K^-1 l^T), N/m: a pair of forces along the drift over the drift; of a shear building the storey's stiffness."""
+    return float(1.0 / (row @ np.linalg.solve(built.stiffness, row)))
+
+
+def stiffened(built: Assembled, added: Array) -> Assembled:
+    """With `added` (n, n) beside the members."""
+    return built._replace(stiffness=built.stiffness + added, elastic=built.elastic + added)

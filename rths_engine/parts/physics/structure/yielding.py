@@ -1,0 +1,52 @@
+"""A storey that yields."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.wording import said
+
+
+class Yielding(OfStorey):
+    """f = (1 - r) (q - w),  q' = w' while |q| < F_y or w turns it back
+
+    w elastic force of the storey, in all r w + (1 - r) q: bilinear with kinematic hardening, yield force F_y (N) and post-yield
+    stiffness r times the initial. Exact for a drift that turns at substeps. Neutral: r = 1.
+    State: s[0] q, s[1] w of the last substep, s[2] whether it has begun.
+    Source: Chopra, Dynamics of Structures, chapter 7. Fails first where strength or stiffness degrades.
+    """
+
+    kind: Literal["yielding"] = "yielding"
+    yield_force: float = quantity("Yield force F_y", "N", "kN", gt=0, le=1e12, default=1e12)
+    post_yield_ratio: float = quantity("Post-yield stiffness ratio r", "1", "%", ge=0, le=1, default=1.0)
+    title: ClassVar[str] = "Yielding"
+    neutral: ClassVar = {"post_yield_ratio": 1.0}
+    relatives: ClassVar = ("bouc_wen_hysteresis", "coulomb_friction")
+    noun: ClassVar[str] = "yielding"
+
+    @classmethod
+    def guesses(cls, seen: Seen) -> Iterator[Self]:
+        for share in (0.5, 0.8):
+            guess = cls.sized(yield_force=share * seen.f, post_yield_ratio=0.3)
+            yield guess.model_copy(update={"storey": seen.storey})
+
+    def says(self) -> str:
+        return f"yields at {said(self.yield_force, 'kN')} and keeps {said(self.post_yield_ratio, '%')} of its stiffness"
+
+    def build(self, dt: float) -> tuple[Array, Array]:
+        return np.array([self.yield_force, 1 - self.post_yield_ratio]), np.zeros(3)
+
+    @staticmethod
+    def step(p, s, y, x, v, w, t, dt):
+        if s[2] == 0.0:
+            s[0], s[1], s[2] = w, w, 1.0
+        s[0] = min(max(s[0] + (w - s[1]), -p[0]), p[0])
+        s[1] = w
+        return y + p[1] * (s[0] - w)

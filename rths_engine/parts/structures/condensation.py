@@ -1,0 +1,27 @@
+"""Static condensation."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import PlanError
+from rths_engine.parts.structures.modes import MECHANISM
+
+
+def condensed(stiffness: Array, kept: NDArray[np.int64]) -> Array:
+    """K_c = inv(F_kk) with F = inv(K): the stiffness (N/m) that the degrees of freedom `kept` see when no other is loaded.
+
+    Exact in a linear run from rest with C = a0 M + a1 K, when mass, ground motion and stations act on the kept ones alone:
+    every other one then follows statically, x_s = -inv(K_ss) K_sk x_k. Fails first when a member yields.
+    Raises PlanError for a mechanism.
+    Source: Guyan (1965), AIAA J. 3, 380; Chopra, Dynamics of Structures, section 9.3.
+    """
+    try:
+        flexibility = cho_solve(cho_factor(stiffness), np.eye(len(stiffness))[:, kept])[kept]
+        inverse: Array = np.linalg.inv((flexibility + flexibility.T) / 2)
+    except (LinAlgError, np.linalg.LinAlgError):
+        raise PlanError(MECHANISM) from None
+    return np.asarray((inverse + inverse.T) / 2)

@@ -1,0 +1,1 @@
+"""The test plan: its fields, its checks, its YAML form and the templates."""

@@ -1,0 +1,172 @@
+"""What must hold between the fields of a plan."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from rths_engine.foundation.errors import Issue
+from rths_engine.parts.structures.modes import circular_frequencies
+from rths_engine.planning.excitation import Drive
+from rths_engine.planning.kinds_of_test import DRIVEN
+from rths_engine.planning.plan import Plan
+
+LONGEST = 3600.0  # s, of a drive or a force
+MOST_MOMENTS = 100_000  # of a drive that are looked at
+
+
+def issues(plan: Plan) -> Iterator[Issue]:
+    """Everything wrong between the fields, by what the plan's kind of test needs."""
+    lasting = list(_too_long(plan))
+    yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(plan))
+    yield from _names(plan)
+    yield from _capacity(plan)
+
+
+def _too_long(plan: Plan) -> Iterator[Issue]:
+    yield from too_long("drive.shape", plan.drive.shape)
+    for index, force in enumerate(plan.forces):
+        yield from too_long(f"forces.{index}.shape", force.shape)
+
+
+def too_long(where: str, shape: Any) -> Iterator[Issue]:
+    if not shape.duration <= LONGEST:
+        problem = f"lasts {shape.duration:.4g} s; {LONGEST:g} s is the most"
+        yield Issue(where, problem, shape.kind, "take fewer cycles or a higher frequency")
+
+
+def _driven(plan: Plan) -> Iterator[Issue]:
+    fix = f"choose none: a test of {'a' if plan.test == 'specimen' else 'an'} {plan.test} follows its drive"
+    if plan.structure.kind != "none":
+        yield Issue("structure", "is not used in this kind of test", plan.structure.kind, fix)
+    if plan.motion.kind != "none":
+        yield Issue("motion", "is not used in this kind of test", plan.motion.kind, fix)
+    if plan.forces:
+        yield Issue("forces", "are not used in this kind of test", len(plan.forces), "leave them out")
+    if not plan.start.at_rest:
+        yield Issue("start", "is not used in this kind of test", fix="leave it at rest")
+    for name in ("structure_physics", "motion_physics"):
+        if getattr(plan, name):
+            yield Issue(name, "is not used in this kind of test", len(getattr(plan, name)), "leave it out")
+    if len(plan.stations) != 1:
+        yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one")
+    for station in plan.stations[:1]:
+        for name, field in type(station).model_fields.items():
+            extra: Any = field.json_schema_extra or {}
+            given = getattr(station, name)
+            if plan.test not in extra.get("tests", DRIVEN) and given != field.default:
+                yield Issue(f"stations.0.{name}", "is not used in this kind of test", given, "leave it out")
+    if plan.drive.shape.kind == "still":
+        yield Issue("drive.shape", "a test of one station needs a drive", "still", "choose the shape of its displacement")
+    elif plan.stations:
+        yield from _within_limits(plan)
+
+
+def _within_limits(plan: Plan) -> Iterator[Issue]:
+    """The whole drive is known, so that what would trip is told before the start."""
+    reached, fastest = peaks(plan.drive, plan.duration or plan.drive.shape.duration, plan.controller_rate)
+    limits = plan.stations[0].limits
+    if reached > limits.displacement:
+        problem = f"reaches {reached * 1e3:.4g} mm, beyond the station's limit of {limits.displacement * 1e3:g} mm"
+        yield Issue("drive.amplitude", problem, plan.drive.amplitude, "lower the amplitude or raise the limit")
+    if fastest > limits.velocity:
+        problem = f"reaches {fastest * 1e3:.4g} mm/s, beyond the station's limit of {limits.velocity * 1e3:g} mm/s"
+        yield Issue("drive.shape", problem, plan.drive.shape.kind, "go slower or lower the amplitude")
+
+
+def peaks(drive: Drive, duration: float, rate: float) -> tuple[float, float]:
+    """Largest displacement (m) and velocity (m/s) of the command in the controller's steps; of a long one at MOST_MOMENTS."""
+    steps = math.ceil(duration * rate)
+    step = np.arange(0, steps + 1, max(1, steps // MOST_MOMENTS))
+    now, before = np.split(drive.sample(np.concatenate([step, np.maximum(step - 1, 0)]) / rate), 2)
+    before[0] = 0.0  # every test starts from rest
+    return float(np.max(np.abs(now))), float(np.max(np.abs(now - before))) * rate
+
+
+def _computed(plan: Plan) -> Iterator[Issue]:
+    if plan.structure.kind == "none":
+        yield Issue("structure", "this kind of test computes a structure", "none", "choose one")
+        return
+    beyond = list(_beyond(plan))
+    if beyond:  # the structure can't be assembled with such effects
+        yield from beyond
+        return
+    if plan.drive.shape.kind != "still":
+        yield Issue("drive", "is for tests of one specimen or actuator", plan.drive.shape.kind, "leave it at rest")
+    if plan.test == "structure" and plan.stations:
+        yield Issue("stations", "a structure alone has none", len(plan.stations), "remove them or choose a hybrid test")
+    if plan.test == "hybrid" and not plan.start.at_rest:
+        yield Issue("start", "a hybrid test starts from rest", fix="choose a test of the structure alone, or start at rest")
+    moved = plan.motion.kind != "none" or plan.forces
+    if not moved and plan.duration is None:
+        yield Issue("duration", "without ground motion or forces nothing says how long", None, "give a duration")
+    dt, n, rate = plan.integrator.dt, plan.integrator.substeps, plan.controller_rate
+    if not math.isclose(dt * rate, n, rel_tol=1e-9):
+        fix = f"with {n} substeps at {rate:g} Hz the step is {n / rate:.9g} s"
+        yield Issue("integrator.dt", f"is {dt * rate:.6g} controller steps, but a step has {n} substeps", dt, fix)
+    yield from _stable(plan)
+    yield from _places(plan)
+
+
+def _beyond(plan: Plan) -> Iterator[Issue]:
+    floors = len(plan.structure.assemble().floors)
+    for index, effect in enumerate(plan.structure_physics):
+        storey = getattr(effect, "storey", 1)
+        if storey > floors:
+            where = f"structure_physics.{index}.storey"
+            yield Issue(where, f"the structure has {floors} storeys", storey, f"give 1 to {floors}")
+
+
+def _stable(plan: Plan) -> Iterator[Issue]:
+    bound = plan.integrator.stable_up_to
+    if math.isinf(bound):
+        return
+    built, title = plan.assembled(), plan.integrator.title
+    massless = int(np.sum(~built.mass.any(axis=0)))
+    if massless:
+        problem = f"has {massless} degrees of freedom without mass, which {title.lower()} can't integrate"
+        yield Issue("integrator.kind", problem, plan.integrator.kind, "give them mass or choose CR or KR-α")
+        return
+    highest = float(circular_frequencies(built.mass, built.stiffness)[-1])
+    if highest * plan.integrator.dt > bound:
+        problem = (
+            f"is {highest * plan.integrator.dt:.4g} over the highest circular frequency; {title.lower()} is unstable above 2"
+        )
+        fix = f"take at most {bound / highest:.3g} s, or choose CR or KR-α"
+        yield Issue("integrator.dt", problem, plan.integrator.dt, fix)
+
+
+def _places(plan: Plan) -> Iterator[Issue]:
+    built = plan.assembled()
+    floors, storeys = len(built.floors), len(built.drifts)
+    for index, station in enumerate(plan.stations):
+        if station.storey > storeys:
+            where = f"stations.{index}.storey"
+            yield Issue(where, f"the structure has {storeys} storeys", station.storey, f"give 1 to {storeys}")
+    for index, force in enumerate(plan.forces):
+        if force.floor > floors:
+            yield Issue(f"forces.{index}.floor", f"the structure has {floors} floors", force.floor, f"give 1 to {floors}")
+    for name in ("displacement", "velocity"):
+        given = len(getattr(plan.start, name))
+        if given not in (0, floors):
+            yield Issue(f"start.{name}", f"has {given} numbers for {floors} floors", None, f"give {floors}, or none for rest")
+
+
+def _names(plan: Plan) -> Iterator[Issue]:
+    names = [station.name for station in plan.stations]
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            yield Issue(f"stations.{index}.name", "is another station's name already", name, "give each station its own name")
+
+
+def _capacity(plan: Plan) -> Iterator[Issue]:
+    """A command that the limits let through must be one that the actuator can follow."""
+    for index, station in enumerate(plan.stations):
+        limit, capacity = station.limits.velocity, station.actuator.velocity_limit
+        if limit > capacity:
+            problem = f"lets through {limit * 1e3:g} mm/s, more than the actuator's {capacity * 1e3:g} mm/s"
+            fix = "lower the limit to the actuator's capacity or choose a faster actuator"
+            yield Issue(f"stations.{index}.limits.velocity", problem, limit, fix)

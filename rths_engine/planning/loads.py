@@ -1,0 +1,20 @@
+"""(inputs, DOF): what a unit of the ground acceleration (m/s^2) and of each floor force (N) does to the equations."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.parts.structures.assembled import Assembled
+from rths_engine.planning.plan import Plan
+
+
+def loads(plan: Plan, built: Assembled) -> Array:
+    """-M iota, and 1 at the floor of each force; nothing for a test without structure."""
+    if plan.driven:
+        return np.zeros((0, 0))
+    found: Array = np.zeros((1 + len(plan.forces), len(built.mass)))
+    found[0] = -built.mass @ built.influence
+    for number, force in enumerate(plan.forces, start=1):
+        found[number, built.floors[force.floor - 1]] = 1.0
+    return found

@@ -1,0 +1,199 @@
+"""A test plan: one immutable value from which a run is reproducible to the bit."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import ConfigDict, Field
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part, Value, quantity
+from rths_engine.parts.actuators import Actuator
+from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.compensators import Compensator
+from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.integrators import Integrator
+from rths_engine.parts.integrators.cr import CrIntegrator
+from rths_engine.parts.integrators.scheme import Scheme
+from rths_engine.parts.physics import ActuatorEffect, InputEffect, SensorEffect, SpecimenEffect, StructureEffect
+from rths_engine.parts.physics.effect import MATRICES, PART, Effect, amended
+from rths_engine.parts.specimens import Specimen
+from rths_engine.parts.specimens.mr_damper import MrDamper
+from rths_engine.parts.structures import Structure
+from rths_engine.parts.structures.assembled import Assembled
+from rths_engine.parts.structures.modes import circular_frequencies
+from rths_engine.parts.structures.no_structure import NoStructure
+from rths_engine.planning.excitation import Drive, FloorForce, Start
+from rths_engine.planning.kinds_of_test import DRIVEN, TESTS
+from rths_engine.planning.motion import NoMotion, PlannedMotion
+from rths_engine.planning.safety import Limits
+
+COMPUTED: dict[str, Any] = {"tests": ["hybrid", "structure"]}
+TESTED: dict[str, Any] = {"tests": ["hybrid", *DRIVEN], "one_in": [*DRIVEN]}
+ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}
+ONLY_HYBRID = ["hybrid"]
+
+
+class Noise(Value):
+    """Standard deviation of white Gaussian sensor noise added every substep to what the loop measures."""
+
+    displacement: float = quantity("Displacement noise (standard deviation)", "m", "mm", ge=0, le=0.1, default=0.0)
+    force: float = quantity("Force noise (standard deviation)", "N", "kN", ge=0, le=1e7, default=0.0)
+
+
+class Station(Value):
+    """One experimental substructure: actuator, specimen and sensors; it stands for `dampers` equal ones in its storey."""
+
+    name: str = Field("Station", title="Name", min_length=1, max_length=80)
+    storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground", tests=ONLY_HYBRID)
+    dampers: int = quantity("Dampers in the storey", ge=1, le=1000, default=1, tests=ONLY_HYBRID)
+    equivalent_stiffness: float = quantity(
+        "Equivalent stiffness of one damper", "N/m", "kN/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
+    )
+    equivalent_damping: float = quantity(
+        "Equivalent damping of one damper", "N*s/m", "kN*s/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
+    )
+    compensator: Compensator = Field(AdaptiveInverseCompensation(), title="Delay compensator")
+    actuator: Actuator = Field(FirstOrderDelay(), title="Actuator")
+    specimen: Specimen = Field(MrDamper(), title="Specimen")
+    noise: Noise = Field(Noise(), title="Sensor noise")
+    limits: Limits = Field(Limits(), title="Safety limits")
+    actuator_physics: tuple[ActuatorEffect, ...] = Field((), title="Physics the actuator's model leaves out", max_length=8)
+    specimen_physics: tuple[SpecimenEffect, ...] = Field((), title="Physics the specimen's model leaves out", max_length=8)
+    sensor_physics: tuple[SensorEffect, ...] = Field((), title="Errors of the sensors", max_length=8)
+
+    @property
+    def rig(self) -> tuple[Part, Part, Part]:
+        """Compensator, actuator and specimen as they are built, with what effects change of a part."""
+        return self.compensator, amended(self.actuator, self.actuator_physics), amended(self.specimen, self.specimen_physics)
+
+    @property
+    def physics(self) -> tuple[Effect, ...]:
+        """Every effect with a step of its own."""
+        return tuple(one for one in (*self.actuator_physics, *self.specimen_physics, *self.sensor_physics) if one.hook != PART)
+
+
+class Fastest(Value):
+    """As fast as the machine can."""
+
+    kind: Literal["fastest"] = "fastest"
+    title: ClassVar[str] = "As fast as possible"
+
+
+class RealTime(Value):
+    """At the wall clock, times a factor (2 is twice as fast as the test)."""
+
+    kind: Literal["real_time"] = "real_time"
+    factor: float = quantity("Speed", shown="1", ge=0.01, le=1000, default=1.0, help="1 is real time")
+    title: ClassVar[str] = "Real time"
+
+
+Pace = Annotated[Fastest | RealTime, Field(discriminator="kind")]
+
+
+class Plan(Value):
+    """A test. `digest` names what decides its result; `reading.read_plan` checks everything that needs no ground motion.
+
+    `test` says which half is computed and which is tested: `hybrid` both; `structure` nothing is tested; `specimen` and
+    `actuator` nothing is computed, and the one station follows `drive`. Fields name the kinds that use them; in a plan of
+    another kind they stay as they are by default.
+    """
+
+    model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
+
+    schema_: Literal["rths-plan/1"] = Field("rths-plan/1", alias="schema", title="Form of the plan")
+    name: str = Field("Untitled test", title="Name", min_length=1, max_length=200)
+    notes: str = Field("", title="Notes", max_length=10_000)
+    template: str | None = Field(None, title="Template", max_length=80)
+    test: Literal["hybrid", "specimen", "actuator", "structure"] = Field(
+        "hybrid", title="Kind of test", json_schema_extra={"titles": {**TESTS}}
+    )
+    motion: PlannedMotion = Field(NoMotion(), title="Ground motion", json_schema_extra=COMPUTED)
+    forces: tuple[FloorForce, ...] = Field((), title="Forces on floors", max_length=32, json_schema_extra=COMPUTED)
+    start: Start = Field(Start(), title="Start", json_schema_extra={"tests": ["structure"]})
+    drive: Drive = Field(Drive(), title="Drive", json_schema_extra=ONLY_DRIVEN)
+    structure: Structure = Field(NoStructure(), title="Structure", json_schema_extra=COMPUTED)
+    integrator: Integrator = Field(CrIntegrator(), title="Integration", json_schema_extra=COMPUTED)
+    controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
+    stations: tuple[Station, ...] = Field((), title="Stations", max_length=32, json_schema_extra=TESTED)
+    structure_physics: tuple[StructureEffect, ...] = Field(
+        (), title="Physics the structure's model leaves out", max_length=8, json_schema_extra=COMPUTED
+    )
+    motion_physics: tuple[InputEffect, ...] = Field(
+        (), title="Errors of the ground motion", max_length=8, json_schema_extra=COMPUTED
+    )
+    seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
+    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: as long as what moves it")
+    pace: Pace = Field(Fastest(), title="Pace")
+
+    def as_dict(self) -> dict[str, Any]:
+        return self.model_dump(mode="json", by_alias=True)
+
+    @property
+    def digest(self) -> str:
+        """Hex SHA-256 over the canonical JSON of everything that decides the result."""
+        decisive = self.model_dump(mode="json", by_alias=True, exclude={"name", "notes", "template", "pace"})
+        return hashlib.sha256(json.dumps(decisive, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+    @property
+    def substep(self) -> float:
+        """Controller step (s)."""
+        return 1.0 / self.controller_rate
+
+    @property
+    def driven(self) -> bool:
+        """Whether the station follows the drive instead of a structure."""
+        return self.test in DRIVEN
+
+    @property
+    def substeps(self) -> int:
+        """Controller steps of a step of the loop."""
+        return 1 if self.driven else self.integrator.substeps
+
+    @property
+    def step(self) -> float:
+        """Step of the loop (s): the integration step, or the controller step of a driven test."""
+        return self.substep if self.driven else self.integrator.dt
+
+    def length(self, record: float) -> float:
+        """Duration (s) of the test: as planned, else as long as it is moved; `record` is the ground motion's (s)."""
+        return self.duration or self.moved(record)
+
+    def moved(self, record: float) -> float:
+        """Until when (s) ground motion, forces or drive move it."""
+        forces = (force.shape.duration for force in self.forces)
+        return max(0.0 if self.motion.kind == "none" else record, self.drive.shape.duration, *forces)
+
+    def assembled(self) -> Assembled:
+        """The structure with what effects change of its matrices. Raises PlanError."""
+        built = self.structure.assemble()
+        for effect in self.structure_physics:
+            if effect.hook == MATRICES:
+                built = effect.assembled(built)
+        return built
+
+    def drifts(self) -> Array:
+        """L (stations, DOF): row j takes displacements to the stroke of station j."""
+        rows = self.assembled().drifts
+        return rows[[station.storey - 1 for station in self.stations]]
+
+    def scheme(self) -> Scheme:
+        """The integrator's scheme from M, C and the initial K with the stations' equivalents. Raises PlanError."""
+        built = self.assembled()
+        damping, stiffness = built.damping.copy(), built.stiffness.copy()
+        for station, drift in zip(self.stations, self.drifts(), strict=True):
+            outer = station.dampers * np.outer(drift, drift)
+            damping += station.equivalent_damping * outer
+            stiffness += station.equivalent_stiffness * outer
+        return self.integrator.build(built.mass, damping, stiffness)
+
+    def periods(self) -> Array:
+        """Natural periods (s) of the analytical substructure, the first mode's first."""
+        built = self.assembled()
+        if not len(built.mass):
+            return np.zeros(0)
+        periods: Array = 2 * np.pi / circular_frequencies(built.mass, built.stiffness)
+        return periods

@@ -1,0 +1,73 @@
+"""Plans as YAML: SI numbers, each with its unit as a comment."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+from pydantic import BaseModel
+
+from rths_engine.foundation import units
+from rths_engine.foundation.errors import Issue, PlanError
+
+LARGEST = 20_000_000  # characters
+DEEPEST = 30
+
+
+def parse(text: str) -> Any:
+    """The data of a YAML (or JSON) text. Raises PlanError with the line of a mistake; aliases are refused."""
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import MarkedYAMLError, YAMLError
+    from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent
+
+    if len(text) > LARGEST:
+        raise PlanError(Issue("", f"the plan has more than {LARGEST:,} characters", fix="give a plan as `rths plan` prints it"))
+    try:
+        depth = 0
+        for event in YAML(typ="safe", pure=True).parse(text):
+            depth += isinstance(event, CollectionStartEvent) - isinstance(event, CollectionEndEvent)
+            if depth > DEEPEST:
+                raise PlanError(Issue("", f"the text is nested deeper than {DEEPEST} levels"))
+            if isinstance(event, AliasEvent):
+                raise PlanError(Issue("", "YAML aliases (*name) are not read in plans", fix="write the value out"))
+        return YAML(typ="safe", pure=True).load(text)
+    except MarkedYAMLError as error:
+        line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
+        raise PlanError(Issue("", f"{line}the text is no YAML: {error.problem}")) from None
+    except (YAMLError, ValueError, RecursionError) as error:
+        raise PlanError(Issue("", f"the text is no YAML: {str(error).splitlines()[0]}")) from None
+
+
+def write(plan: BaseModel) -> str:
+    """YAML of a plan in the order of its fields."""
+    from ruamel.yaml import YAML
+
+    yaml = YAML()
+    yaml.width = 120
+    stream = io.StringIO()
+    yaml.dump(_commented(plan), stream)
+    return stream.getvalue()
+
+
+def _commented(value: Any) -> Any:
+    from ruamel.yaml.comments import CommentedMap, CommentedSeq
+
+    if isinstance(value, BaseModel):
+        result = CommentedMap()
+        for name, field in type(value).model_fields.items():
+            key = field.alias or name
+            result[key] = _commented(getattr(value, name))
+            extra = field.json_schema_extra
+            if isinstance(extra, dict) and extra.get("unit", "1") != "1" and isinstance(result[key], float):
+                result.yaml_add_eol_comment(_comment(result[key], str(extra["unit"]), str(extra["shown"])), key)
+        return result
+    if isinstance(value, tuple):
+        items = CommentedSeq(_commented(item) for item in value)
+        if all(isinstance(item, float) for item in value):
+            items.fa.set_flow_style()
+        return items
+    return value
+
+
+def _comment(value: float, unit: str, shown: str) -> str:
+    return unit if unit == shown else f"{unit} = {units.from_si(value, shown):g} {shown}"

@@ -1,0 +1,61 @@
+"""Safety limits of a station and the trip that ends a run."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from rths_engine.foundation import units
+from rths_engine.foundation.part import Value, quantity
+
+# limit -> (words, SI unit, unit shown); the position is the code in the compiled loop
+LIMITS = {
+    "displacement": ("command displacement", "m", "mm"),
+    "velocity": ("command velocity", "m/s", "mm/s"),
+    "force": ("measured force", "N", "kN"),
+    "oscillation": ("number of half waves in a row of the command", "1", "1"),
+}
+
+
+class Limits(Value):
+    """Checked every substep, before the command is sent (displacement, velocity, oscillation) and after the force is measured.
+
+    A value that is not a number trips as well. Source: Chen and Ricles (2012), section 5: 200 mm and 300 mm/s; `oscillation` is
+    what an operator would see of a loop that feeds itself without reaching these.
+    """
+
+    displacement: float = quantity("Command displacement limit", "m", "mm", gt=0, le=10, default=0.2)
+    velocity: float = quantity("Command velocity limit", "m/s", "mm/s", gt=0, le=10, default=0.3)
+    force: float = quantity("Measured force limit", "N", "kN", gt=0, le=1e9, default=1.0e6)
+    oscillation: int = quantity(
+        "Half waves of an oscillation in a row", ge=0, le=1000, default=0, help="above 2.5 Hz, 20 mm/s, not dying out; 0: any"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Trip:
+    """The limit that ended a run: station (from 1), limit, value and bound in SI, substep (from 1) and its time (s)."""
+
+    station: int
+    name: str
+    limit: str
+    value: float
+    bound: float
+    unit: str
+    time_s: float
+    substep: int
+
+    @property
+    def sentence(self) -> str:
+        words, _, shown = LIMITS[self.limit]
+        value, bound = units.from_si(self.value, shown), units.from_si(self.bound, shown)
+        unit = f" {units.pretty(shown)}".rstrip()
+        return (
+            f"Tripped at {self.time_s:.3f} s: {words} of station {self.station} ({self.name}) was {value:.1f}{unit}, "
+            f"beyond its limit of {bound:g}{unit}."
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """JSON form: a value that is not finite becomes None."""
+        finite = self.value if abs(self.value) < float("inf") else None
+        return {**asdict(self), "value": finite, "sentence": self.sentence}

@@ -1,0 +1,1 @@
+"""Files of recordings: those of runs, and measurements that were imported."""

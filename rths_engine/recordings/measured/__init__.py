@@ -1,0 +1,29 @@
+"""Measured recordings: files of measurements, their mapping to channels in SI, checks, and the form they are kept in."""
+
+from __future__ import annotations
+
+from rths_engine.recordings.measured.finding import Finding
+from rths_engine.recordings.measured.guess import Guess, guess
+from rths_engine.recordings.measured.importing import Examined, examine, imported
+from rths_engine.recordings.measured.mapping import Mapping
+from rths_engine.recordings.measured.readers import FORMATS, read
+from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
+from rths_engine.recordings.measured.store import save
+from rths_engine.recordings.measured.table import Column, Table
+
+__all__ = [
+    "FORMATS",
+    "Column",
+    "Examined",
+    "Finding",
+    "Guess",
+    "Mapping",
+    "Measured",
+    "MeasuredChannel",
+    "Table",
+    "examine",
+    "guess",
+    "imported",
+    "read",
+    "save",
+]

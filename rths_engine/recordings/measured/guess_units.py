@@ -1,0 +1,63 @@
+"""The unit of a column that does not say: from what the file says elsewhere, from its partner, from its magnitude last."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured import relations
+from rths_engine.recordings.measured.names import written_unit
+from rths_engine.recordings.measured.roles import dimension, to_si
+
+_CLOSE = 0.1  # of the factor between displacement and velocity
+_RELATED = 0.7  # correlation from which that factor is believed
+
+# dimension -> (largest value up to which the unit is taken, unit), the last without bound
+_MAGNITUDES: dict[str, tuple[tuple[float, str], ...]] = {
+    "time": ((np.inf, "s"),),
+    "length": ((0.5, "m"), (np.inf, "mm")),
+    "velocity": ((3.0, "m/s"), (np.inf, "mm/s")),
+    "acceleration": ((3.0, "g"), (30.0, "m/s^2"), (np.inf, "cm/s^2")),
+    "force": ((3e3, "kN"), (np.inf, "N")),
+    "current": ((20.0, "A"), (np.inf, "mA")),
+    "temperature": ((200.0, "degC"), (np.inf, "K")),
+    "voltage": ((np.inf, "V"),),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    name: str
+    why: str
+    by_magnitude: bool = False
+
+
+def by_hint(kind: str, hints: Mapping[str, str]) -> Unit | None:
+    """A unit that the file gives for something of this dimension."""
+    for what, text in hints.items():
+        unit = written_unit(text)
+        if unit and dimension(unit) == kind:
+            return Unit(unit, f"the file gives {unit} for {what}")
+    return None
+
+
+def by_partner(x: Array, x_unit: str, v: Array, dt: float) -> Unit | None:
+    """The unit in which v is the derivative of x, which is in `x_unit`; dt in s."""
+    found = relations.of_derivative(x, v, dt)
+    if abs(found.correlation) < _RELATED:
+        return None
+    for unit in ("mm/s", "m/s", "in/s", "cm/s", "ft/s"):
+        if abs(abs(found.factor) * to_si(unit)[0] / to_si(x_unit)[0] - 1) < _CLOSE:
+            return Unit(unit, f"in {unit} it is the derivative of the displacement")
+    return None
+
+
+def by_magnitude(kind: str, values: Array) -> Unit:
+    peak = float(np.nanmax(np.abs(values[np.isfinite(values)]), initial=0.0))
+    unit = next(name for most, name in _MAGNITUDES.get(kind, ((np.inf, "1"),)) if peak <= most)
+    if kind == "time":
+        return Unit(unit, "taken as seconds", True)
+    return Unit(unit, f"nothing gives its unit: {unit} from its magnitude alone (largest {peak:.3g}), check it", True)

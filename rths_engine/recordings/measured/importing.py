@@ -1,0 +1,179 @@
+"""A table by its mapping: to SI, checked, on one uniform step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.recordings.measured import checks, clock, mapping_yaml, pairs
+from rths_engine.recordings.measured.clock import Clock
+from rths_engine.recordings.measured.finding import Finding
+from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
+from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
+from rths_engine.recordings.measured.resample import resampled
+from rths_engine.recordings.measured.roles import ROLES, SI, dimension, to_si
+from rths_engine.recordings.measured.table import MOST_SAMPLES, Table
+
+LEAST = 8  # samples of a recording
+SHORTEST, LONGEST = 1e-9, 1e9  # step, s
+LOST = 0.01  # share of a channel's time beyond the others' from which it is told
+
+
+@dataclass(frozen=True)
+class Examined:
+    """What an import comes to; `measured` is None where the time can't be used or values are missing."""
+
+    measured: Measured | None
+    findings: tuple[Finding, ...]
+
+    @property
+    def errors(self) -> tuple[Finding, ...]:
+        return tuple(one for one in self.findings if one.severity == "error")
+
+
+def imported(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Measured:
+    """Raises MeasuredError with every error found; the warnings are kept in the recording."""
+    examined = examine(table, mapping, source, sha256)
+    if examined.measured is None or examined.errors:
+        raise MeasuredError(one.issue for one in examined.errors)
+    return examined.measured
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Examined:
+    """Everything that can be found out at once. Raises MeasuredError where the mapping does not fit the file."""
+    _check_columns(table, mapping)
+    findings: list[Finding] = []
+    clocks: dict[str, Clock | None] = {}
+    signals: list[tuple[ColumnMap, Array, Clock]] = []
+    for index, channel in enumerate(mapping.channels):
+        if channel.role == "t":
+            continue
+        own = _clock(table, mapping, channel, index, clocks, findings)
+        if own is None:
+            continue
+        values, found = checks.filled(_si(table.column(channel.column, "").values, channel), own.times, channel.key)
+        found += checks.too_large(values, channel.key, _unit(channel))
+        findings += found
+        if not any(one.severity == "error" for one in found):
+            findings += checks.shape(values, own.times, channel.key, _unit(channel))
+            signals.append((channel, values, own))
+    if len(signals) < len(mapping.measurements):
+        return Examined(None, tuple(findings))
+    start, count, dt = _grid(mapping, [own for _, _, own in signals])
+    findings += _lost(signals, start, start + (count - 1) * dt, mapping)
+    channels = tuple(_channel(one, resampled(values, own, start, count, dt)) for one, values, own in signals)
+    findings += pairs.contradictions({one.key: one.values for one in channels}, dt)
+    warnings = tuple(one for one in findings if one.severity == "warning")
+    text = mapping_yaml.write(mapping)
+    measured = Measured(dt, channels, start, mapping.title, mapping.test, source, sha256, text, warnings)
+    return Examined(measured, tuple(findings))
+
+
+def _check_columns(table: Table, mapping: Mapping) -> None:
+    issues: list[Issue] = []
+    for index, channel in enumerate(mapping.channels):
+        for name in (channel.column, channel.time):
+            try:
+                if name is not None:
+                    table.column(name, f"mapping.channels.{index}")
+            except MeasuredError as error:
+                issues += error.issues
+    if issues:
+        raise MeasuredError(issues)
+
+
+def _clock(
+    table: Table, mapping: Mapping, channel: ColumnMap, index: int, clocks: dict[str, Clock | None], findings: list[Finding]
+) -> Clock | None:
+    """The channel's own clock, else the file's time column, else the mapping's step, else the file's step."""
+    column = table.column(channel.column, "")
+    count = len(column.values)
+    stamps = _stamps(mapping, channel)
+    if stamps is not None and channel.rate is None:
+        times = table.column(stamps.column, "")
+        if times.name not in clocks:
+            clocks[times.name], found = clock.of_stamps(_si(times.values, stamps), f"t ({times.name})")
+            findings += found
+        if len(times.values) == count:
+            return clocks[times.name]
+        if mapping.step is None and column.dt is None:
+            problem = f"has {count} samples, its time column {times.name} has {len(times.values)}"
+            fix = "give the channel its own rate or time column, or leave it out"
+            raise MeasuredError(Issue(f"mapping.channels.{index}", problem, column.name, fix))
+    step = 1 / channel.rate if channel.rate else mapping.step or column.dt
+    if step is None:
+        fix = "map a column as t, or give dt (s) or rate (Hz)"
+        raise MeasuredError(Issue("mapping.rate", "neither the file nor the mapping says the time step", fix=fix))
+    if not SHORTEST <= step <= LONGEST:
+        bound = f"needs a time step of {SHORTEST:g} to {LONGEST:g} s"
+        raise MeasuredError(Issue("mapping.rate", bound, f"{step:g} s", "check its unit"))
+    if count < 2:
+        raise MeasuredError(Issue(f"mapping.channels.{index}", f"has {count} samples; 2 is the least", column.name))
+    return clock.of_step(step, count)
+
+
+def _stamps(mapping: Mapping, channel: ColumnMap) -> ColumnMap | None:
+    if channel.time is not None:
+        own = next((one for one in mapping.times if str(one.column) == channel.time), None)
+        return own or ColumnMap(column=channel.time, role="t", unit="s")
+    return mapping.times[0] if mapping.times else None
+
+
+def _si(values: Array, channel: ColumnMap) -> Array:
+    gain, unit = channel.scale
+    factor, zero = to_si(unit)
+    sign = -1.0 if channel.reverse else 1.0
+    return sign * factor * gain * (values - channel.offset) + zero
+
+
+def _unit(channel: ColumnMap) -> str:
+    """The SI unit of the channel."""
+    return SI[dimension(channel.scale[1])]
+
+
+def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
+    """Start (s), number of samples and step (s) of the recording: what all channels share, within start and stop."""
+    dt = 1 / mapping.target_rate if mapping.target_rate else min(one.step for one in clocks)
+    begin, end = max(one.start for one in clocks), min(one.end for one in clocks)
+    if mapping.start is not None and mapping.start > begin:
+        step = clocks[0].step
+        begin = clocks[0].start + np.ceil((mapping.start - clocks[0].start) / step - 1e-6) * step
+    if mapping.stop is not None:
+        end = min(end, mapping.stop)
+    steps = (end - begin) / dt
+    if not np.isfinite(steps):
+        given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
+        problem = "time, step, start or stop is out of all measure"
+        raise MeasuredError(Issue("mapping", problem, given, "check their units"))
+    count = int(np.floor(steps + 1e-3)) + 1
+    if count < LEAST:
+        given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
+        problem = f"leave {max(0, count)} samples; {LEAST} is the least"
+        raise MeasuredError(Issue("mapping.start, stop and target_rate", problem, given, "give a longer time or a higher rate"))
+    if count * len(clocks) > MOST_SAMPLES:
+        problem = f"would make {count * len(clocks):,} samples; {MOST_SAMPLES:,} is the most"
+        raise MeasuredError(Issue("mapping.target_rate", problem, f"{1 / dt:g} Hz", "choose a lower rate"))
+    return float(begin), count, dt
+
+
+def _lost(signals: list[tuple[ColumnMap, Array, Clock]], begin: float, end: float, mapping: Mapping) -> list[Finding]:
+    found = []
+    for channel, _, own in signals:
+        first = max(own.start, mapping.start if mapping.start is not None else -np.inf)
+        last = min(own.end, mapping.stop if mapping.stop is not None else np.inf)
+        beyond = max(0.0, begin - first) + max(0.0, last - end)
+        if beyond > LOST * (last - first) and beyond > 2 * own.step:
+            problem = "was measured at times at which others were not; the recording holds what all share"
+            found.append(Finding("warning", channel.key, problem, f"{beyond:.4g} s left out", float(first)))
+    return found
+
+
+def _channel(channel: ColumnMap, values: Array) -> MeasuredChannel:
+    role = ROLES[channel.role]
+    number = (channel.number or 1) if role.counts else None
+    label = channel.label or (f"{role.label}, {role.counts} {number}" if number else role.label)
+    return MeasuredChannel(channel.role, number, values, _unit(channel), label, str(channel.column))

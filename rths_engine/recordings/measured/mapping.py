@@ -1,0 +1,169 @@
+"""What a file's columns are: value = sign * gain * (column - offset), in `unit`, as role and station or floor.
+
+Read like plans: a frozen value, in YAML `schema: rths-mapping/1`; kept with a recording, and used again for the next file of
+the same instrument.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, field_validator, model_validator
+
+from rths_engine.foundation.errors import Issue, MeasuredError, PlanError
+from rths_engine.foundation.part import Value, quantity, validated
+from rths_engine.planning import plan_yaml
+from rths_engine.recordings.measured.names import written_unit
+from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, key
+
+SCHEMA: Literal["rths-mapping/1"] = "rths-mapping/1"
+MOST_CHANNELS = 200
+LARGEST_NUMBER = 999  # of a station or floor
+_GAIN = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
+
+RoleName = Literal[
+    "t", "ag", "drive", "x_cmd", "x_comp", "x_meas", "v_meas", "f_meas", "current", "temperature",
+    "x_floor", "v_floor", "a_floor", "force_ext",
+]  # fmt: skip
+
+
+def _gain(value: Any) -> Any:
+    return f"{value!r}" if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
+class ColumnMap(Value):
+    """One column, by its name or its number from 1, as a channel."""
+
+    column: Annotated[str, Field(max_length=300)] | int = Field(title="Column")
+    role: RoleName = Field(title="Role")
+    number: int | None = Field(None, ge=1, le=LARGEST_NUMBER, title="Station or floor")
+    unit: str = Field(title="Unit of the column", max_length=20)
+    gain: Annotated[str | None, BeforeValidator(_gain)] = Field(
+        None, title="Gain", max_length=60, description="a factor, or with units: 35.15 N/V"
+    )
+    offset: float = Field(0.0, title="Offset", description="the column's reading at zero, in its own unit")
+    reverse: bool = Field(False, title="Reversed sign")
+    label: str = Field("", title="Label", max_length=120)
+    time: str | None = Field(
+        None, max_length=300, title="Own time column", description="where channels were sampled by different clocks"
+    )
+    rate: float | None = quantity("Own rate", "Hz", default=None, gt=0)
+
+    @field_validator("unit")
+    @classmethod
+    def _known(cls, unit: str) -> str:
+        found = written_unit(unit)
+        if not found:
+            raise ValueError(f"unknown unit; known are {', '.join(UNITS)}")
+        return found
+
+    @model_validator(mode="after")
+    def _fits(self) -> ColumnMap:
+        role, counts = ROLES[self.role], ROLES[self.role].counts
+        if self.number is not None and not counts:
+            raise ValueError(f"{self.role} has no number: a recording has one")
+        factor, result = self.scale
+        if factor == 0 or not math.isfinite(factor):
+            raise ValueError(f"gain {self.gain} needs a finite factor other than 0")
+        if dimension(result) not in role.dimensions:
+            hint = (
+                f"; for a voltage give a gain such as '2.5 {_example(role.dimensions[0])}/V'" if result in {"V", "mV"} else ""
+            )
+            raise ValueError(f"needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {result}{hint}")
+        if self.time is not None and self.rate is not None:
+            raise ValueError("gives both a time column and a rate; give one")
+        return self
+
+    @property
+    def scale(self) -> tuple[float, str]:
+        """Factor of the gain and the unit it leads to. Raises ValueError for a gain that is none."""
+        if self.gain is None:
+            return 1.0, self.unit
+        found = _GAIN.fullmatch(self.gain)
+        if not found:
+            raise ValueError(f"gain {self.gain!r} needs a factor, optionally with units, such as '35.15 N/V'")
+        if not found[2]:
+            return float(found[1]), self.unit
+        above, _, below = found[2].rpartition("/")
+        result, own = written_unit(above), written_unit(below)
+        if not result or own != self.unit:
+            raise ValueError(f"gain {self.gain!r} needs units such as '35.15 N/{self.unit}', the column being in {self.unit}")
+        return float(found[1]), result
+
+    @property
+    def key(self) -> str:
+        return key(self.role, self.number or 1)
+
+
+class Mapping(Value):
+    """The columns of a file that are measurements, and how their time runs."""
+
+    schema_: Literal["rths-mapping/1"] = Field(SCHEMA, alias="schema")
+    title: str = Field("", max_length=200)
+    test: Literal["hybrid", "specimen", "actuator", "structure"] | None = Field(None, title="Kind of test")
+    dt: float | None = quantity("Step where no column is time", "s", default=None, gt=0)
+    rate: float | None = quantity("Rate where no column is time", "Hz", default=None, gt=0)
+    start: float | None = quantity("Start, in the file's time", "s", default=None)
+    stop: float | None = quantity("Stop, in the file's time", "s", default=None)
+    target_rate: float | None = quantity("Rate of the recording", "Hz", default=None, gt=0, le=1e6)
+    channels: tuple[ColumnMap, ...] = Field(min_length=1, max_length=MOST_CHANNELS)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Mapping:
+        keys = [channel.key for channel in self.channels if channel.role != "t"]
+        twice = sorted({one for one in keys if keys.count(one) > 1})
+        if twice:
+            raise ValueError(f"{', '.join(twice)} is mapped twice; give each station or floor its own number")
+        if not keys:
+            raise ValueError("maps no measurement: give at least one channel besides time")
+        if self.dt is not None and self.rate is not None and not math.isclose(self.dt * self.rate, 1, rel_tol=1e-9):
+            raise ValueError(f"dt {self.dt:g} s and rate {self.rate:g} Hz contradict each other; give one")
+        if self.start is not None and self.stop is not None and self.stop <= self.start:
+            raise ValueError(f"stop {self.stop:g} s needs to be after start {self.start:g} s")
+        return self
+
+    @property
+    def step(self) -> float | None:
+        """Step (s) where no column is time."""
+        return self.dt if self.dt is not None else None if self.rate is None else 1 / self.rate
+
+    @property
+    def times(self) -> tuple[ColumnMap, ...]:
+        return tuple(channel for channel in self.channels if channel.role == "t")
+
+    @property
+    def measurements(self) -> tuple[ColumnMap, ...]:
+        return tuple(channel for channel in self.channels if channel.role != "t")
+
+    @classmethod
+    def read(cls, data: Any) -> Mapping:
+        """Raises MeasuredError with every issue."""
+        try:
+            return validated(cls, data)
+        except PlanError as error:
+            raise MeasuredError(_under(issue) for issue in error.issues) from None
+
+    @classmethod
+    def from_yaml(cls, text: str) -> Mapping:
+        """Raises MeasuredError with every issue."""
+        try:
+            data = plan_yaml.parse(text)
+        except PlanError as error:
+            raise MeasuredError(_under(issue) for issue in error.issues) from None
+        if not isinstance(data, dict):
+            raise MeasuredError(Issue("mapping", "is no mapping of fields", fix="`rths import FILE --guess` proposes one"))
+        return cls.read(data)
+
+    def as_dict(self) -> dict[str, Any]:
+        return self.model_dump(mode="json", by_alias=True)
+
+
+def _under(issue: Issue) -> Issue:
+    where = f"mapping.{issue.where}" if issue.where else "mapping"
+    return Issue(where, issue.problem.replace("the plan", "the mapping"), issue.value, issue.fix)
+
+
+def _example(kind: str) -> str:
+    return {"force": "kN", "length": "mm", "velocity": "mm/s", "acceleration": "g", "current": "A"}.get(kind, "1")

@@ -1,0 +1,77 @@
+"""What is wrong between channels: signs that contradict each other, units off by a factor, a device that gives energy away."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured import relations
+from rths_engine.recordings.measured.finding import Finding
+from rths_engine.recordings.measured.roles import key
+
+SURE = 0.5  # correlation from which sign and factor are told; noise and phase lag bring it down
+FAR = 30.0  # factor between two channels that only a wrong unit explains
+NEAR = 1.5  # and from which a gain is doubtful
+GIVES = -0.3  # share of the exchanged energy
+
+_DERIVATIVES = (("x_meas", "v_meas"), ("x_floor", "v_floor"), ("v_floor", "a_floor"))
+_ALIKE = (("x_cmd", "x_meas"), ("x_comp", "x_meas"), ("x_cmd", "x_comp"))
+
+
+def contradictions(signals: Mapping[str, Array], dt: float) -> list[Finding]:
+    """Findings over all stations and floors of channels in SI, `signals` by their keys."""
+    numbers = sorted({int(name.rpartition(".")[2]) for name in signals if "." in name})
+    found: list[Finding] = []
+    for number in numbers:
+        for source, derived in _DERIVATIVES:
+            a, b = key(source, number), key(derived, number)
+            if a in signals and b in signals:
+                relation = relations.of_derivative(signals[a], signals[b], dt)
+                found += _finding(relation, b, f"the derivative of {a}", certain=derived != "a_floor")
+        for source, follower in _ALIKE:
+            a, b = key(source, number), key(follower, number)
+            if a in signals and b in signals:
+                found += _finding(relations.between(signals[a], signals[b]), b, a, certain=False)
+        x, force = key("x_meas", number), key("f_meas", number)
+        if x in signals and force in signals and (share := relations.dissipated(signals[x], signals[force])) < GIVES:
+            problem = f"gives energy away over {x}, which a passive device can't: one of the two has its sign reversed"
+            value = f"{-100 * share:.0f} % of the energy exchanged"
+            fix = f"set reverse: true for {force} or {x}, unless the device is driven"
+            found.append(Finding("warning", force, problem, value, fix=fix))
+    return found
+
+
+def _finding(relation: relations.Relation, channel: str, other: str, certain: bool) -> list[Finding]:
+    """What a factor other than 1 between two channels says; `certain` where nothing but a mistake explains it."""
+    if abs(relation.correlation) < SURE:
+        return []
+    factor = abs(relation.factor)
+    value = f"{relation.factor:.4g} times {other}"
+    severity = "error" if certain else "warning"
+    found = []
+    if relation.correlation < 0:
+        fix = "set reverse: true for one of the two"
+        found.append(Finding(severity, channel, f"has the sign opposite to {other}", value, fix=fix))  # type: ignore[arg-type]
+    if factor > FAR or factor < 1 / FAR:
+        fix = f"correct a unit: {_likely(factor)}"
+        problem = f"is of another size than {other}: a unit is wrong"
+        found.append(Finding("error", channel, problem, value, fix=fix))
+    elif certain and (factor > NEAR or factor < 1 / NEAR):
+        problem = f"does not match {other}: a unit or a gain is doubtful"
+        found.append(Finding("warning", channel, problem, value, fix=f"check unit and gain: {_likely(factor)}"))
+    return found
+
+
+def _likely(factor: float) -> str:
+    known = {
+        1000.0: "mm taken for m",
+        25.4: "in taken for mm",
+        39.37: "in taken for m",
+        9.80665: "g taken for m/s^2",
+        10.0: "cm and mm",
+    }
+    large = max(factor, 1 / factor)
+    near = min(known, key=lambda one: abs(one / large - 1))
+    if abs(near / large - 1) < 0.1:
+        return f"a factor of {near:g} is {known[near]}, or the reverse"
+    return f"a factor of {large:.3g} between the two"

@@ -1,0 +1,124 @@
+"""Reads binary formats in a process of its own, which a damaged file may crash or hold for ever; whoever asked goes on.
+
+The process is started by the first file and kept; questions and answers are pickled through its pipes.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from typing import Any
+
+from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.recordings.measured.table import Table
+
+PATIENCE_S = 60.0  # a file of the largest size takes seconds
+TRIES = 2  # a file before it may have left the process in disorder
+
+
+def read(raw: bytes) -> Table:
+    """Raises MeasuredError, also where reading crashes or does not end."""
+    for _ in range(TRIES):
+        try:
+            kind, answer = _READER.ask(raw)
+        except TimeoutError:
+            break
+        except (EOFError, OSError, pickle.UnpicklingError):
+            continue
+        if kind == "table":
+            table: Table = answer
+            return table
+        raise MeasuredError(answer) if kind == "refused" else answer
+    raise MeasuredError(
+        Issue("file", "is damaged: reading it crashes or does not end", fix="write it again, or export it as CSV")
+    )
+
+
+class Reader:
+    """One process at a time, one file at a time."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def ask(self, raw: bytes) -> tuple[str, Any]:
+        """Raises EOFError or OSError where the process ends over the file, TimeoutError where it had to be ended."""
+        with self._lock:
+            process = self._started()
+            assert process.stdin and process.stdout
+            late = threading.Event()
+
+            def give_up() -> None:
+                late.set()
+                process.kill()
+
+            timer = threading.Timer(PATIENCE_S, give_up)
+            timer.daemon = True
+            timer.start()
+            try:
+                pickle.dump(raw, process.stdin)
+                process.stdin.flush()
+                found: tuple[str, Any] = pickle.load(process.stdout)
+                return found
+            except BaseException:
+                self._end()  # it is in the middle of this file
+                if late.is_set():
+                    raise TimeoutError from None
+                raise
+            finally:
+                timer.cancel()
+
+    def stop(self) -> None:
+        with self._lock:
+            self._end()
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        if self._process is None or self._process.poll() is not None:
+            self._end()
+            command = [sys.executable, "-c", f"from {__name__} import serve; serve()"]
+            pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+            environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
+            self._process = subprocess.Popen(command, env=environment, **pipes)
+        return self._process
+
+    def _end(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.wait()
+            for pipe in (process.stdin, process.stdout):
+                assert pipe
+                with contextlib.suppress(OSError):  # what was not sent any more
+                    pipe.close()
+
+
+def serve() -> None:
+    """Answer each file on the standard input, to its end."""
+    from rths_engine.recordings.measured.readers import binary
+
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    while True:
+        try:
+            raw = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        answer: tuple[str, Any]
+        try:
+            answer = ("table", binary.read(raw))
+        except MeasuredError as refusal:
+            answer = ("refused", refusal.issues)
+        except Exception as error:
+            answer = ("failed", error)
+        pickle.dump(answer, answers)
+        answers.flush()
+
+
+_READER = Reader()
+stop = _READER.stop
+atexit.register(stop)

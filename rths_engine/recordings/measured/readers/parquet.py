@@ -1,0 +1,62 @@
+"""Parquet: the columns of numbers, by the Arrow implementation in Rust (arro3)."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.recordings.measured.table import Column, Table, refuse_many
+
+BATCH = 65_536  # rows
+
+
+def looks_like(raw: bytes) -> bool:
+    return raw.startswith(b"PAR1") or raw.endswith(b"PAR1")
+
+
+def read(raw: bytes) -> Table:
+    """Raises MeasuredError: a damaged file answers with errors of any kind."""
+    try:
+        return _table(raw)
+    except (MeasuredError, KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # a panic of the Rust reader is no Exception
+        problem = f"can't be read as Parquet: {type(error).__name__}"
+        raise MeasuredError(Issue("file", problem, fix="write it again, or export it as CSV")) from None
+
+
+def _table(raw: bytes) -> Table:
+    from arro3.core import DataType
+    from arro3.io import read_parquet
+
+    reader = read_parquet(io.BytesIO(raw), batch_size=BATCH)
+    fields = [reader.schema.field(k) for k in range(len(reader.schema.names))]
+    numeric = [k for k, field in enumerate(fields) if DataType.is_numeric(field.type) and not DataType.is_decimal(field.type)]
+    parts: dict[int, list[Array]] = {k: [] for k in numeric}
+    rows = 0
+    for batch in reader:
+        rows += batch.num_rows
+        refuse_many(rows * max(1, len(numeric)))
+        for k in numeric:
+            parts[k].append(_numbers(batch.column(k)))
+    columns = [Column(fields[k].name, np.concatenate(parts[k]), _unit(fields[k])) for k in numeric if rows > 1]
+    left = tuple(f"column {field.name} holds no numbers" for k, field in enumerate(fields) if k not in numeric)
+    return Table("Parquet", tuple(columns), notes=left)
+
+
+def _numbers(values: Any) -> Array:
+    """Float64 with NaN for what is missing."""
+    from arro3.core import DataType
+
+    if values.null_count:
+        return np.array([np.nan if (one := item.as_py()) is None else float(one) for item in values])
+    return np.asarray(values.cast(DataType.float64()).to_numpy(), dtype=float)
+
+
+def _unit(field: Any) -> str:
+    metadata = {bytes(key): bytes(value) for key, value in dict(field.metadata).items()}
+    return next((metadata[name].decode("utf-8", "replace") for name in (b"unit", b"units") if name in metadata), "")

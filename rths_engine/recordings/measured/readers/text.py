@@ -1,0 +1,165 @@
+"""Text columns: CSV, TSV or white space, with or without header and row of units, with decimal point or comma."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.parts.ground_motions.columns import header_step
+from rths_engine.recordings.measured.names import written_unit
+from rths_engine.recordings.measured.table import Column, Table, refuse_many
+
+_COMMENT = re.compile(r"[#%!]+|//")
+_MISSING = {"", "na", "n/a", "nan", "null", "none", "-", "--", "#n/a", "nil"}
+_LOOKED_AT = 60  # lines by which the separator is found
+_CANDIDATES = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","))
+MOST_FIELDS = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """`separator` (empty: white space) and the sign of the decimals."""
+
+    separator: str
+    decimal: str
+
+    def fields(self, line: str) -> list[str]:
+        if not self.separator:
+            return line.split()
+        if '"' in line:
+            return [field.strip() for field in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
+        return [field.strip() for field in line.split(self.separator)]
+
+    def number(self, field: str) -> float | None:
+        """NaN where nothing was measured; None where the field is no number."""
+        if field.lower() in _MISSING:
+            return float("nan")
+        if "_" in field or (self.decimal == "," and "." in field):
+            return None
+        try:
+            return float(field.replace(",", ".") if self.decimal == "," else field)
+        except ValueError:
+            return None
+
+
+Line = tuple[int, str]
+
+
+def read(lines: list[str]) -> Table:
+    """Raises MeasuredError with the line that is not like the others."""
+    filled = [(at, text) for at, line in enumerate(lines, start=1) if (text := line.strip("\r\n ")).strip()]
+    plain = [(at, text) for at, text in filled if not _COMMENT.match(text.lstrip())]
+    if plain and (ending := plain[-1][1][-1]) in ";,\t" and all(text.endswith(ending) for _, text in plain[-_LOOKED_AT:]):
+        filled, plain = _without(ending, filled), _without(ending, plain)
+    if not plain:
+        raise MeasuredError(Issue("file", "holds no numbers", fix="choose a file of measurements"))
+    looked_at = plain[len(plain) // 2 :][:_LOOKED_AT]
+    form, numeric = _form(looked_at)
+    first = _first(plain, form, numeric)
+    header = [text for at, text in filled if at < plain[first][0]]
+    names, units = _heading(header, form, len(numeric))
+    _refuse_ambiguous(plain[first:], form, names)
+    refuse_many((len(plain) - first) * len(numeric))
+    values = _values(plain[first:], form, numeric)
+    dt = header_step(header)
+    used = [k for k, holds in enumerate(numeric) if holds]
+    columns = [Column(names[k] if names else f"column {k + 1}", values[:, j], units[k], dt) for j, k in enumerate(used)]
+    left = tuple(f"{names[k] if names else f'column {k + 1}'} holds text" for k, holds in enumerate(numeric) if not holds)
+    return Table("columns of text", tuple(_distinct(columns)), named=bool(names), notes=left)
+
+
+def _without(ending: str, lines: list[Line]) -> list[Line]:
+    return [(at, text.removesuffix(ending)) for at, text in lines]
+
+
+def _form(lines: list[Line]) -> tuple[Form, list[bool]]:
+    """The form under which most columns are numbers, and which columns are."""
+    best: tuple[tuple[int, int], Form, list[bool]] | None = None
+    for form in (Form(*candidate) for candidate in _CANDIDATES):
+        rows = [form.fields(text) for _, text in lines]
+        width = max(set(map(len, rows)), key=[len(row) for row in rows].count)
+        if width > MOST_FIELDS or 2 * sum(len(row) == width for row in rows) <= len(rows):
+            continue
+        kept = [row for row in rows if len(row) == width]
+        numeric = [2 * sum(form.number(row[k]) is not None for row in kept) > len(kept) for k in range(width)]
+        score = (-(width - sum(numeric)), sum(numeric))
+        if any(numeric) and (best is None or score > best[0]):
+            best = score, form, numeric
+    if best is None:
+        at, line = lines[0]
+        fix = "write one row of numbers for each time, separated by comma, semicolon, tab or space"
+        raise MeasuredError(Issue(f"line {at}", "is no row of numbers", line, fix))
+    return best[1], best[2]
+
+
+def _first(lines: list[Line], form: Form, numeric: list[bool]) -> int:
+    """Index of the first row of numbers."""
+    for index, (_, text) in enumerate(lines):
+        fields = form.fields(text)
+        numbers = [form.number(field) for field, holds in zip(fields, numeric, strict=False) if holds]
+        if len(fields) == len(numeric) and None not in numbers and not np.isnan(np.array(numbers, dtype=float)).all():
+            return index
+    raise MeasuredError(Issue("file", "holds no full row of numbers", fix="mend the rows or the separator"))
+
+
+def _heading(header: list[str], form: Form, width: int) -> tuple[list[str], list[str]]:
+    """Names and units of the columns, from the last lines before the numbers; no names where none fit."""
+    rows = [form.fields(_COMMENT.sub("", text, count=1).strip() if _COMMENT.match(text) else text) for text in header]
+    fitting = [row for row in rows if len(row) == width and any(form.number(field) is None for field in row)]
+    if not fitting:
+        return [], [""] * width
+    for above, below in pairwise(fitting[-2:]):
+        if all(written_unit(field.strip("()[]")) or not field.strip("()[] -") for field in below):
+            return above, [field.strip("()[] ") for field in below]
+    return [name or f"column {k}" for k, name in enumerate(fitting[-1], start=1)], [""] * width
+
+
+def _refuse_ambiguous(lines: list[Line], form: Form, names: list[str]) -> None:
+    if form.separator == "," and not names and all(re.fullmatch(r"[-+]?\d+,\d+", text) for _, text in lines[:_LOOKED_AT]):
+        at, line = lines[0]
+        fix = "write numbers with a decimal point, or name the columns in a first line"
+        raise MeasuredError(Issue(f"line {at}", "the comma may be a decimal sign or a separator", line, fix))
+
+
+def _values(lines: list[Line], form: Form, numeric: list[bool]) -> Array:
+    used = [k for k, holds in enumerate(numeric) if holds]
+    if '"' not in lines[0][1]:
+        texts = (text.replace(",", ".") if form.decimal == "," else text for _, text in lines)
+        load = partial(np.loadtxt, delimiter=form.separator or None, comments=None, ndmin=2)
+        try:
+            whole: Array = load(texts)
+            if whole.shape[1] == len(numeric) == len(used):
+                return whole
+        except ValueError:
+            pass  # the slow way below reads what is missing, or says what is wrong
+    return np.array([_row(line, form, numeric, used) for line in lines])
+
+
+def _row(line: Line, form: Form, numeric: list[bool], used: list[int]) -> list[float]:
+    at, text = line
+    fields = form.fields(text)
+    if len(fields) != len(numeric):
+        fix = "mend or remove the line"
+        raise MeasuredError(Issue(f"line {at}", f"has {len(fields)} fields; the others have {len(numeric)}", text, fix))
+    numbers = [form.number(fields[k]) for k in used]
+    for k, number in zip(used, numbers, strict=True):
+        if number is None:
+            raise MeasuredError(Issue(f"line {at}", f"column {k + 1} is no number", fields[k], "mend or remove the line"))
+    return [number for number in numbers if number is not None]
+
+
+def _distinct(columns: list[Column]) -> list[Column]:
+    seen: dict[str, int] = {}
+    for column in columns:
+        seen[column.name] = seen.get(column.name, 0) + 1
+    return [
+        column if seen[column.name] == 1 else Column(f"{column.name} (column {k})", column.values, column.unit, column.dt)
+        for k, column in enumerate(columns, start=1)
+    ]

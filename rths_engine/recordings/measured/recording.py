@@ -1,0 +1,71 @@
+"""A measured recording: channels at one uniform step, in SI."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.recordings.measured.finding import Finding
+from rths_engine.recordings.measured.roles import ROLES, key
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredChannel:
+    """One signal in SI. `number` is its station or floor, None where its role has one channel."""
+
+    role: str
+    number: int | None
+    values: Array
+    unit: str
+    label: str = ""
+    column: str = ""
+
+    @property
+    def key(self) -> str:
+        return key(self.role, self.number)
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """Sample k of every channel is at start + k dt (s, in the source's time)."""
+
+    dt: float
+    channels: tuple[MeasuredChannel, ...]
+    start: float = 0.0
+    title: str = ""
+    test: str | None = None
+    source: str = ""
+    source_sha256: str = ""
+    mapping: str = ""
+    warnings: tuple[Finding, ...] = ()
+    of_run: bool = False  # of a run of this program, whose first sample is one controller step after the start
+
+    @property
+    def samples(self) -> int:
+        return len(self.channels[0].values)
+
+    @property
+    def time(self) -> Array:
+        return self.start + np.arange(self.samples) * self.dt
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        return tuple(channel.key for channel in self.channels)
+
+    def has(self, role: str, number: int | None = None) -> bool:
+        return key(role, number or 1) in self.keys
+
+    def get(self, role: str, number: int | None = None) -> Array:
+        """The signal of a role, of station or floor `number` (default 1). Raises RecordingError where it was not measured."""
+        wanted = key(role, number or 1)
+        for channel in self.channels:
+            if channel.key == wanted:
+                return channel.values
+        raise RecordingError(Issue("channel", "was not measured", wanted, f"the recording holds {', '.join(self.keys)}"))
+
+    def numbers(self, counts: str) -> list[int]:
+        """Stations or floors, as `counts` says, of which something was measured."""
+        return sorted({one.number for one in self.channels if one.number is not None and ROLES[one.role].counts == counts})

@@ -1,0 +1,55 @@
+"""y = x at rate * p / q: samples at any times to equal steps, interpolated where their times are uneven, then by a rational
+factor with a zero-phase anti-alias filter (polyphase, Kaiser window; scipy.signal.resample_poly).
+
+Fails first for content next to half of the lower rate, which the filter takes away.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import scipy.signal
+from scipy.interpolate import Akima1DInterpolator
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.recordings.measured.clock import DRIFT, Clock
+
+LARGEST_FACTOR = 1000  # between two rates, and of the fraction that stands for it
+ON_GRID = 1e-3  # of a step
+
+
+def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) -> Array:
+    """`values` at start + k dt, k < count, all within the clock's time. Raises MeasuredError for rates too far apart."""
+    ratio = clock.step / dt
+    if not 1 / LARGEST_FACTOR <= ratio <= LARGEST_FACTOR:
+        bound = (
+            f"is {max(ratio, 1 / ratio):.4g} times away from the file's {1 / clock.step:.6g} Hz; {LARGEST_FACTOR} is the most"
+        )
+        raise MeasuredError(Issue("mapping.target_rate", bound, f"{1 / dt:.6g} Hz", "choose a rate nearer to the file's"))
+    factor = (
+        Fraction(ratio).limit_denominator(LARGEST_FACTOR)
+        if ratio >= 1
+        else 1 / Fraction(1 / ratio).limit_denominator(LARGEST_FACTOR)
+    )
+    step = dt * float(factor)
+    needed = min(int(np.ceil((count - 1) * dt / step)) + 1, int((clock.end - start) / step + 1 + ON_GRID))
+    even = _evenly(values, clock, start, needed, step)
+    if factor == 1:
+        return even[:count]
+    found = scipy.signal.resample_poly(even, factor.numerator, factor.denominator, padtype="line")
+    short = count - len(found)
+    return np.concatenate([found, np.full(short, found[-1])]) if short > 0 else np.asarray(found[:count])
+
+
+def _evenly(values: Array, clock: Clock, start: float, count: int, step: float) -> Array:
+    """`values` at start + k step: the samples themselves where they lie there."""
+    first = (start - clock.start) / clock.step
+    on_grid = abs(first - round(first)) < ON_GRID and abs(step / clock.step - 1) * count < DRIFT
+    if clock.uniform and on_grid and round(first) + count <= len(values):
+        return values[round(first) : round(first) + count]
+    wanted = np.clip(start + np.arange(count) * step, clock.times[0], clock.times[-1])
+    if len(values) < 4:
+        return np.asarray(np.interp(wanted, clock.times, values))
+    return np.asarray(Akima1DInterpolator(clock.times, values, method="makima")(wanted))

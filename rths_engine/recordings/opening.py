@@ -1,0 +1,35 @@
+"""Open a file of either kind, a measured recording or a run's, as measurements."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+
+from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.recordings import run_file
+from rths_engine.recordings.measured import store
+from rths_engine.recordings.measured.recording import Measured
+from rths_engine.recordings.of_run import of_run
+
+
+def load(path: Path) -> Measured:
+    """The recording in `path`. Raises RecordingError where the file is missing, damaged or holds no recording."""
+    schema = _schema(path)
+    if schema == store.SCHEMA:
+        return store.load(path)
+    if schema == run_file.SCHEMA:
+        return of_run(run_file.load(path), path.name)
+    problem = f"{path.name} is not a recording: its schema is {schema!r}, not {store.SCHEMA} or {run_file.SCHEMA}"
+    raise RecordingError(Issue("", problem, fix="import the measurements with `rths import`, or run the plan again"))
+
+
+def _schema(path: Path) -> object:
+    try:
+        with h5py.File(path, "r") as file:
+            return file.attrs.get("schema")
+    except FileNotFoundError:
+        raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
+    except OSError as error:
+        fix = "import the measurements again, or run the plan again"
+        raise RecordingError(Issue("", f"{path.name} is not a complete recording: {error}", fix=fix)) from None

@@ -1,0 +1,123 @@
+"""The recording: one HDF5 file a run, complete or absent.
+
+`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, floors) with
+x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
+`total` (substeps of the whole test), `code_version`, `digest`.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from rths_engine import __version__
+from rths_engine.foundation import files
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.reading import read_plan
+from rths_engine.results.channels import Channel
+from rths_engine.results.result import Result
+
+SCHEMA = "rths-recording/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """Checksum (hex SHA-256) and size (bytes) of a recording file: what a database row commits to."""
+
+    sha256: str
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """A recording read back. `signals` and `history` are SI; `summary` is the JSON object of the run."""
+
+    plan: Plan
+    status: str
+    dt: float
+    total: int
+    channels: tuple[Channel, ...]
+    signals: Array
+    history: Array
+    summary: dict[str, Any]
+    attrs: dict[str, Any]
+
+    def signal(self, key: str) -> Array:
+        column: Array = self.signals[:, [channel.key for channel in self.channels].index(key)]
+        return column
+
+    @property
+    def time(self) -> Array:
+        """Time (s) of each row: the first substep ends one controller step after the start."""
+        return np.arange(1, len(self.signals) + 1) * self.dt
+
+
+def save(path: Path, result: Result) -> Saved:
+    """Write `result` to `path`: temporary name in the same folder, fsync, rename. Nothing is left behind on failure."""
+    with files.temporary(path) as written:
+        with h5py.File(written, "w") as file:
+            _write(file, result)
+        files.sync(written)
+        saved = Saved(files.checksum(written), written.stat().st_size)
+        written.replace(path)
+        files.sync(path.parent)
+    return saved
+
+
+def load(path: Path) -> Recording:
+    """Read a recording. Raises RecordingError where the file is missing, damaged or of another form."""
+    try:
+        with h5py.File(path, "r") as file:
+            return _read(file)
+    except FileNotFoundError:
+        raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise RecordingError(
+            Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix="run the plan again")
+        ) from None
+
+
+def _write(file: h5py.File, result: Result) -> None:
+    compressed: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if len(result.signals) else {}
+    file.create_dataset("signals", data=result.signals, **compressed)
+    file.create_dataset("history", data=result.history, **compressed)
+    motion = {"name": result.motion.name, "sha256": result.motion.sha256, "provenance": result.motion.provenance}
+    file.attrs.update(
+        schema=SCHEMA,
+        code_version=__version__,
+        digest=result.plan.digest,
+        dt=result.dt,
+        total=result.total,
+        summary=json.dumps(result.summary()),
+        channels=json.dumps([channel.as_dict() for channel in result.channels]),
+        motion=json.dumps(motion),
+    )
+    file.create_dataset("plan", data=json.dumps(result.plan.as_dict()))
+
+
+def _read(file: h5py.File) -> Recording:
+    attrs = dict(file.attrs)
+    if attrs.get("schema") != SCHEMA:
+        raise ValueError(f"its schema is {attrs.get('schema')!r}")
+    summary = json.loads(attrs["summary"])
+    fields = ("key", "label", "unit", "shown", "group")
+    channels = tuple(Channel(**{name: item[name] for name in fields}) for item in json.loads(attrs["channels"]))
+    plan = read_plan(json.loads(file["plan"][()]))
+    return Recording(
+        plan,
+        summary["status"],
+        float(attrs["dt"]),
+        int(attrs["total"]),
+        channels,
+        file["signals"][:],
+        file["history"][:],
+        summary,
+        attrs,
+    )

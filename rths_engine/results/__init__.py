@@ -1,0 +1,1 @@
+"""What a run leaves: channels, signals and the measures of them."""

@@ -1,0 +1,34 @@
+"""Measures of a test: one idea a file, each for a whole record; `running` has the same of a record that still grows."""
+
+from rths_engine.results.metrics.correlation import correlation_delay
+from rths_engine.results.metrics.energy import energy_error_ratio, floor_loads, input_energy
+from rths_engine.results.metrics.frequency import Evaluation, frequency_evaluation
+from rths_engine.results.metrics.relative import normalised_rms, peak_error
+from rths_engine.results.metrics.running import RunningMeasures
+from rths_engine.results.metrics.station import StationMeasures, station_measures
+from rths_engine.results.metrics.tracking import (
+    energy_error,
+    maximum_tracking_error,
+    rms_tracking_error,
+    signed_peak,
+    tracking_indicator,
+)
+
+__all__ = [
+    "Evaluation",
+    "RunningMeasures",
+    "StationMeasures",
+    "correlation_delay",
+    "energy_error",
+    "energy_error_ratio",
+    "floor_loads",
+    "frequency_evaluation",
+    "input_energy",
+    "maximum_tracking_error",
+    "normalised_rms",
+    "peak_error",
+    "rms_tracking_error",
+    "signed_peak",
+    "station_measures",
+    "tracking_indicator",
+]

@@ -1,0 +1,40 @@
+"""Free decay x(t) = X exp(-zeta omega t) cos(omega_d t + phi): the slope of ln X_k over the cycles k is -delta, the decrement.
+
+zeta = delta / sqrt(4 pi^2 + delta^2). The cycles are those between upward crossings of zero, X_k the largest in each; the first
+is left out, in which higher modes still sound. Source: Chopra, Dynamics of Structures, section 2.2. Fails first where the
+frequency or the damping changes with the amplitude: yielding or friction then make it an average.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+
+LEAST_CYCLES = 3
+SMALLEST = 0.01  # of the first cycle used; smaller ones are near the rounding or the noise of a record
+
+
+class Decay(NamedTuple):
+    """Period between crossings (s), damping ratio (number), cycles used."""
+
+    period: float
+    ratio: float
+    cycles: int
+
+
+def free_decay(x: Array, dt: float) -> Decay | None:
+    """Of a displacement about zero, every `dt` (s); None where it does not swing for LEAST_CYCLES cycles."""
+    up = np.flatnonzero((x[:-1] < 0) & (x[1:] >= 0))
+    crossings = (up + x[up] / (x[up] - x[up + 1])) * dt
+    peaks = np.array([x[first:last].max() for first, last in pairwise(up[1:])])
+    peaks = peaks[: int(np.argmax(np.append(peaks < SMALLEST * peaks[:1], True)))]
+    if len(peaks) < LEAST_CYCLES:
+        return None
+    cycles = np.arange(len(peaks))
+    delta = -float(np.polyfit(cycles, np.log(peaks), 1)[0])
+    period = float(crossings[1 + len(peaks)] - crossings[1]) / len(peaks)
+    return Decay(period, delta / float(np.hypot(2 * np.pi, delta)), len(peaks))

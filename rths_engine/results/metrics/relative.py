@@ -1,0 +1,24 @@
+"""NRMSE = sqrt(mean (d_c - d_m)^2) / (max d_c - min d_c) and PTE = max |d_c - d_m| / max |d_c|, numbers.
+
+`x_cmd` and `x_meas` (samples), m. Both are None where the command never moved. The RMS of equation (10) divides by the
+command's own RMS instead of its range; a long still stretch lowers the NRMSE and leaves the RMS alone. Riascos, Ou and
+Dyke, Hybrid Simulation Current Assessment Measures (2014). They fail first where the command barely moves: noise over nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+
+
+def normalised_rms(x_cmd: Array, x_meas: Array) -> float | None:
+    """Root mean square error over the command's range."""
+    span = float(np.ptp(x_cmd)) if len(x_cmd) else 0.0
+    return float(np.sqrt(np.mean((x_cmd - x_meas) ** 2))) / span if span > 0 else None
+
+
+def peak_error(x_cmd: Array, x_meas: Array) -> float | None:
+    """Largest error over the largest command."""
+    largest = float(np.max(np.abs(x_cmd), initial=0.0))
+    return float(np.max(np.abs(x_cmd - x_meas))) / largest if largest > 0 else None

@@ -1,0 +1,30 @@
+"""Half waves in a row of a command that oscillates without dying out: a loop that feeds itself, below the other limits."""
+
+from __future__ import annotations
+
+from rths_engine.foundation.kernel import compiled
+
+LEAST = 0.02  # m/s, peak of a half wave that counts
+LONGEST = 0.2  # s, of a half wave: above 2.5 Hz
+DYING = 0.8  # of the largest peak in the row; a lower one begins the row anew
+
+# state: signed peak of the present half wave (m/s), its age (s), largest peak of the row (m/s), half waves in it
+PEAK, AGE, LARGEST, COUNT, SIZE = range(5)
+
+
+@compiled
+def half_waves(state, velocity, dt):
+    """The row's length after one more substep at this command velocity (m/s)."""
+    if velocity * state[PEAK] < 0.0:
+        peak = abs(state[PEAK])
+        if peak < LEAST or state[AGE] > LONGEST:
+            state[COUNT], state[LARGEST] = 0.0, 0.0
+        elif peak < DYING * state[LARGEST]:
+            state[COUNT], state[LARGEST] = 1.0, peak
+        else:
+            state[COUNT], state[LARGEST] = state[COUNT] + 1.0, max(peak, state[LARGEST])
+        state[PEAK], state[AGE] = velocity, 0.0
+    elif abs(velocity) > abs(state[PEAK]):
+        state[PEAK] = velocity
+    state[AGE] += dt
+    return state[COUNT]

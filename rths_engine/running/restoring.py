@@ -1,0 +1,71 @@
+"""Restoring forces of a structure, compiled: sparse products and bilinear beam-columns."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.kernel import compiled
+from rths_engine.parts.structures.frame_model import CURVATURE, WEIGHTS
+
+
+class Rows(NamedTuple):
+    """A matrix by compressed rows."""
+
+    start: Any
+    column: Any
+    value: Any
+
+
+def rows(matrix: Array) -> Rows:
+    sparse = csr_array(matrix)
+    return Rows(sparse.indptr.astype(np.uint64), sparse.indices.astype(np.uint64), sparse.data)
+
+
+@compiled
+def subtract_product(matrix, vector, result):
+    """result -= matrix @ vector."""
+    for a in range(result.size):
+        total = 0.0
+        for entry in range(matrix.start[a], matrix.start[a + 1]):
+            total += matrix.value[entry] * vector[matrix.column[entry]]
+        result[a] -= total
+
+
+@compiled
+def subtract_forces(members, x, plastic, result):
+    """result -= r(x) of the members; `plastic` (E, 3) holds and takes their plastic curvatures (1/m).
+
+    At each Lobatto point: trial moment EI (kappa - kappa_p), back moment H kappa_p; where they differ by more than the yield
+    moment, kappa_p grows by the excess over EI + H (bilinear law with kinematic hardening, exact return mapping).
+    """
+    basic = np.empty(3)
+    for e in range(members.dofs.shape[0]):
+        dofs, shape = members.dofs[e], members.shape[e]
+        length, axial, bending = members.section[e, 0], members.section[e, 1], members.section[e, 2]
+        yield_moment, hardening = members.section[e, 3], members.section[e, 4]
+        for row in range(3):
+            basic[row] = 0.0
+            for end in range(6):
+                if dofs[end] >= 0:
+                    basic[row] += shape[row, end] * x[dofs[end]]
+        start, finish = 0.0, 0.0
+        for point in range(3):
+            curvature = (CURVATURE[point, 0] * basic[1] + CURVATURE[point, 1] * basic[2]) / length
+            moment = bending * (curvature - plastic[e, point])
+            excess = abs(moment - hardening * plastic[e, point]) - yield_moment
+            if excess > 0.0:
+                flow = excess / (bending + hardening)
+                if moment - hardening * plastic[e, point] < 0.0:
+                    flow = -flow
+                plastic[e, point] += flow
+                moment -= bending * flow
+            start += WEIGHTS[point] * CURVATURE[point, 0] * moment
+            finish += WEIGHTS[point] * CURVATURE[point, 1] * moment
+        force = axial / length * basic[0]
+        for end in range(6):
+            if dofs[end] >= 0:
+                result[dofs[end]] -= shape[0, end] * force + shape[1, end] * start + shape[2, end] * finish

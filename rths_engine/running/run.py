@@ -1,0 +1,134 @@
+"""A run: the only owner of changing state. `advance` yields chunks for live view, cancel and pace."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.parts.ground_motions import Motion, MotionLibrary
+from rths_engine.planning import motion
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.safety import LIMITS, Trip
+from rths_engine.results.channels import Channel, channels
+from rths_engine.results.result import Result
+from rths_engine.running import loop, starting
+from rths_engine.running.setup import left_out, setup
+
+LARGEST_RECORDING = 2_000_000_000  # bytes
+
+
+class Run:
+    """One execution of a plan. `signals[:done]` holds what was recorded, columns as in `channels`, SI.
+
+    Starts as planned, or from `initial` displacements (m) and velocities (m/s) of the degrees of freedom, as the loop holds
+    them.
+    Raises PlanError or MotionError when the plan can't be run; nothing has happened then.
+    """
+
+    def __init__(self, plan: Plan, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None):
+        self.plan = plan
+        self.motion: Motion = motion.scaled(plan.motion, motions, plan.periods())
+        self.dt = plan.substep
+        self.trip: Trip | None = None
+        self.done = 0
+        self._step = 0
+        n, dt = plan.substeps, plan.step
+        self._steps = _steps(plan.length(self.motion.duration), dt)
+        self.total = self._steps * n
+        built = plan.assembled()
+        stations = len(plan.stations)
+        self.channels: tuple[Channel, ...] = channels(plan)
+        if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
+            problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
+            raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
+        self.signals: Array = np.zeros((self.total, len(self.channels)))
+        self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
+        scheme = plan.scheme()
+        times = np.arange(self._steps + 1) * dt
+        drive = np.repeat(plan.drive.sample(times)[:, None], stations, axis=1)
+        self._setup, parts = setup(plan, built, scheme, _inputs(plan, self.motion, times), drive, _noise(plan, self.total))
+        memory = np.zeros((stations, loop.MEMORY))
+        plastic = np.zeros((len(built.members.dofs), 3))
+        x, v, carry = starting.state(plan.start, built, scheme, dt, self._setup.inputs[0] @ self._setup.loads)
+        if initial:
+            x[:], v[:] = initial
+        self._state = loop.State(x, v, carry, plastic, parts, memory)
+        self._left_out = left_out(plan, built)
+        self._record = loop.Record(self.signals, self.history, np.zeros(4))
+        self.history[0] = x[self._setup.floors], v[self._setup.floors]
+
+    @property
+    def finished(self) -> bool:
+        return self.trip is not None or self.done >= self.total
+
+    def advance(self, steps: int) -> slice:
+        """Run up to `steps` integration steps; returns the new rows of `signals`. A trip ends the run in its substep."""
+        before = self.done
+        if self.finished:
+            return slice(before, before)
+        last = min(self._step + steps, self._steps)
+        broken, self.done = loop.advance(self._step, last, self._setup, self._state, self._left_out, self._record)
+        self._step = last
+        if broken:
+            self.trip = self._tripped(broken - 1)
+        return slice(before, self.done)
+
+    def result(self, status: str, elapsed_s: float) -> Result:
+        """What was recorded so far, with its measures. `status` is completed, tripped or cancelled."""
+        steps = self.done // self.plan.substeps
+        return Result(
+            plan=self.plan,
+            motion=self.motion,
+            status=status,
+            trip=self.trip,
+            elapsed_s=elapsed_s,
+            dt=self.dt,
+            total=self.total,
+            channels=self.channels,
+            signals=self.signals[: self.done],
+            history=self.history[: steps + 1],
+        )
+
+    def _tripped(self, limit: int) -> Trip:
+        found = self._record.trip
+        station, substep = int(found[0]), int(found[3])
+        kind = list(LIMITS)[limit]
+        name = self.plan.stations[station].name
+        return Trip(station + 1, name, kind, float(found[1]), float(found[2]), LIMITS[kind][1], substep * self.dt, substep)
+
+
+def simulate(plan: Plan, motions: MotionLibrary | None = None) -> Result:
+    """Run a plan to its end as fast as the machine can."""
+    run = Run(plan, motions or MotionLibrary(None))
+    start = time.perf_counter()
+    run.advance(run.total)
+    return run.result("tripped" if run.trip else "completed", time.perf_counter() - start)
+
+
+def _noise(plan: Plan, total: int) -> Array:
+    """Sensor noise (substeps, stations, 2): displacement (m) and force (N), by the plan's seed."""
+    scale = np.array([(station.noise.displacement, station.noise.force) for station in plan.stations]).reshape(-1, 2)
+    noise: Array = np.zeros((total, len(scale), 2))
+    if scale.any():
+        noise = np.random.Generator(np.random.PCG64(plan.seed)).standard_normal(noise.shape) * scale
+    return noise
+
+
+def _steps(duration: float, dt: float) -> int:
+    return max(1, math.ceil(duration / dt - 1e-9))
+
+
+def _inputs(plan: Plan, record: Motion, time: Array) -> Array:
+    """(steps + 1, inputs): ground acceleration, linear between samples and zero after the record's end, and floor forces."""
+    if plan.driven:
+        return np.zeros((len(time), 0))
+    ground = record.acceleration
+    for effect in plan.motion_physics:
+        ground = effect.shaken(ground, record.dt)
+    ground = np.interp(time, np.arange(len(ground)) * record.dt, ground, right=0.0)
+    return np.column_stack([ground, *(force.sample(time) for force in plan.forces)])

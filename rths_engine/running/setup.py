@@ -1,0 +1,99 @@
+"""A plan as what the compiled loop holds still: parts of the stations, matrices, excitation, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.factor import factorised
+from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.parts.integrators.scheme import Scheme
+from rths_engine.parts.physics.effect import STOREY
+from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
+from rths_engine.parts.structures.assembled import Assembled
+from rths_engine.planning.loads import loads
+from rths_engine.planning.plan import Plan
+from rths_engine.planning.safety import LIMITS
+from rths_engine.running import loop
+from rths_engine.running.dispatch import effects as effects_of
+from rths_engine.running.dispatch import stacked
+from rths_engine.running.restoring import rows
+
+
+def setup(plan: Plan, built: Assembled, scheme: Scheme, inputs: Array, drive: Array, noise: Array) -> tuple[loop.Setup, Array]:
+    """What stays the same during a run, and the states of the stations' parts at its start (3, stations, widest).
+
+    inputs (steps + 1, I), drive (steps + 1, stations), noise (substeps, stations, 2).
+    """
+    codes, parameters, parts = _built(plan)
+    stations = len(plan.stations)
+    held = loop.Setup(
+        n=plan.substeps,
+        dt_step=plan.step,
+        dt=plan.substep,
+        factor=factorised(scheme.effective),
+        held=rows(np.zeros_like(scheme.effective) if scheme.held is None else scheme.held),
+        weight=scheme.weight,
+        shift=scheme.shift,
+        damping=rows(built.damping),
+        elastic=rows(built.elastic),
+        members=built.members,
+        loads=loads(plan, built),
+        inputs=inputs,
+        floors=np.array(built.floors, dtype=np.int64),
+        drifts=built.drifts[[station.storey - 1 for station in plan.stations]],
+        drive=drive,
+        dampers=np.array([float(station.dampers) for station in plan.stations]),
+        codes=codes,
+        parameters=parameters,
+        limits=np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS)),
+        noise=noise,
+    )
+    return held, parts
+
+
+_SLOTS: tuple[Sequence[Any], ...] = (compensators.KINDS, actuators.KINDS, specimens.KINDS)  # in the order of Station.rig
+
+
+def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
+    """Codes (stations, 3), parameters and states (3, stations, widest) of the stations' parts."""
+    stations = len(plan.stations)
+    codes = np.zeros((stations, len(_SLOTS)), dtype=np.int64)
+    built: list[list[tuple[Array, Array]]] = [[] for _ in _SLOTS]
+    for slot, kinds in enumerate(_SLOTS):
+        for j, station in enumerate(plan.stations):
+            part = station.rig[slot]
+            codes[j, slot] = kinds.index(type(part))
+            built[slot].append(part.build(plan.substep))
+    return codes, _padded(built, 0), _padded(built, 1)
+
+
+def left_out(plan: Plan, built: Assembled) -> loop.LeftOut | None:
+    against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
+    if not against and not any(station.physics for station in plan.stations):
+        return None
+    drifts = [drift(built, effect.storey) for effect in against]
+    return loop.LeftOut(
+        stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
+        storeys=stacked([effects_of([effect], plan.step) for effect in against]),
+        drifts=np.array(drifts).reshape(len(drifts), len(built.mass)),
+        stiffness=np.array([stiffness(built, row) for row in drifts]),
+    )
+
+
+def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:
+    vectors = [[pair[which] for pair in slot] for slot in built]
+    widest = max((len(vector) for slot in vectors for vector in slot), default=1)
+    table = np.zeros((len(vectors), len(vectors[0]), widest))
+    for slot, row in enumerate(vectors):
+        for j, vector in enumerate(row):
+            table[slot, j, : len(vector)] = vector
+    return table
+
+
+def _limits(station: Any) -> tuple[float, ...]:
+    return tuple(getattr(station.limits, name) or np.inf for name in LIMITS)

@@ -1,0 +1,31 @@
+"""`python -m rths_engine.running.warm`: compile the loop once, so that the first test starts at once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
+from rths_engine.parts.physics.structure.coulomb_friction import CoulombFriction
+from rths_engine.planning import templates
+from rths_engine.running import replay
+from rths_engine.running.run import simulate
+from rths_engine.running.stop import stop
+
+
+def warm() -> None:
+    """Run one integration step of a small plan, without and with a left-out effect, and every replay."""
+    plan = templates.template("linear-damper").model_copy(update={"duration": 0.01})
+    simulate(plan)
+    station = plan.stations[0].model_copy(update={"specimen_physics": (Asymmetry(),)})
+    simulate(plan.model_copy(update={"stations": (station,)}))
+    still = np.zeros(2)
+    replay.specimen(station.specimen, (), still, np.ones(2), plan.substep)
+    replay.actuator(station.actuator, (), still, still, plan.substep)
+    replay.compensator(station.compensator, still, still, plan.substep)
+    replay.structure(plan, np.zeros((2, 1)), np.zeros((2, 1)))
+    replay.structure(plan.model_copy(update={"structure_physics": (CoulombFriction(),)}), np.zeros((2, 1)), np.zeros((2, 1)))
+    stop(still, 0.5)
+
+
+if __name__ == "__main__":
+    warm()
