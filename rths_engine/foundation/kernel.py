@@ -1,7 +1,7 @@
 """The only place that compiles. Parts are plain Python; `compiled`, `entry` and `fold` turn them into one machine code.
 
-Entry points are cached on disk in a folder named by a digest of the engine's sources: numba alone checks only the file
-of the entry point itself, and would keep serving stale code after an edit to a part.
+Entry points are kept on disk under a digest of all that they are compiled from (`fingerprint`): numba alone looks at the file
+of the entry point itself, so that it would serve stale code after an edit to a part, and compile anew after one to a docstring.
 """
 
 from __future__ import annotations
@@ -10,41 +10,54 @@ import hashlib
 import os
 import tempfile
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numba
 
-INTERPRETED = ("recordings", "stability", "table4", "diagnosis")
+from rths_engine.foundation.fingerprint import fingerprint
+
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
 
 
-def source_digest() -> str:
-    """Hex SHA-256 over numba's version and the engine's Python sources, but for the folders that hold nothing compiled."""
-    root = Path(__file__).parents[1]
-    digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(root.rglob("*.py")):
-        if path.relative_to(root).parts[0] in INTERPRETED:
-            continue
-        digest.update(path.relative_to(root).as_posix().encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+class Kept:
+    """Where numba keeps the machine code of one entry point: a cache locator of numba's, by its protocol."""
+
+    def __init__(self, function: Callable[..., Any]):
+        self.digest = fingerprint(function, numba.__version__, _OPTIONS)
+
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], file: str) -> Kept:
+        return cls(function)
+
+    def ensure_cache_path(self) -> None:
+        _folder().mkdir(parents=True, exist_ok=True)
+
+    def get_cache_path(self) -> str:
+        return str(_folder())
+
+    def get_source_stamp(self) -> str:
+        return self.digest
+
+    def get_disambiguator(self) -> str:
+        return self.digest[:16]
 
 
-def _cache_folder() -> Path:
+@lru_cache(maxsize=1)
+def _folder() -> Path:
     base = os.environ.get("RTHS_CACHE") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    folder = Path(base) / "rths" / source_digest()[:16]
+    folder = Path(base) / "rths"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if os.access(folder, os.W_OK):
             return folder
     except OSError:
         pass
-    return Path(tempfile.gettempdir()) / f"rths-{os.getuid()}" / folder.name
+    return Path(tempfile.gettempdir()) / f"rths-{os.getuid()}"
 
 
-numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
-
-_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
+numba.config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Kept.__name__}"  # type: ignore[attr-defined]
 
 
 def compiled(function: Callable[..., Any]) -> Any:

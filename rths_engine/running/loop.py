@@ -14,6 +14,7 @@ import numpy as np
 
 from rths_engine.foundation.kernel import compiled, entry
 from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR
+from rths_engine.parts.structures.assembled import Members
 from rths_engine.running.dispatch import (
     actuate,
     compensate,
@@ -69,7 +70,7 @@ class Setup(NamedTuple):
     shift: float  # its s
     damping: Any  # C, compressed rows
     elastic: Any  # stiffness beside the members, compressed rows
-    members: Any  # structures.assembled.Members
+    members: Members
     loads: Any  # (I, DOF), forces by a unit of each input: -M @ iota for the ground acceleration
     inputs: Any  # (steps + 1, I) at the integration steps
     floors: Any  # DOF of the floors

@@ -1,0 +1,108 @@
+"""A digest of everything that a compiled function is made of, and of nothing else.
+
+It walks from the function through what its bytecode names: functions that it calls, constants that it reads, named tuples that
+it may be given. Sentences, docstrings, labels, bounds and comments are not compiled and leave the digest as it is.
+"""
+
+from __future__ import annotations
+
+import builtins
+import dis
+import hashlib
+from collections.abc import Callable, Iterator
+from types import CodeType, ModuleType
+from typing import Any, TypeGuard
+
+import numpy as np
+
+OWN = __name__.partition(".")[0]
+
+
+def fingerprint(function: Callable[..., Any], *more: object) -> str:
+    """Hex SHA-256 of a function with all that it reaches, and of `more`. NameError for a name that is defined below it."""
+    digest = hashlib.sha256(repr(more).encode())
+    for line in sorted(Walk(function).lines):
+        digest.update(line.encode() + b"\n")
+    return digest.hexdigest()
+
+
+class Walk:
+    """`lines` describe each function, constant and named tuple reached from `function`; `tuples` are the named tuples."""
+
+    def __init__(self, function: Callable[..., Any]):
+        self.own = {OWN, function.__module__.partition(".")[0]}
+        self.lines: set[str] = set()
+        self.tuples: set[type] = set()
+        self._met: set[int] = set()
+        self._walk("", function)
+
+    def _walk(self, place: str, value: Any) -> None:
+        value = getattr(value, "py_func", value)  # what a compiled function was before
+        if hasattr(value, "__code__"):
+            self._function(place, value)
+        elif is_named_tuple(value):
+            self._tuple(value)
+        elif isinstance(value, np.ndarray):
+            self.lines.add(f"{place} = {value.dtype.str} {value.shape} {value.tobytes().hex()}")
+        elif isinstance(value, ModuleType) or callable(value):
+            self.lines.add(f"{place} is {getattr(value, '__name__', value)}")
+        else:
+            self.lines.add(f"{place} = {value!r}")
+
+    def _function(self, place: str, function: Any) -> None:
+        name = f"{function.__module__}.{function.__qualname__}"
+        self.lines.add(f"{place} is {name}")
+        if id(function) in self._met:
+            return
+        self._met.add(id(function))
+        self.lines.add(f"{name}{function.__defaults__!r}: {'; '.join(_instructions(function.__code__))}")
+        for cell, held in zip(function.__code__.co_freevars, function.__closure__ or (), strict=True):
+            self._walk(f"{name}.{cell}", held.cell_contents)
+        for code in _codes(function.__code__):
+            self._names(name, code, function.__globals__)
+        for held in function.__globals__.values():  # an argument may be any that the module knows
+            if is_named_tuple(held):
+                self._tuple(held)
+
+    def _names(self, name: str, code: CodeType, scope: dict[str, Any]) -> None:
+        modules = []
+        for step in dis.get_instructions(code):
+            if step.opname != "LOAD_GLOBAL" or hasattr(builtins, step.argval):
+                continue
+            if step.argval not in scope:
+                raise NameError(f"{name} is compiled before {step.argval}, which it names, is defined")
+            value = scope[step.argval]
+            self._walk(f"{name}.{step.argval}", value)
+            if isinstance(value, ModuleType) and value.__name__.partition(".")[0] in self.own:
+                modules.append(value)
+        for module in modules:
+            for attribute in code.co_names:
+                if hasattr(module, attribute):
+                    self._walk(f"{module.__name__}.{attribute}", getattr(module, attribute))
+
+    def _tuple(self, kind: Any) -> None:
+        self.tuples.add(kind)
+        self.lines.add(f"{kind.__module__}.{kind.__qualname__}: {kind._fields!r}")
+
+
+def is_named_tuple(value: Any) -> TypeGuard[type]:
+    return isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields")
+
+
+def _codes(code: CodeType) -> Iterator[CodeType]:
+    """The code and what is nested in it, as loops in brackets are."""
+    yield code
+    for held in code.co_consts:
+        if isinstance(held, CodeType):
+            yield from _codes(held)
+
+
+def _instructions(code: CodeType) -> Iterator[str]:
+    """Each instruction with the constant or name itself, whose number a docstring would shift."""
+    yield repr(code.co_varnames[: code.co_argcount])
+    for step in dis.get_instructions(code):
+        held = step.argval
+        if isinstance(held, CodeType):
+            yield f"{step.opname} ({'; '.join(_instructions(held))})"
+        else:
+            yield f"{step.opname} {held!r}"
