@@ -124,9 +124,14 @@ def compared(recordings: Recordings, fitted: Fitted) -> Fitted:
     return replace(fitted, misfit=misfit(start))
 
 
-def problem(recordings: Recordings, parts: Sequence[Part]) -> tuple[list[Number], Callable[[Array], Array], Array, Array]:
-    """The free numbers of the parts, the misfit as a function of z, z of the parts, and its bounds."""
-    free = numbers(recordings.component, parts)
+def problem(
+    recordings: Recordings, parts: Sequence[Part], free: Sequence[Number] | None = None
+) -> tuple[list[Number], Callable[[Array], Array], Array, Array]:
+    """The free numbers of the parts, the misfit as a function of z, z of the parts, and its bounds.
+
+    Give the numbers `free` of an earlier fit to keep the scales of its z; without them the values of `parts` are the scales.
+    """
+    free = numbers(recordings.component, parts) if free is None else list(free)
     bounds = np.array([number.bounds for number in free]).reshape(-1, 2)
     start = np.clip(vector(parts, free), bounds[:, 0] + 1e-9, bounds[:, 1] - 1e-9)
     known = [place for place, number in enumerate(free) if np.isfinite(number.spread)]

@@ -48,7 +48,7 @@ def ranges(recordings: Recordings, fitted: Fitted, misfits: Array, temper: float
 
 def _profile(recordings: Recordings, fitted: Fitted) -> Callable[[int, float], float]:
     """What chi^2 rises by where a number is off, once the others have followed by steps of Gauss and Newton."""
-    _, misfit, _, bounds = problem(recordings, fitted.parts)
+    _, misfit, _, bounds = problem(recordings, fitted.parts, fitted.free)
     least = float(fitted.misfit @ fitted.misfit)
 
     def rise(place: int, off: float) -> float:
