@@ -21,6 +21,6 @@ def queue_demonstration(app: FastAPI) -> None:
     with unit_of_work(app.state.sessions) as session:
         runs = RunService(session, MotionLibrary(app.state.settings.motions), app.state.queue)
         unfinished = Filter(states=(State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)
-        if all(run.attempt >= MOST_ATTEMPTS for run in runs.list(unfinished, Page())[0]):
+        if all(run.attempt >= MOST_ATTEMPTS for run in runs.listed(unfinished, Page())[0]):
             plan = templates.template(TEMPLATE).model_copy(update={"pace": RealTime()})
             runs.submit([plan.as_dict()], SUBMITTER)

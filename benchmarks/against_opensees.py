@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.plans import LIBRARY, STEP, alone, frame, ground
+from rths_engine.parts.structures.moment_frame import MomentFrame
 from rths_engine.planning.plan import Plan
 from rths_engine.running.run import Run
 from tests.opensees import peer
@@ -33,9 +34,11 @@ def frame_ratios() -> dict[str, Any]:
     results: dict[str, Any] = {}
     for name, inelastic in (("elastic", False), ("inelastic", True)):
         plan = alone(frame(2, 4, inelastic), DURATION)
+        assert isinstance(plan.structure, MomentFrame)
         acceleration = ground(plan)
         our_step(plan)
-        ours, theirs = [], {system: [] for system in SYSTEMS}
+        ours: list[float] = []
+        theirs: dict[str, list[float]] = {system: [] for system in SYSTEMS}
         for _ in range(ROUNDS):
             seconds, last = our_step(plan)
             ours.append(seconds)

@@ -46,7 +46,12 @@ def main(path: str, seed: int | None) -> None:
         laboratory, factor = described(logarithms)
         return loss(laboratory, motion.model_copy(update={"scale": Factor(factor=factor)}), motions)
 
-    start = present(design_basis(motion, motions).scale.factor) if seed is None else searched(cost, seed)
+    if seed is None:
+        scale = design_basis(motion, motions).scale
+        assert isinstance(scale, Factor)
+        start = present(scale.factor)
+    else:
+        start = searched(cost, seed)
     simplex = np.vstack([start, start + SIMPLEX * np.eye(len(start))])
     found = minimize(cost, start, method="Nelder-Mead", options={"maxfev": REFINED, "initial_simplex": simplex})
     laboratory, factor = described(found.x)

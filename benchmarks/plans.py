@@ -54,4 +54,5 @@ def ground(plan: Plan) -> list[float]:
     run = Run(plan, LIBRARY)
     record = run.motion
     times = np.arange(run.total + 1) * STEP
-    return np.interp(times, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0).tolist()
+    shaken = np.interp(times, np.arange(len(record.acceleration)) * record.dt, record.acceleration, right=0.0)
+    return [float(one) for one in shaken]

@@ -11,6 +11,7 @@ import numpy as np
 
 from benchmarks.plans import LIBRARY, STEP, alone, frame, shear_building
 from rths_engine.foundation.kernel import compiled
+from rths_engine.parts.structures.moment_frame import MomentFrame
 from rths_engine.running.run import Run
 
 ROUNDS = 15
@@ -18,7 +19,7 @@ FRAMES = ((1, 1), (1, 3), (2, 4), (4, 5), (8, 4), (10, 7), (20, 7))
 
 
 @compiled
-def _sum_all(table, repeats):
+def _sum_all(table: np.ndarray, repeats: int) -> np.int64:
     total = np.int64(0)
     for _ in range(repeats):
         for value in table:
@@ -53,7 +54,7 @@ def step_by_dof() -> dict[str, list[dict[str, Any]]]:
         run = Run(plan, LIBRARY)
         built = perf_counter() - start
         setup = run._setup
-        dof = plan.structure.model().size if structure["kind"] == "moment_frame" else setup.loads.shape[1]
+        dof = plan.structure.model().size if isinstance(plan.structure, MomentFrame) else setup.loads.shape[1]
         tables = (*setup.factor, *setup.damping, *setup.elastic, *setup.members)
         size = sum(table.nbytes for table in tables) + setup.factor.value.nbytes + setup.factor.row.nbytes  # L is read twice
         steps = max(100, min(5_000, 200_000 // dof))

@@ -36,8 +36,9 @@ def test_make_run_shows_a_demonstration_in_a_fresh_clone(clone: tuple[Path, dict
     folder, environment = clone
     port = free_port()
     environment = {**environment, "RTHS_PORT": str(port)}
-    command = {"args": ["make", "run"], "cwd": folder, "env": environment, "text": True, "start_new_session": True}
-    with subprocess.Popen(**command, stdout=subprocess.PIPE) as made:
+    with subprocess.Popen(
+        ["make", "run"], cwd=folder, env=environment, text=True, start_new_session=True, stdout=subprocess.PIPE
+    ) as made:
         try:
             assert made.stdout is not None
             assert any(f"http://127.0.0.1:{port}/" in line for line in made.stdout), "it ended without an address"

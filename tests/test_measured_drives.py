@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rths_engine.diagnosis import diagnose
+from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 from tests.measured_sets import measured, plan
 
 
@@ -24,6 +25,7 @@ def test_the_drive_of_a_shaking_table_saturates() -> None:
     fitted, more = (measured("shaking_table", f"Sine{name}.csv") for name in ("A3F08", "A8F4"))
     found = diagnose(plan("shaking_table"), fitted, [measured("shaking_table", "SawtoothA2F05.csv")], more=[more]).verdict
     limits = {one["id"]: one["parameters"][0]["value"] for one in found["effects"]}
-    gain = plan("shaking_table").stations[0].actuator.gain  # of a square wave that stays within the limit
-    assert limits["velocity_saturation"] / gain == pytest.approx(0.5, rel=0.05)  # V
+    drive = plan("shaking_table").stations[0].actuator
+    assert isinstance(drive, VelocityDrive)  # its gain: of a square wave that stays within the limit
+    assert limits["velocity_saturation"] / drive.gain == pytest.approx(0.5, rel=0.05)  # V
     assert found["fit"]["extended"]["heldout_nrmse"] < 0.6 * found["fit"]["baseline"]["heldout_nrmse"]

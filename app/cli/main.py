@@ -7,10 +7,12 @@ import os
 import sys
 from importlib import import_module
 from pathlib import Path
+from typing import TypeAlias
 
 from rths_engine.foundation.errors import RthsError
 
 DONE, FAILED, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
+Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -107,8 +109,8 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def _command(commands: argparse._SubParsersAction, name: str, function: str, about: str) -> argparse.ArgumentParser:
-    command: argparse.ArgumentParser = commands.add_parser(name, help=about, description=f"{about[0].upper()}{about[1:]}.")
+def _command(commands: Commands, name: str, function: str, about: str) -> argparse.ArgumentParser:
+    command = commands.add_parser(name, help=about, description=f"{about[0].upper()}{about[1:]}.")
     command.set_defaults(function=function)
     return command
 

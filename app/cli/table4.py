@@ -42,7 +42,7 @@ def _scaled(given: Namespace, motions: MotionLibrary) -> engine.PlannedRecord:
     if given.record is None:
         if given.record_unit or given.record_dt:
             raise RthsError(Issue("--record", "is needed with --record-unit and --record-dt", fix="name the record's file"))
-        motion = engine.BUNDLED
+        motion: engine.PlannedRecord = engine.BUNDLED
         if given.factor is None:
             return motion
     else:

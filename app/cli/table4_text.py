@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from rths_engine import table4 as engine
 from rths_engine.foundation.units import STANDARD_GRAVITY
 from rths_engine.parts.ground_motions import Motion
+from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.table4.comparison import CALIBRATED, published, stable
 
 # field -> heading, decimals
@@ -26,6 +27,7 @@ def text(
 
 
 def _head(planned: engine.PlannedRecord, motion: Motion) -> Iterator[str]:
+    assert isinstance(planned.scale, Factor)
     yield "Table IV of Chen and Ricles (2012), first storey / second storey; the paper's line below ours"
     yield (
         f"Record {motion.title}: {len(motion.acceleration)} values every {motion.dt:g} s, times {planned.scale.factor:.4g}, "

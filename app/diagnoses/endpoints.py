@@ -29,7 +29,7 @@ def listed(
     offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
 ) -> DiagnosisList:
     """Newest first."""
-    found, total = diagnoses.list(limit, offset)
+    found, total = diagnoses.listed(limit, offset)
     return DiagnosisList(diagnoses=[DiagnosisOut.model_validate(one) for one in found], total=total)
 
 

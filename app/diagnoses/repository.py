@@ -27,7 +27,7 @@ class DiagnosisRepository:
         found = sa.select(Diagnosis).where(Diagnosis.id == diagnosis_id).execution_options(populate_existing=True)
         return self.session.scalar(found)
 
-    def list(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
+    def listed(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
         total = self.session.scalar(sa.select(sa.func.count()).select_from(Diagnosis)) or 0
         query = sa.select(Diagnosis).order_by(Diagnosis.number.desc()).limit(limit).offset(offset)
         return list(self.session.scalars(query)), total

@@ -63,8 +63,8 @@ class DiagnosisService:
             raise NotFound(f"There is no diagnosis {diagnosis_id}.")
         return diagnosis
 
-    def list(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
-        return self.rows.list(limit, offset)
+    def listed(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
+        return self.rows.listed(limit, offset)
 
     def result(self, diagnosis_id: str) -> tuple[Diagnosis, dict[str, Any], dict[str, Any]]:
         """The diagnosis, its verdict and its pictures. Raises Conflict while there are none."""

@@ -128,8 +128,8 @@ class _Viewer:
     def _saw_all(self, run: RunOut, told: LiveRun | None) -> bool:
         if told is None or told.attempt != run.attempt or run.simulated_s is None:
             return False
-        substeps = round(run.simulated_s / told.schema["dt"])
-        return self.cursor >= -(-substeps // told.schema["bucket"])
+        substeps: int = round(run.simulated_s / told.schema["dt"])
+        return self.cursor >= -(-substeps // int(told.schema["bucket"]))
 
     def _run(self) -> RunOut | None:
         with unit_of_work(self.socket.app.state.sessions) as session:

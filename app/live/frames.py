@@ -40,7 +40,7 @@ class Decimator:
         if not parts:
             return None
         values = (np.concatenate(parts) / self._factors[:, None]).astype("<f4")
-        frame = HEADER.pack(self.sent, len(values)) + values.tobytes()
+        frame: bytes = HEADER.pack(self.sent, len(values)) + values.tobytes()
         self.sent += len(values)
         return frame
 

@@ -56,7 +56,7 @@ def listed(
     offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
 ) -> RecordingList:
     """Newest first."""
-    found, total = recordings.list(limit, offset)
+    found, total = recordings.listed(limit, offset)
     return RecordingList(recordings=[RecordingOut.model_validate(one) for one in found], total=total)
 
 

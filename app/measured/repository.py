@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
+from typing import Any
 
 import sqlalchemy as sa
 from sqlalchemy.dialects import postgresql, sqlite
@@ -10,7 +11,7 @@ from sqlalchemy.orm import Session
 
 from app.models import Base, MeasuredRecording, RawFile
 
-INSERT = {"postgresql": postgresql.insert, "sqlite": sqlite.insert}
+INSERT: dict[str, Any] = {"postgresql": postgresql.insert, "sqlite": sqlite.insert}
 RECORDED = MeasuredRecording.raw_sha256 == RawFile.sha256
 
 
@@ -51,14 +52,14 @@ class MeasuredRepository:
     def get(self, recording_id: str) -> MeasuredRecording | None:
         return self.session.scalar(sa.select(MeasuredRecording).where(MeasuredRecording.id == recording_id))
 
-    def list(self, limit: int, offset: int) -> tuple[list[MeasuredRecording], int]:
+    def listed(self, limit: int, offset: int) -> tuple[list[MeasuredRecording], int]:
         total = self.session.scalar(sa.select(sa.func.count()).select_from(MeasuredRecording)) or 0
         query = sa.select(MeasuredRecording).order_by(MeasuredRecording.number.desc()).limit(limit).offset(offset)
         return list(self.session.scalars(query)), total
 
     def uses(self, recording: MeasuredRecording) -> dict[str, int]:
         """How many rows of which tables refer to the recording."""
-        found = {}
+        found: dict[str, int] = {}
         for table in Base.metadata.sorted_tables:
             for column in table.columns:
                 for target in (key.column for key in column.foreign_keys if key.column.table.name == recording.__tablename__):

@@ -95,8 +95,8 @@ class MeasuredService:
             raise NotFound(f"There is no recording {recording_id}.")
         return recording
 
-    def list(self, limit: int, offset: int) -> tuple[list[MeasuredRecording], int]:
-        return self.rows.list(limit, offset)
+    def listed(self, limit: int, offset: int) -> tuple[list[MeasuredRecording], int]:
+        return self.rows.listed(limit, offset)
 
     def channels(self, recording_id: str) -> dict[str, Any]:
         """The channels of a recording, decimated, in the order of its mapping."""
@@ -135,7 +135,7 @@ class MeasuredService:
     def mappings(self) -> list[EarlierMapping]:
         """The mappings of earlier imports, newest first, each once."""
         found: list[EarlierMapping] = []
-        for one in self.rows.list(EARLIER, 0)[0]:
+        for one in self.rows.listed(EARLIER, 0)[0]:
             if all(one.mapping != other.mapping for other in found):
                 found.append(EarlierMapping(recording=one.id, name=one.name, imported_at=one.imported_at, mapping=one.mapping))
         return found

@@ -15,7 +15,7 @@ Text = Annotated[str, Form(max_length=200)]
 
 @router.get("")
 def listed(motions: Motions) -> dict[str, Any]:
-    return {"motions": motions.list()}
+    return {"motions": motions.listed()}
 
 
 @router.post("", status_code=201)

@@ -20,7 +20,7 @@ class MotionService:
     def __init__(self, library: MotionLibrary):
         self.library = library
 
-    def list(self) -> list[dict[str, Any]]:
+    def listed(self) -> list[dict[str, Any]]:
         return [summary.as_dict() for summary in self.library.summaries()]
 
     def summary(self, name: str) -> dict[str, Any]:

@@ -41,16 +41,16 @@ def listed(
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
     """`recording` or `run` is chosen in the form from the start."""
-    found, total = diagnoses.list(LIMIT, LIMIT * (number - 1))
-    recorded = [one for one in runs.list(Filter(states=RECORDED), Page(limit=OFFERED))[0] if one.recording_sha256]
+    found, total = diagnoses.listed(LIMIT, LIMIT * (number - 1))
+    recorded = [one for one in runs.listed(Filter(states=RECORDED), Page(limit=OFFERED))[0] if one.recording_sha256]
     if run and all(one.id != run for one in recorded):
         recorded.insert(0, runs.get(run))
-    imported = recordings.list(OFFERED, 0)[0]
+    imported = recordings.listed(OFFERED, 0)[0]
     if recording and all(one.id != recording for one in imported):
         imported.insert(0, recordings.get(recording))
-    offered = {"imported": imported, "recorded": recorded, "templates": plans.templates()}
+    offered: dict[str, Any] = {"imported": imported, "recorded": recorded, "templates": plans.templates()}
     chosen = f"run:{run}" if run else f"recording:{recording}" if recording else ""
-    part = {"diagnoses": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
+    part: dict[str, Any] = {"diagnoses": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
     return page(request, "diagnoses.html", chosen=chosen, **offered, **part)
 
 

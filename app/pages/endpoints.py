@@ -10,6 +10,7 @@ from fastapi.responses import HTMLResponse
 from app.config import MEGABYTE
 from app.dependencies import Configured
 from app.live.hub import Hub
+from app.models import Run
 from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
 from app.pages.run_list import LIMIT, RunFilter
@@ -43,9 +44,10 @@ def new(request: Request, configured: Configured) -> HTMLResponse:
 
 @router.get("/runs")
 def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilter, Query()]) -> HTMLResponse:
-    found, total, problem = [], 0, None
+    found: list[Run] = []
+    total, problem = 0, None
     try:
-        found, total = runs.list(wanted.filter(), wanted.part())
+        found, total = runs.listed(wanted.filter(), wanted.part())
     except RthsError as error:
         problem = str(error)
     offered = {"states": list(State), "templates": plans.templates()}
@@ -70,11 +72,11 @@ def _progress(hub: Hub, run_id: str) -> dict[str, Any]:
 
 
 def _lab(request: Request, runs: Runs) -> dict[str, Any]:
-    oldest_first = {"sort": "number", "descending": False}
-    running, _ = runs.list(Filter(states=(State.RUNNING,)), Page(limit=QUEUED_SHOWN, **oldest_first))
-    queued, queued_total = runs.list(Filter(states=(State.QUEUED,)), Page(limit=QUEUED_SHOWN, **oldest_first))
+    oldest = Page(sort="number", descending=False, limit=QUEUED_SHOWN)
+    running, _ = runs.listed(Filter(states=(State.RUNNING,)), oldest)
+    queued, queued_total = runs.listed(Filter(states=(State.QUEUED,)), oldest)
     ended = tuple(state for state in State if state.ended)
-    recent, _ = runs.list(Filter(states=ended), Page(sort="finished_at", limit=RECENT_SHOWN))
+    recent, _ = runs.listed(Filter(states=ended), Page(sort="finished_at", limit=RECENT_SHOWN))
     queue = runs.queue_state()
     lists = {"running": running, "queued": queued, "queued_total": queued_total, "recent": recent}
     live = {run.id: _progress(request.app.state.hub, run.id) for run in running}

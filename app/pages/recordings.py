@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
@@ -26,9 +26,9 @@ def listed(
     recordings: Recordings,
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
-    found, total = recordings.list(LIMIT, LIMIT * (number - 1))
-    part = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
-    offered = {"formats": FORMATS, "limit_mb": configured.measurements_limit // MEGABYTE}
+    found, total = recordings.listed(LIMIT, LIMIT * (number - 1))
+    part: dict[str, Any] = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
+    offered: dict[str, Any] = {"formats": FORMATS, "limit_mb": configured.measurements_limit // MEGABYTE}
     return page(request, "recordings.html", **part, **offered)
 
 

@@ -73,7 +73,7 @@ def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
 @router.get("/runs")
 def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
     """Runs by filter, order and page. `sort` takes a column, or a measure of a station such as `mte_mm:1`."""
-    found, total = runs.list(wanted.filter(), wanted.page())
+    found, total = runs.listed(wanted.filter(), wanted.page())
     return RunList(runs=[RunOut.of(run) for run in found], total=total)
 
 

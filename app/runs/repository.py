@@ -68,7 +68,7 @@ class RunRepository:
         self.session.execute(untouched, execution_options={"synchronize_session": False})
         return self.session.scalar(sa.select(Run).where(Run.id == run_id).execution_options(populate_existing=True))
 
-    def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
+    def listed(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         query = self._filtered(wanted)
         total = self.session.scalar(sa.select(sa.func.count()).select_from(query.subquery())) or 0
         column, _, station = page.sort.partition(":")
@@ -120,7 +120,7 @@ class RunRepository:
     def forget_worker(self, worker: str) -> None:
         self.session.execute(sa.delete(WorkerHeartbeat).where(WorkerHeartbeat.worker == worker))
 
-    def _filtered(self, wanted: Filter) -> sa.Select[tuple[Run]]:
+    def _filtered(self, wanted: Filter) -> sa.Select[Run]:
         query = sa.select(Run)
         if wanted.states:
             query = query.where(Run.state.in_(wanted.states))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any
+from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -85,7 +85,7 @@ class RunOut(BaseModel):
     recording: RecordingOut | None = None
 
     @classmethod
-    def of(cls, run: Run) -> RunOut:
+    def of(cls, run: Run) -> Self:
         out = cls.model_validate(run)
         if run.recording_sha256 and run.recording_size is not None:
             out.recording = RecordingOut(sha256=run.recording_sha256, size=run.recording_size)

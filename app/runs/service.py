@@ -77,7 +77,7 @@ class RunService:
     def plan_of(self, run: Run) -> Plan:
         return read_plan(run.plan)
 
-    def list(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
+    def listed(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
         column, _, station = page.sort.partition(":")
         numbered = station.isdecimal() and len(station) < 3
         known = column in MEASURES if numbered else column in SORTS and page.sort == column
@@ -85,7 +85,7 @@ class RunService:
             names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
             near = difflib.get_close_matches(page.sort, names, 1)
             raise RthsError(Issue("sort", "is no column to sort by", page.sort, f"try {near[0]}" if near else ", ".join(names)))
-        return self.runs.list(wanted, page)
+        return self.runs.listed(wanted, page)
 
     def queue_state(self) -> QueueOut:
         state, seen = self.runs.queue_state(), self.runs.last_beat()

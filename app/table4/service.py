@@ -44,7 +44,7 @@ class Table4Service:
         )
 
     def _simulation(self, number: int) -> SimulationOut:
-        found, _ = self.runs.list(Filter(template=engine.name(number)), Page(limit=1))
+        found, _ = self.runs.listed(Filter(template=engine.name(number)), Page(limit=1))
         run = RunOut.of(found[0]) if found else None
         paper = engine.PAPER[number]
         return SimulationOut(

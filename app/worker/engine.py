@@ -143,7 +143,7 @@ class _Telling:
 
     def _wait(self, start: float, factor: float) -> float:
         """Seconds until the wall clock has come to where the test is."""
-        due = self.run.done * self.run.dt / factor
+        due: float = self.run.done * self.run.dt / factor
         return max(0.0, due - (time.perf_counter() - start))
 
     def _tell(self, elapsed: float, ended: bool) -> None:

@@ -49,7 +49,8 @@ class _Cursor:
 
     def __init__(self, telling: Telling):
         self.telling = telling
-        self.schema_told, self.bucket, self.progress = False, 0, None
+        self.schema_told, self.bucket = False, 0
+        self.progress: dict[str, Any] | None = None
 
     def tell(self, socket: ClientConnection) -> bool:
         """Send what is new; True once the end was told."""

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import TypeVar
 
 from scipy.optimize import brentq
 
 from rths_engine.foundation.errors import Issue, MotionError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.parts.ground_motions.scaling import Factor
-from rths_engine.planning.motion import FileMotion, RecordMotion
 from rths_engine.planning.safety import Limits
 from rths_engine.planning.templates import VELOCITY_CAPACITY
 from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import FLOORS_PEAK_MM
 from rths_engine.table4.laboratory import LABORATORY, Laboratory, PlannedRecord, plans
 
-M = TypeVar("M", RecordMotion, FileMotion)
 LEAST, MOST = 0.01, 50.0
 CLOSE = 1e-3  # of a factor
 FAR = Limits(displacement=10.0, velocity=min(VELOCITY_CAPACITY))  # so that too strong a motion goes on
 
 
-def design_basis(motion: M, motions: MotionLibrary, laboratory: Laboratory = LABORATORY) -> M:
+def design_basis(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory = LABORATORY) -> PlannedRecord:
     """`motion` with the factor at which the floors of simulation 2 peak, in the geometric mean, where the paper's did.
 
     The paper's record was scaled to the design basis earthquake by a factor it does not give; its floors of simulation 2, 49.6
@@ -40,7 +37,7 @@ def design_basis(motion: M, motions: MotionLibrary, laboratory: Laboratory = LAB
     return _times(motion, math.exp(float(brentq(excess, low, high, xtol=CLOSE))))
 
 
-def _times(motion: M, factor: float) -> M:
+def _times(motion: PlannedRecord, factor: float) -> PlannedRecord:
     return motion.model_copy(update={"scale": Factor(factor=factor)})
 
 

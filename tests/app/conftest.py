@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app import db, queue
@@ -44,6 +45,12 @@ def client(settings: Settings) -> Iterator[TestClient]:
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     with running(tmp_path_factory.mktemp("app")) as one:
         yield one
+
+
+def app_of(client: TestClient) -> FastAPI:
+    """The application that a client asks."""
+    assert isinstance(client.app, FastAPI)
+    return client.app
 
 
 def plan(**changes: Any) -> dict[str, Any]:

@@ -65,8 +65,8 @@ def test_runs_measured_before_a_migration_keep_what_was_measured(tmp_path: Path)
     with engine.begin() as connection:
         run = {**text, **numbers, "state": "completed", "submitted_at": datetime.now(UTC)}
         connection.execute(sa.insert(tables.tables["run"]).values(run))
-        station = {"run_number": 7, "number": 1, "name": "damper", "mte_mm": 2.5}
-        connection.execute(sa.insert(tables.tables["run_station"]).values(station))
+        row = {"run_number": 7, "number": 1, "name": "damper", "mte_mm": 2.5}
+        connection.execute(sa.insert(tables.tables["run_station"]).values(row))
     db.migrate(url)
     with db.unit_of_work(db.sessions(engine)) as session:
         station = session.scalars(sa.select(RunStation)).one()

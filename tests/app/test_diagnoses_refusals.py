@@ -13,6 +13,7 @@ from app import db
 from app.config import Settings
 from app.diagnoses.work import MOST_ATTEMPTS, DiagnosisWork
 from tests.app import test_recordings_api as recordings
+from tests.app.conftest import app_of
 from tests.app.conftest import plan as hybrid
 from tests.app.test_cli_diagnose import plan as specimen
 
@@ -131,7 +132,7 @@ class Bench:
 
 @pytest.fixture
 def bench(client: TestClient, settings: Settings, recording: str) -> Bench:
-    return Bench(client, client.app.state.sessions, queued(client, recording)["id"])  # type: ignore[attr-defined]
+    return Bench(client, app_of(client).state.sessions, queued(client, recording)["id"])
 
 
 def test_a_result_is_stored_once_whatever_attempt_comes_late(bench: Bench) -> None:

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 
 from app.cli.main import main
+from app.reports.service import report_html
 from app.runs.exports import csv_parts
 from rths_engine.planning import templates
 from rths_engine.planning.examples import EXAMPLES
 from rths_engine.planning.reading import plan_to_yaml
 from rths_engine.recordings.run_file import Recording
-from tests.app.test_reports import RUN, Page, recorded, report_html
+from tests.app.test_reports import RUN, Page, recorded
 
 WANTED = {
     "specimen-mr-damper": ["Drive", "Station 1: MR damper"],

@@ -23,7 +23,7 @@ from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.reading import read_plan
 from rths_engine.recordings.run_file import save
 from rths_engine.running.run import simulate
-from tests.app.conftest import plan
+from tests.app.conftest import app_of, plan
 
 
 class Told:
@@ -79,7 +79,7 @@ class Told:
 
     @contextmanager
     def _service(self) -> Iterator[RunService]:
-        with unit_of_work(self.client.app.state.sessions) as session:  # type: ignore[attr-defined]
+        with unit_of_work(app_of(self.client).state.sessions) as session:
             yield RunService(session, MotionLibrary(None))
 
 

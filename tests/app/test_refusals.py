@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from app import db
 from app.config import Settings
-from tests.app.conftest import ADDRESS, plan
+from tests.app.conftest import ADDRESS, app_of, plan
 
 RUNS, CHECK, READ, MOTIONS = "/api/v1/runs", "/api/v1/plans/check", "/api/v1/plans/read", "/api/v1/motions"
 JSON = {"content-type": "application/json"}
@@ -166,7 +166,7 @@ def test_an_upload_of_unknown_length_is_counted_and_leaves_nothing(client: TestC
 
 def test_a_database_that_does_not_answer_is_told_as_that(client: TestClient, tmp_path: Path) -> None:
     engine = db.connect(f"sqlite:///{tmp_path / 'nowhere' / 'rths.sqlite'}")
-    client.app.state.sessions = db.sessions(engine)
+    app_of(client).state.sessions = db.sessions(engine)
     answer = client.get(RUNS)
     assert (answer.status_code, answer.headers["content-type"]) == (503, "application/problem+json")
     assert "database" in answer.json()["detail"]

@@ -17,7 +17,9 @@ from app.reports.packed import packed
 from app.reports.plan_tables import groups
 from app.reports.service import report_html
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, spectral_acceleration
+from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.planning import templates
+from rths_engine.planning.motion import RecordMotion
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings import run_file as recordings
 from rths_engine.recordings.run_file import Recording
@@ -184,13 +186,14 @@ def test_plots_keep_the_extremes_of_the_recording_in_shown_units(fourth: tuple[R
 def test_the_spectrum_marks_t1_and_the_spectral_acceleration_of_the_scaled_record(fourth: tuple[Recording, str]) -> None:
     recording, html = fourth
     mark = next(spec["mark"] for spec in Page(html).specs if "mark" in spec)
-    factor = recording.plan.motion.scale.factor
-    record = MotionLibrary(None).get(recording.plan.motion.record).scaled(factor)
+    motion = recording.plan.motion
+    assert isinstance(motion, RecordMotion) and isinstance(motion.scale, Factor)
+    record = MotionLibrary(None).get(motion.record).scaled(motion.scale.factor)
     period = float(recording.plan.periods()[0])
     assert mark["x"] == pytest.approx(period)
     assert mark["y"] == pytest.approx(spectral_acceleration(record, period) / 9.80665)
     text = Page(html).text
-    assert record.title in text and record.provenance in text and f"by a factor, record × {factor:g}" in text
+    assert record.title in text and record.provenance in text and f"by a factor, record × {motion.scale.factor:g}" in text
 
 
 def test_a_stored_record_out_of_reach_is_replaced_by_the_recorded_acceleration(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -23,7 +23,7 @@ from tests.app.conftest import plan
 
 PATIENCE_S = 10  # far above a statement's time; only a deadlock takes as long
 LEAD_S = 0.5  # for a start that wrongly does not wait; one that waits outlasts it
-SUMMARY = {
+SUMMARY: dict[str, Any] = {
     "status": "completed",
     "trip": None,
     "elapsed_s": 1.0,
@@ -157,7 +157,8 @@ def test_abort_holds_the_queue_even_when_a_test_ends_at_that_moment(
 
 
 def test_release_forgets_who_held_the_queue(maker: sessionmaker[Session]) -> None:
-    for act in (lambda one: one.abort(" "), lambda one: one.release()):
+    acts: tuple[Callable[[RunService], object], ...] = (lambda one: one.abort(" "), lambda one: one.release())
+    for act in acts:
         with db.unit_of_work(maker) as session:
             act(service(session))
             state = service(session).queue_state()

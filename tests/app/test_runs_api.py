@@ -26,7 +26,7 @@ from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.reading import plan_from_yaml, read_plan
 from rths_engine.recordings import run_file as recording
 from rths_engine.running.run import simulate
-from tests.app.conftest import ADDRESS, plan
+from tests.app.conftest import ADDRESS, app_of, plan
 
 RUNS = "/api/v1/runs"
 
@@ -41,12 +41,12 @@ def submit(client: TestClient, **changes: Any) -> str:
 def execute(client: TestClient, settings: Settings, run_id: str) -> dict[str, Any]:
     """What a worker does, in this process."""
     motions = MotionLibrary(settings.motions)
-    with unit_of_work(client.app.state.sessions) as session:
+    with unit_of_work(app_of(client).state.sessions) as session:
         run = RunService(session, motions).start(run_id, "test")
         assert run is not None
         result = simulate(read_plan(run.plan), motions)
     saved = recording.save(settings.recordings / f"{run_id}.h5", result)
-    with unit_of_work(client.app.state.sessions) as session:
+    with unit_of_work(app_of(client).state.sessions) as session:
         RunService(session, motions).finish(run_id, Outcome(result.summary(), saved.sha256, saved.size))
     return result.summary()
 
@@ -121,7 +121,10 @@ def test_a_nan_in_the_motion_is_refused(client: TestClient) -> None:
 def test_the_list_filters_sorts_and_pages(client: TestClient, settings: Settings) -> None:
     runs = [submit(client, name=name) for name in ("alpha 100%", "beta", "gamma")]
     execute(client, settings, runs[1])
-    names = lambda **query: [run["name"] for run in client.get(RUNS, params=query).json()["runs"]]  # noqa: E731
+
+    def names(**query: Any) -> list[str]:
+        return [run["name"] for run in client.get(RUNS, params=query).json()["runs"]]
+
     assert names() == ["gamma", "beta", "alpha 100%"]
     assert names(sort="name", order="asc", limit=2) == ["alpha 100%", "beta"]
     assert names(sort="name", order="asc", limit=2, offset=2) == ["gamma"]
@@ -204,7 +207,7 @@ def test_a_run_without_recording_says_so(client: TestClient) -> None:
 def test_a_second_finish_changes_nothing(client: TestClient, settings: Settings) -> None:
     run_id = submit(client)
     summary = execute(client, settings, run_id)
-    with unit_of_work(client.app.state.sessions) as session:
+    with unit_of_work(app_of(client).state.sessions) as session:
         service = RunService(session, MotionLibrary(None))
         assert service.start(run_id, "other") is None
         assert service.finish(run_id, Outcome({**summary, "status": "tripped"}, "0" * 64, 1)) is False
@@ -214,10 +217,10 @@ def test_a_second_finish_changes_nothing(client: TestClient, settings: Settings)
 def test_a_run_that_kills_its_worker_is_parked_after_three_attempts(client: TestClient) -> None:
     run_id = submit(client)
     for attempt in (1, 2, 3):
-        with unit_of_work(client.app.state.sessions) as session:
+        with unit_of_work(app_of(client).state.sessions) as session:
             run = RunService(session, MotionLibrary(None)).start(run_id, "dying")
             assert run is not None and run.attempt == attempt
-    with unit_of_work(client.app.state.sessions) as session:
+    with unit_of_work(app_of(client).state.sessions) as session:
         assert RunService(session, MotionLibrary(None)).start(run_id, "dying") is None
     run = client.get(f"{RUNS}/{run_id}").json()
     assert run["state"] == "failed" and "3 times" in run["reason"]

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosedError, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from rths_engine.recordings.run_file import load
 from tests.browser.service import Service, running
@@ -205,7 +206,7 @@ def test_frames_are_taken_only_with_the_workers_token(service: Service) -> None:
 
 def test_another_sites_page_cannot_watch(service: Service) -> None:
     with pytest.raises(InvalidStatus, match="403"):
-        connect(f"{service.url.replace('http', 'ws')}/api/v1/runs/none/live", origin="http://elsewhere.example")
+        connect(f"{service.url.replace('http', 'ws')}/api/v1/runs/none/live", origin=Origin("http://elsewhere.example"))
 
 
 def test_a_restarted_web_service_takes_its_runs_up_again(tmp_path: Path) -> None:

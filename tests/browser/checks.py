@@ -33,7 +33,8 @@ def checked(
         for _ in range(PATIENCE_MS // POLL_MS):
             for answer in reversed(answers):
                 if "plan" in answer and wanted(answer["plan"]):
-                    return answer
+                    found: dict[str, Any] = answer
+                    return found
             form.wait_for_timeout(POLL_MS)
         raise AssertionError(f"no check of the wanted plan was answered: {answers}")
     finally:

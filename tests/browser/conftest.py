@@ -9,7 +9,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, Page, expect, sync_playwright
 
 from tests.browser.service import Service, running
 
@@ -65,13 +65,15 @@ class Watch:
     def __init__(self, page: Page):
         self.faults: list[str] = []
         self.allowed: tuple[str, ...] = ()
-        page.on(
-            "console", lambda message: message.type in {"error", "warning"} and self.faults.append(f"console: {message.text}")
-        )
+        page.on("console", self._console)
         page.on("pageerror", lambda error: self.faults.append(f"exception: {error}"))
         page.on("requestfailed", lambda request: self._failed(request))
         page.on("request", lambda request: self._asked(request.url))
         page.on("websocket", lambda socket: self._asked(socket.url))
+
+    def _console(self, message: ConsoleMessage) -> None:
+        if message.type in {"error", "warning"}:
+            self.faults.append(f"console: {message.text}")
 
     def _failed(self, request: Any) -> None:
         if "ERR_ABORTED" not in (request.failure or ""):  # a page that is left gives up its requests

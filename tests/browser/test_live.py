@@ -41,7 +41,7 @@ def test_measures_show_while_the_test_runs_and_end_as_those_stored(idle: Service
 def test_a_lost_connection_is_told_and_mended(idle: Service, opened: Opener) -> None:
     run = idle.submit(duration=20.0, pace=REAL_TIME)
     page = opened("/runs")
-    refused = []
+    refused: list[str] = []
 
     def answer(socket: WebSocketRoute) -> None:
         if len(refused) < 3:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
@@ -24,7 +26,7 @@ SEEN = Seen(
 
 
 @entry
-def _streamed(hook, left_out, y, x, v, w, dt, out):
+def _streamed(hook: int, left_out: Any, y: Array, x: Array, v: Array, w: Array, dt: float, out: Array) -> None:
     for q in range(y.size):
         t = q * dt
         if hook <= PISTON:

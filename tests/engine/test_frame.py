@@ -82,8 +82,8 @@ def test_p_delta_softens_a_storey_by_its_weight_over_its_height() -> None:
 def test_a_member_in_uniform_bending_follows_its_bilinear_moment_curvature_law() -> None:
     bending, yield_moment, length, hardening = 5e7, 4e5, 2.0, 0.03
     model = FrameModel()
-    nodes = [model.node(x, 0.0, fixed=(True, True, False)) for x in (0.0, length)]
-    model.members.append(Member(*nodes, 1e9, bending, yield_moment, hardening / (1 - hardening) * bending))
+    start, end = (model.node(x, 0.0, fixed=(True, True, False)) for x in (0.0, length))
+    model.members.append(Member(start, end, 1e9, bending, yield_moment, hardening / (1 - hardening) * bending))
     limit = yield_moment / bending
     curvature = limit * np.concatenate([np.linspace(0, 5, 101), np.linspace(5, -3, 161)])
     path = np.outer(curvature, [-length / 2, length / 2])

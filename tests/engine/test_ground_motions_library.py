@@ -23,7 +23,9 @@ def test_a_bundled_record_has_the_published_peak_and_the_length_its_provenance_s
     motion = MotionLibrary(None).get(name)
     # published to 3 decimals of g
     assert motion.pga / STANDARD_GRAVITY == pytest.approx(INDEX[name]["pga_g"], abs=6e-4)
-    count, dt = re.search(r"(\d+) samples at ([\d.]+) s", motion.provenance).groups()
+    told = re.search(r"(\d+) samples at ([\d.]+) s", motion.provenance)
+    assert told is not None
+    count, dt = told.groups()
     assert (len(motion.acceleration), motion.dt) == (int(count), float(dt))
     assert "MIT licence" in motion.provenance and motion.event and motion.station and motion.component
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -62,7 +63,7 @@ def columns(separator: str, header: str = "", comma: bool = False, time: bool = 
     return header + (text.replace(".", ",") if comma else text) + "\n"
 
 
-def raises(text: str | bytes, *words: str, name: str = "file.txt", **more: object) -> MotionError:
+def raises(text: str | bytes, *words: str, name: str = "file.txt", **more: Any) -> MotionError:
     raw = text if isinstance(text, bytes) else text.encode()
     with pytest.raises(MotionError) as caught:
         read(raw, name, **more)

@@ -18,7 +18,7 @@ STRUCTURE = building([1.0e5], [1.0e5 * OMEGA**2], RATIO)
 def free_vibration(time: np.ndarray, x0: float, v0: float) -> np.ndarray:
     damped = OMEGA * np.sqrt(1 - RATIO**2)
     decay = np.exp(-RATIO * OMEGA * time)
-    return decay * (x0 * np.cos(damped * time) + (v0 + RATIO * OMEGA * x0) / damped * np.sin(damped * time))
+    return np.asarray(decay * (x0 * np.cos(damped * time) + (v0 + RATIO * OMEGA * x0) / damped * np.sin(damped * time)))
 
 
 def largest_error(dt: float) -> float:
@@ -67,7 +67,8 @@ def test_modes_of_a_two_storey_building_vibrate_apart() -> None:
 
 def second_mode(time: np.ndarray, omega: float) -> np.ndarray:
     root = np.sqrt(1 - 0.02**2)
-    return 0.01 * np.exp(-0.02 * omega * time) * (np.cos(root * omega * time) + 0.02 / root * np.sin(root * omega * time))
+    swing = np.cos(root * omega * time) + 0.02 / root * np.sin(root * omega * time)
+    return np.asarray(0.01 * np.exp(-0.02 * omega * time) * swing)
 
 
 def test_a_massless_degree_of_freedom_needs_stiffness_or_damping() -> None:

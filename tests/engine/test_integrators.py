@@ -24,7 +24,7 @@ ALL += [{"kind": "kr_alpha", "rho": rho} for rho in (0.0, 0.5, 0.75, 1.0)]
 def exact(time: np.ndarray, x0: float, v0: float) -> np.ndarray:
     damped = OMEGA * np.sqrt(1 - RATIO**2)
     decay = np.exp(-RATIO * OMEGA * time)
-    return decay * (x0 * np.cos(damped * time) + (v0 + RATIO * OMEGA * x0) / damped * np.sin(damped * time))
+    return np.asarray(decay * (x0 * np.cos(damped * time) + (v0 + RATIO * OMEGA * x0) / damped * np.sin(damped * time)))
 
 
 def largest_error(dt: float, integrator: dict[str, Any]) -> float:

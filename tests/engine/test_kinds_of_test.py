@@ -160,7 +160,11 @@ def test_band_noise_has_no_power_outside_its_band() -> None:
     assert power[outside].sum() < 1e-4 * power.sum()  # the taper of 1 s widens each tone
 
 
-USED = {name: (field.json_schema_extra or {}).get("tests") for name, field in Plan.model_fields.items()}
+USED: dict[str, Any] = {
+    name: field.json_schema_extra.get("tests")
+    for name, field in Plan.model_fields.items()
+    if isinstance(field.json_schema_extra, dict)
+}
 OTHERWISE = {
     "motion": {"kind": "inline", "dt": 0.1, "acceleration": [0.0, 1.0]},
     "forces": [{"floor": 1}],

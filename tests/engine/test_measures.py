@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -18,7 +20,7 @@ UNMOVED = np.zeros(500)
 
 def tones(parts: list[tuple[float, float, float]], time: Array = TIME) -> Array:
     """Sum of sines: amplitude (m), frequency (Hz) and phase lag."""
-    return np.sum([a * np.sin(2 * np.pi * f * time - phase) for a, f, phase in parts], axis=0)
+    return np.asarray(np.sum([a * np.sin(2 * np.pi * f * time - phase) for a, f, phase in parts], axis=0))
 
 
 @pytest.mark.parametrize(("amplitude", "delay"), [(0.9, 0.03), (1.1, -0.012), (1.0, 0.0)])
@@ -89,7 +91,7 @@ def test_input_energy_of_a_constant_acceleration_is_force_times_way() -> None:
     assert energy == pytest.approx(mass * 3.0 * way[:, 0])
 
 
-def swaying(**more: object) -> Run:
+def swaying(**more: Any) -> Run:
     """A two-storey building without damping on a ground that shakes with its first frequency."""
     ground = 2.0 * np.sin(2 * np.pi * 0.9 * np.arange(0, 5, 0.01))
     return completed(make(building([5e5, 4e5], [3e7, 2e7]), shaking(ground, 0.01), 0.001, **more))

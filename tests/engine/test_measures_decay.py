@@ -13,7 +13,7 @@ TIME = np.arange(20 * 1024) * DT
 
 def decaying(period: float, ratio: float, phase: float = 0.0) -> np.ndarray:
     omega = 2 * np.pi / period
-    return np.exp(-ratio * omega * TIME) * np.cos(omega * np.sqrt(1 - ratio**2) * TIME + phase)
+    return np.asarray(np.exp(-ratio * omega * TIME) * np.cos(omega * np.sqrt(1 - ratio**2) * TIME + phase))
 
 
 @pytest.mark.parametrize(("period", "ratio", "phase"), [(0.54, 0.02, 0.0), (1.5, 0.05, 1.0), (0.3, 0.002, -2.0)])

@@ -44,6 +44,7 @@ def test_modes_agree(given: dict[str, Any]) -> None:
 def histories(record: str, inelastic: bool, dt: float) -> tuple[np.ndarray, np.ndarray]:
     """Floor displacements (steps, floors), ours and those of OpenSees."""
     plan = make(paper_frame(inelastic=inelastic), {"kind": "record", "record": record}, dt, duration=DURATION)
+    assert isinstance(plan.structure, MomentFrame)
     run = completed(plan)
     shaken = run.motion
     times = np.arange(run.total + 1) * dt
@@ -64,7 +65,7 @@ def histories(record: str, inelastic: bool, dt: float) -> tuple[np.ndarray, np.n
 def difference(record: str, inelastic: bool, dt: float) -> np.ndarray:
     """RMS of the difference over the RMS of OpenSees' displacement, floor by floor."""
     ours, theirs = histories(record, inelastic, dt)
-    return np.sqrt(np.mean((ours - theirs) ** 2, axis=0) / np.mean(theirs**2, axis=0))
+    return np.asarray(np.sqrt(np.mean((ours - theirs) ** 2, axis=0) / np.mean(theirs**2, axis=0)))
 
 
 CASES = [(EL_CENTRO, False), (EL_CENTRO, True), (BEVERLY_HILLS, True)]

@@ -125,7 +125,8 @@ def test_mr_damper_at_constant_velocity_settles_on_its_force_velocity_law(veloci
         force = MrDamper.step(parameters, state, velocity * q * DT, DT)
 
     def strength(slip: float) -> float:
-        return part.yield_force + part.rate_coefficient * slip**part.rate_exponent
+        strong: float = part.yield_force + part.rate_coefficient * slip**part.rate_exponent
+        return strong
 
     flows = velocity > part.yield_force / part.damping
     slip = brentq(lambda slip: velocity - strength(slip) / part.damping - slip, 0, velocity) if flows else 0.0

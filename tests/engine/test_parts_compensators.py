@@ -42,7 +42,7 @@ def tracked(compensator: Any, actuator: Any, x: np.ndarray, dt: float = DT) -> t
 
 
 def sine(amplitude: float, seconds: float, frequency: float = 1.0, dt: float = DT) -> np.ndarray:
-    return amplitude * np.sin(2 * np.pi * frequency * np.arange(1, round(seconds / dt) + 1) * dt)
+    return np.asarray(amplitude * np.sin(2 * np.pi * frequency * np.arange(1, round(seconds / dt) + 1) * dt))
 
 
 def test_dual_compensation_without_gain_is_inverse_compensation() -> None:

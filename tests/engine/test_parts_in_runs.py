@@ -44,7 +44,8 @@ def test_every_part_runs_in_the_loop_beside_every_other() -> None:
 def test_ats_tracks_with_a_servo_hydraulic_actuator_where_a_wrong_estimate_does_not(specimen: str) -> None:
     errors = {}
     for name, compensator in {"ats": {"kind": "ats", "delay": 0.01}, "inverse": {"kind": "inverse", "alpha_es": 11}}.items():
-        parts = {"compensator": compensator, "actuator": {"kind": "servo_hydraulic"}, "specimen": {"kind": specimen}}
+        parts: dict[str, Any] = {"actuator": {"kind": "servo_hydraulic"}, "specimen": {"kind": specimen}}
+        parts["compensator"] = compensator
         noise = {"displacement": 1e-5, "force": 200.0}
         plan = make(STRUCTURE, MOTION, 10 / 1024, substeps=10, stations=[{**station("Damper", **parts), "noise": noise}])
         result = simulate(plan, LIBRARY)

@@ -27,7 +27,7 @@ def forces(part: Any, path: np.ndarray, dt: float = DT) -> np.ndarray:
 
 
 def sine(amplitude: float, cycles: int, frequency: float = 1.0) -> np.ndarray:
-    return amplitude * np.sin(2 * np.pi * frequency * np.arange(1, int(cycles * 1024 / frequency) + 1) * DT)
+    return np.asarray(amplitude * np.sin(2 * np.pi * frequency * np.arange(1, int(cycles * 1024 / frequency) + 1) * DT))
 
 
 def cycle_energy(part: Any, amplitude: float, frequency: float = 1.0) -> float:
@@ -54,7 +54,7 @@ def test_bouc_wen_agrees_with_an_independent_solver_of_its_law() -> None:
 
     def slope(t: float, zeta: np.ndarray) -> np.ndarray:
         v = amplitude * omega * np.cos(omega * t)
-        return v / 2e-3 * (1 - np.abs(zeta) ** 1.5 * (0.8 * np.sign(v * zeta) + 0.2))
+        return np.asarray(v / 2e-3 * (1 - np.abs(zeta) ** 1.5 * (0.8 * np.sign(v * zeta) + 0.2)))
 
     times = np.arange(1, 2049) * DT
     solved = solve_ivp(slope, (0, 2), [0.0], t_eval=times, rtol=1e-9, atol=1e-11, max_step=DT)

@@ -146,9 +146,9 @@ def test_numbers_out_of_bounds_are_refused_with_the_bound(kind: type[Effect]) ->
                 with pytest.raises(PlanError, match=rf"{name} = .*: needs a value <= "):
                     validated(kind, {name: 2 * bound.le})  # type: ignore[operator]
             elif isinstance(bound, annotated_types.Gt | annotated_types.Ge):
-                low = bound.gt if isinstance(bound, annotated_types.Gt) else bound.ge
+                low: Any = bound.gt if isinstance(bound, annotated_types.Gt) else bound.ge
                 with pytest.raises(PlanError, match=rf"{name} = .*: needs a value >"):
-                    validated(kind, {name: low - 1 - abs(low)})  # type: ignore[operator]
+                    validated(kind, {name: low - 1 - abs(low)})
         if field.annotation is float:
             with pytest.raises(PlanError, match="finite number"):
                 validated(kind, {name: float("nan")})

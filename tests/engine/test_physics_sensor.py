@@ -80,7 +80,7 @@ def test_the_low_passed_ground_motion_solves_its_equation(time_constant: float) 
     found = LowPass(time_constant=time_constant).shaken(READING, DT)
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
-        return (np.interp(t, TIME, READING) - y) / time_constant
+        return np.asarray((np.interp(t, TIME, READING) - y) / time_constant)
 
     solved = solve_ivp(rate, (0, TIME[-1]), [0.0], method="LSODA", t_eval=TIME, rtol=1e-8, atol=1e-10, max_step=DT)
     assert np.abs(found - solved.y[0]).max() < 1e-4 * np.abs(READING).max()  # the solver's, across the corners of the input

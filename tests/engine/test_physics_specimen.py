@@ -46,7 +46,7 @@ def force(part: Part, effect: Effect, x: Array) -> Array:
 
 
 def sine(amplitude: float, cycles: int = 3) -> Array:
-    return amplitude * np.sin(2 * np.pi * np.arange(cycles * 1024 + 1) * DT)
+    return np.asarray(amplitude * np.sin(2 * np.pi * np.arange(cycles * 1024 + 1) * DT))
 
 
 def last_cycle(part: Part, effect: Effect, amplitude: float) -> float:

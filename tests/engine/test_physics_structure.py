@@ -188,7 +188,7 @@ def test_elastic_effects_of_a_storey_have_their_force_and_dissipate_nothing() ->
 
 def test_a_stop_on_one_side_is_not_felt_on_the_other() -> None:
     for side, sign in (("positive", 1), ("negative", -1)):
-        stop = GapContact(gap=0.01, stiffness=1e7, side=side)  # type: ignore[arg-type]
+        stop = GapContact(gap=0.01, stiffness=1e7, side=side)
         assert resists(stop, sign * 0.015) == pytest.approx(sign * 5e4)
         assert resists(stop, -sign * 0.015) == 0.0
 

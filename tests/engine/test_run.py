@@ -52,7 +52,8 @@ def reference(plan: Plan, times: np.ndarray) -> np.ndarray:
         return np.concatenate([v, a, y_rate])
 
     solved = solve_ivp(slope, (0, DURATION), np.zeros(6), method="DOP853", t_eval=times, rtol=1e-10, atol=1e-13, max_step=0.005)
-    return solved.y
+    displacements: np.ndarray = solved.y
+    return displacements
 
 
 def coupled_error(dt: float) -> float:

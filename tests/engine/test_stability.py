@@ -85,7 +85,8 @@ def test_figure_3_the_limit_is_almost_a_straight_line_and_lower_when_both_actuat
 
 @pytest.mark.parametrize(("slot", "kind"), KINDS)
 def test_the_linear_system_of_every_part_answers_as_its_own_steps_do(slot: str, kind: type[Any]) -> None:
-    one = Station.model_validate(station(**{slot: {"kind": kind.model_fields["kind"].default}}))
+    part: dict[str, Any] = {slot: {"kind": kind.model_fields["kind"].default}}
+    one = Station.model_validate(station(**part))
     chain = stations._Chain(one, DT, 0.0)
     linear = stations.linear(one, DT)
     rng = np.random.default_rng(4)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rths_engine.parts.structures.shear_building import ShearBuilding
 from rths_engine.planning.plan import Plan
 from rths_engine.running.run import Run
 from rths_engine.stability import ClosedLoop
@@ -53,8 +54,9 @@ def grows(plan: Plan, radius: float, rng: np.random.Generator) -> bool:
     """Whether a free vibration from a small random start is larger in its last tenth than in its second."""
     steps = int(np.clip(EFOLDS / abs(np.log(radius)), 200, 8000))
     changed = plan.model_copy(update={"duration": steps * plan.integrator.dt})
+    assert isinstance(plan.structure, ShearBuilding)
     dof = len(plan.structure.storeys)
-    run = Run(changed, LIBRARY, initial=(rng.normal(scale=1e-9, size=dof), rng.normal(scale=1e-8, size=dof)))
+    run = Run(changed, LIBRARY, initial=(rng.normal(scale=1e-9, size=dof).tolist(), rng.normal(scale=1e-8, size=dof).tolist()))
     run.advance(run.total)
     if run.trip:
         return True

@@ -190,7 +190,7 @@ def test_the_numerical_polynomial_has_the_derived_coefficients(alpha: tuple[floa
 
 
 def test_without_delay_the_polynomial_is_the_undamped_structure() -> None:
-    roots = Polynomial(published.characteristic((1.0, 1.0), ratio=0.0)).roots()
+    roots = np.asarray(Polynomial(published.characteristic((1.0, 1.0), ratio=0.0)).roots(), dtype=complex)
     periods = published.DT * np.pi / np.arctan(np.abs(np.tan(np.angle(roots[np.abs(roots) > 0.5]) / 2)))
     # tan(theta / 2) = omega dt / 2 for CR; the paper gives its periods with three digits
     assert sorted(set(np.round(periods, 2))) == [0.39, 1.02]

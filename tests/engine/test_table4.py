@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from rths_engine import table4
+from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.planning.motion import FileMotion
 from rths_engine.planning.safety import Limits
 from rths_engine.running.run import simulate
@@ -57,14 +59,17 @@ def test_the_frame_is_the_papers_and_each_simulation_has_its_own_compensation() 
     frame = plans[1].structure
     assert len(frame.assemble().mass) == 122
     assert plans[1].periods()[0] == pytest.approx(1.48, rel=0.005)
-    alphas = [[station.compensator.alpha_es for station in plans[k].stations] for k in (1, 4, 7, 11)]
+    alphas = [[station.compensator.model_dump()["alpha_es"] for station in plans[k].stations] for k in (1, 4, 7, 11)]
     assert alphas == [[1, 1], [30, 30], [1, 45], [60, 1]]
-    assert plans[4].stations[0].compensator.ki == pytest.approx(plans[4].stations[0].compensator.kp / 10)
+    adaptive = plans[4].stations[0].compensator
+    assert isinstance(adaptive, AdaptiveInverseCompensation)
+    assert adaptive.ki == pytest.approx(adaptive.kp / 10)
 
 
 def test_a_scaled_record_moves_the_floors_of_simulation_2_as_far_as_the_papers() -> None:
     motions = MotionLibrary(None)
     scaled = design_basis(table4.BUNDLED, motions)
+    assert isinstance(scaled.scale, Factor) and isinstance(table4.BUNDLED.scale, Factor)
     assert scaled.scale.factor == pytest.approx(table4.BUNDLED.scale.factor, rel=0.02)  # found once, and written down
     peaks = running.run_all({2: table4.plans(scaled)[2]}, motions)[2].summary()["floors_peak_mm"]
     ratios = [ours / paper for ours, paper in zip(peaks, table4.FLOORS_PEAK_MM, strict=True)]
@@ -96,7 +101,8 @@ def test_the_papers_table_is_reproduced_under_its_own_record() -> None:
     rows = {row.simulation: row for row in running.rows(results)}
     found = table4.comparison(rows.values())
     assert found.outcomes_wrong == () and found.signs_wrong == ()
-    assert rows[1].trip_s < rows[10].trip_s < rows[7].trip_s
+    unstable = [rows[simulation].trip_s or math.inf for simulation in (1, 10, 7)]
+    assert unstable == sorted(unstable) and math.isfinite(unstable[-1])
     assert found.median < 1.5 and found.worst < 3  # docs/table4.md
     assert results[2].summary()["floors_peak_mm"] == pytest.approx(table4.FLOORS_PEAK_MM, rel=0.15)
     assert running.drifts_percent(results[2]) == pytest.approx([1.1, 1.2], rel=0.15)

@@ -25,7 +25,8 @@ class Frame:
         self.lines = [0.0]
         for bay in self.bays:
             self.lines.append(self.lines[-1] + bay)
-        self.tag, self.leaning = 0, []
+        self.tag = 0
+        self.leaning: list[int] = []
         self.on_floor: list[list[int]] = [[] for _ in self.levels]
         ops.wipe()
         ops.model("basic", "-ndm", 2, "-ndf", 3)

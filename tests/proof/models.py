@@ -73,8 +73,8 @@ class SpecimenModel:
     def seen(self, storey: int = 1) -> Seen:
         x, f = self.inputs[0][:: self.finer], self.case.quiet[0]["f_meas.1"]
         v = np.gradient(x, self.case.dt)
-        sizes = (float(np.max(np.abs(one))) for one in (x, v, f))
-        return Seen(*sizes, len(x) * self.case.dt, float(np.sum(np.abs(f * v)) * self.case.dt), self.case.dt)
+        most_x, most_v, most_f = (float(np.max(np.abs(one))) for one in (x, v, f))
+        return Seen(most_x, most_v, most_f, len(x) * self.case.dt, float(np.sum(np.abs(f * v)) * self.case.dt), self.case.dt)
 
 
 class ActuatorModel:
@@ -93,8 +93,8 @@ class ActuatorModel:
     def seen(self, storey: int = 1) -> Seen:
         x, f = self.case.shown[0]["x_comp.1"], self.case.quiet[0]["f_meas.1"]
         v = np.gradient(x, self.case.dt)
-        sizes = (float(np.max(np.abs(one))) for one in (x, v, f))
-        return Seen(*sizes, len(x) * self.case.dt, float(np.sum(np.abs(f * v)) * self.case.dt), self.case.dt)
+        most_x, most_v, most_f = (float(np.max(np.abs(one))) for one in (x, v, f))
+        return Seen(most_x, most_v, most_f, len(x) * self.case.dt, float(np.sum(np.abs(f * v)) * self.case.dt), self.case.dt)
 
 
 class StructureModel:

@@ -73,7 +73,8 @@ class Oracle:
 
     def white(self, ours: list[Array], real: list[Array]) -> Array:
         rows = [noise.whitened(true - one) for noise, one, true in zip(self.noises, ours, real, strict=True)]
-        return np.nan_to_num(np.concatenate(rows), nan=1e6, posinf=1e6, neginf=-1e6)
+        white: Array = np.nan_to_num(np.concatenate(rows), nan=1e6, posinf=1e6, neginf=-1e6)
+        return white
 
     def below(self, signal: Array) -> Array:
         spectrum = np.fft.rfft(signal)

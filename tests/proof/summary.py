@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -46,7 +47,7 @@ def summary(rows: list[Row]) -> Row:
     found: Row = {"cases": len(rows), "clean_cases": len(clean), "broken": sum(row["verdict"] is None for row in rows)}
     found["false_alarm_rate"], found["falsely_named_rate"] = rate(clean, "false_alarm"), rate(clean, "falsely_named")
     for name, key in RATES.items():
-        found[name] = by_class(rows, lambda some, key=key: rate(some, key))
+        found[name] = by_class(rows, partial(rate, key=key))
     found["heldout_gain_share_median"] = by_class(rows, lambda some: median(some, "gain_share"))
     found["interval90_coverage"] = by_class(rows, coverage)
     found["calibration_error"] = calibration(rows)

@@ -11,6 +11,7 @@ from tests.proof.generator.laws import HyperbolicTangent, Linear, Slider, Slider
 from tests.proof.generator.left_out import BoucWen, Compliance, Drop, Heating, LuGre, Mass, Play, Series
 from tests.proof.generator.motion import STEP, Motion, random_motion
 from tests.proof.generator.noise import Colour
+from tests.proof.generator.readings import Reading
 from tests.proof.generator.sizing import Absorbed
 from tests.proof.generator.specimen_effects import IDS, effect
 
@@ -107,6 +108,7 @@ def test_every_effect_vanishes_with_its_size(name: str) -> None:
     assert small.id == large.id == name.removeprefix("sensor_")
     if isinstance(small.acts, Series) or small.component.startswith("sensor"):
         return  # a connection of no length is stiff beyond solving; sensors have tests of their own
+    assert not isinstance(small.acts, Reading) and not isinstance(large.acts, Reading)
     plain = specimen.force(LAW, [], WAVE, TIME[:300])
     current = (lambda t: 1.0 + float(t > 0.5)) if name == "current_lag" else specimen.steady
     without = specimen.force(LAW, [small.acts], WAVE, TIME[:300], current)

@@ -161,6 +161,7 @@ def test_an_oracle_names_a_strong_effect_and_has_all_of_its_own_gain(tmp_path: P
     case.write(tmp_path / "shown", tmp_path / "sealed")
     known = oracle.judged(tmp_path / "shown", tmp_path / "sealed", {"baseline": None, "extended": None})
     assert known["oracle_named_first"] is True
+    assert case.truth.strength is not None
     assert 25 < known["lambda_rival"] <= 1.05 * case.truth.strength  # the baseline is one of the rivals, refitted once more
     assert oracle.gain_share(0.05, 0.01, {"baseline": 0.06, "extended": 0.02}) == pytest.approx(1.0)
     assert oracle.gain_share(0.05, 0.0499, {"baseline": 0.06, "extended": 0.02}) is None

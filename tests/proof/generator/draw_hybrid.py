@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from tests.proof.generator.case import Case, Recorded
-from tests.proof.generator.draw_structure import shaking
+from tests.proof.generator.ground import shaking
 from tests.proof.generator.motion import Array
 from tests.proof.generator.noise import Colour
 from tests.proof.generator.rig import closed, driven
@@ -61,7 +61,7 @@ def _hybrid_case(seed: int, level: str, names: list[str], wanted: float, law: st
         own = 1.0 if noisy else 0.0
         values = np.array([alpha, *gains])
         numbers = bench.rig(lefts)
-        return closed(
+        history: Array = closed(
             numbers,
             mass,
             damping,
@@ -75,6 +75,7 @@ def _hybrid_case(seed: int, level: str, names: list[str], wanted: float, law: st
             step,
             values,
         )
+        return history
 
     plain = looped(0, [], False)
     fastest = float(np.max(np.abs(np.diff(plain[:, 4])))) / step

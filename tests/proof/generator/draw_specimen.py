@@ -91,7 +91,8 @@ class Bench:
         return np.arange(int(motion.duration * self.rate)) / self.rate
 
     def law(self, numbers: dict[str, float]) -> Law:
-        return LAWS[self.kind](**numbers)
+        law: Law = LAWS[self.kind](**numbers)
+        return law
 
     def force(self, lefts: list[Left], motion: Motion, numbers: dict[str, float] | None = None) -> Array:
         acting = [one.acts for one in lefts if not isinstance(one.acts, Reading)]
@@ -155,11 +156,11 @@ def stiffness_against_noise(bench: Bench) -> float:
 def recorded(bench: Bench, lefts: list[Left], motion: Motion, noise: Colour, displacement_noise: float) -> Recorded:
     time, random = bench.time(motion), bench.random
     x, f = motion.sample(time), bench.force(lefts, motion)
-    shown = {
+    shown: dict[str, Array] = {
         "x_meas.1": x + displacement_noise * random.standard_normal(len(x)),
         "f_meas.1": f + noise.drawn(random, len(f)),
     }
-    quiet = {"x_meas.1": x, "f_meas.1": f}
+    quiet: dict[str, Array] = {"x_meas.1": x, "f_meas.1": f}
     if bench.current is not specimen.steady:
         shown["current.1"] = quiet["current.1"] = np.array([bench.current(t) for t in time.tolist()])
     return Recorded(1 / bench.rate, shown, quiet)

@@ -94,9 +94,11 @@ def structure_case(seed: int, level: str, names: list[str], wanted: float, free:
     lefts = []
     for name in names:
         start = 0.3 if name == "yielding" else 0.05
-        size = sized(
-            lambda size, name=name: absorbed.strength(outputs([effect(seed + 1, name, size, seen)])), wanted, start, 0.9
-        )
+
+        def strength_of(size: float, name: str = name) -> float:
+            return absorbed.strength(outputs([effect(seed + 1, name, size, seen)]))
+
+        size = sized(strength_of, wanted, start, 0.9)
         lefts.append(effect(seed + 1, name, size, seen))
     strength = absorbed.weakest(outputs, lefts)
     other = site.excited(float(random.uniform(0.6, 1.3)))
@@ -146,6 +148,7 @@ def plan(site: Site, planned: Building, excited: Excited) -> dict[str, Any]:
     }
     motion, start = excited
     if motion is None:
+        assert start is not None
         return {**made, "start": {"displacement": [float(one) for one in start[0]]}}
     samples = motion.sample(np.arange(0.0, site.duration, 0.02))
     return {**made, "motion": {"kind": "inline", "dt": 0.02, "acceleration": [float(one) for one in samples]}}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly, make_interp_spline
 
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 STEP = 1 / 512  # s, between the knots
 REST = 1.0  # s without motion at both ends, from which a reader may learn the noise
 

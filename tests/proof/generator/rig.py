@@ -52,7 +52,8 @@ def rig(**numbers: float) -> Array:
 
 def driven(numbers: Array, commands: Array, step: float) -> tuple[Array, Array]:
     """Displacement (m) and force (N) at every tick from the commands (m)."""
-    return _driven(numbers, commands, step)
+    displacement, force = _driven(numbers, commands, step)
+    return displacement, force
 
 
 @njit(cache=True)

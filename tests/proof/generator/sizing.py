@@ -43,7 +43,7 @@ class Absorbed:
 
     def strength(self, outputs: Outputs) -> float:
         """lambda of the outputs; infinite where they are."""
-        shares = np.zeros(len(self.numbers))
+        shares: Array = np.zeros(len(self.numbers))
         misfit = self._misfit(outputs, shares)
         if not np.isfinite(misfit).all():
             return np.inf

@@ -114,8 +114,8 @@ def effect(seed: int, name: str, size: float, scale: dict[str, float]) -> Left:
             zero = random.uniform(0.5, 2.0)
             return left(CurrentLag(size, zero), time_constant=size, zero_current=zero)
         case _:
-            acts, parameters = reading(random, name.removeprefix("sensor_"), size, f, scale["time"])
-            return Left(name.removeprefix("sensor_"), "sensor:f_meas.1", acts, parameters)
+            error, parameters = reading(random, name.removeprefix("sensor_"), size, f, scale["time"])
+            return Left(name.removeprefix("sensor_"), "sensor:f_meas.1", error, parameters)
 
 
 def most(name: str) -> float:
