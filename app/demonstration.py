@@ -5,9 +5,10 @@ from __future__ import annotations
 from fastapi import FastAPI
 
 from app.db import unit_of_work
+from app.jobs.service import MOST_ATTEMPTS
+from app.jobs.states import State
 from app.runs.repository import Filter, Page
-from app.runs.service import MOST_ATTEMPTS, RunService
-from app.states import State
+from app.runs.service import RunService
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning import templates
 from rths_engine.planning.plan import RealTime

@@ -13,11 +13,11 @@ from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
 from app import db, pages, problems
-from app import queue as durable
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
 from app.guard import Guard
 from app.health import router as health
+from app.jobs import queue as durable
 from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.measured.endpoints import router as measured

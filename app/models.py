@@ -2,54 +2,28 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
-from typing import Any, ClassVar
+from datetime import datetime
+from typing import Any
 
 import sqlalchemy as sa
-from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column, relationship
+from sqlalchemy.orm import Mapped, mapped_column, relationship
 
-from app.states import State
-
-
-class UtcDateTime(sa.TypeDecorator[datetime]):
-    """A time zone aware UTC time in every database."""
-
-    impl = sa.DateTime(timezone=True)
-    cache_ok = True
-
-    def process_bind_param(self, value: datetime | None, dialect: sa.Dialect) -> datetime | None:
-        return value.astimezone(UTC) if value else None
-
-    def process_result_value(self, value: datetime | None, dialect: sa.Dialect) -> datetime | None:
-        return value.replace(tzinfo=UTC) if value and value.tzinfo is None else value
+from app.db import Base
+from app.jobs.tables import Job
 
 
-class Base(DeclarativeBase):
-    type_annotation_map: ClassVar = {datetime: UtcDateTime, dict[str, Any]: sa.JSON}
-
-
-class Run(Base):
+class Run(Job, Base):
     """One test: its plan, how it went and where its recording is."""
 
     __tablename__ = "run"
+    __table_args__ = tuple(sa.Index(f"ix_run_{name}", name) for name in ("submitted_by", "submitted_at", "finished_at"))
 
-    number: Mapped[int] = mapped_column(primary_key=True)
-    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
     name: Mapped[str] = mapped_column(sa.String(200), index=True)
     template: Mapped[str | None] = mapped_column(sa.String(80), index=True)
     plan: Mapped[dict[str, Any]]
     digest: Mapped[str] = mapped_column(sa.String(64), index=True)
     code_version: Mapped[str] = mapped_column(sa.String(40))
     seed: Mapped[int] = mapped_column(sa.BigInteger)
-    state: Mapped[State] = mapped_column(sa.Enum(State, native_enum=False, length=16, values_callable=State.values), index=True)
-    submitted_by: Mapped[str] = mapped_column(sa.String(80), index=True)
-    submitted_at: Mapped[datetime] = mapped_column(index=True)
-    started_at: Mapped[datetime | None]
-    finished_at: Mapped[datetime | None] = mapped_column(index=True)
-    cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
-    attempt: Mapped[int] = mapped_column(default=0)
-    worker: Mapped[str | None] = mapped_column(sa.String(80))
-    reason: Mapped[str | None] = mapped_column(sa.Text)
     trip: Mapped[dict[str, Any] | None]
     duration_s: Mapped[float]
     elapsed_s: Mapped[float | None]
@@ -134,28 +108,15 @@ class MeasuredRecording(Base):
         return (self.samples - 1) * self.dt_s
 
 
-class Diagnosis(Base):
+class Diagnosis(Job, Base):
     """What a recording says of a plan's models: a job of the queue, and its result once it is done."""
 
     __tablename__ = "diagnosis"
 
-    number: Mapped[int] = mapped_column(primary_key=True)
-    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
     name: Mapped[str] = mapped_column(sa.String(200))
     plan: Mapped[dict[str, Any]] = mapped_column(deferred=True)
     level: Mapped[float]
     code_version: Mapped[str] = mapped_column(sa.String(40))
-    state: Mapped[State] = mapped_column(sa.Enum(State, native_enum=False, length=16, values_callable=State.values), index=True)
-    submitted_by: Mapped[str] = mapped_column(sa.String(80))
-    submitted_at: Mapped[datetime]
-    started_at: Mapped[datetime | None]
-    finished_at: Mapped[datetime | None]
-    cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
-    attempt: Mapped[int] = mapped_column(default=0)
-    worker: Mapped[str | None] = mapped_column(sa.String(80))
-    reason: Mapped[str | None] = mapped_column(sa.Text)
-    doing: Mapped[str] = mapped_column(sa.String(200), default="")
-    share: Mapped[float] = mapped_column(default=0.0)
     found: Mapped[str | None] = mapped_column(sa.String(24))
     sentence: Mapped[str | None] = mapped_column(sa.Text)
     verdict: Mapped[dict[str, Any] | None] = mapped_column(sa.JSON(none_as_null=True), deferred=True)
@@ -185,23 +146,3 @@ class DiagnosisInput(Base):
     name: Mapped[str] = mapped_column(sa.String(200))
     recording_id: Mapped[str | None] = mapped_column(sa.ForeignKey("measured_recording.id"), index=True)
     run_id: Mapped[str | None] = mapped_column(sa.ForeignKey("run.id"))
-
-
-class QueueState(Base):
-    """Whether the queue is held: one row."""
-
-    __tablename__ = "queue_state"
-
-    id: Mapped[int] = mapped_column(primary_key=True)
-    held: Mapped[bool] = mapped_column(default=False)
-    held_by: Mapped[str | None] = mapped_column(sa.String(80))
-    held_at: Mapped[datetime | None]
-
-
-class WorkerHeartbeat(Base):
-    """When a worker was last alive."""
-
-    __tablename__ = "worker_heartbeat"
-
-    worker: Mapped[str] = mapped_column(sa.String(80), primary_key=True)
-    seen_at: Mapped[datetime]

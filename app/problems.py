@@ -14,7 +14,6 @@ from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
-from app.states import IllegalTransition
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 
 log = logging.getLogger(__name__)
@@ -56,7 +55,6 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(NotFound, lambda _, error: problem(404, str(error)))
     app.add_exception_handler(Conflict, lambda _, error: problem(409, str(error)))
-    app.add_exception_handler(IllegalTransition, lambda _, error: problem(409, f"Not done: {error}."))
     app.add_exception_handler(OperationalError, _database_error)
     app.add_exception_handler(Exception, _unexpected)
 

@@ -6,8 +6,10 @@ from typing import Any, Literal
 
 from alembic import context
 
-from app.db import connect
-from app.models import Base, UtcDateTime
+from app import models
+from app.db import Base, UtcDateTime, connect
+
+assert models  # imported so that Base knows the tables
 
 
 def render(kind: str, item: Any, _: object) -> str | Literal[False]:

@@ -7,8 +7,9 @@ import os
 import socket
 from argparse import Namespace
 
-from app import db, queue
+from app import db
 from app.cli.settings import stored
+from app.jobs import queue
 from app.worker.main import work
 
 

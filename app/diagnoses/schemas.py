@@ -7,8 +7,8 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.jobs.states import State
 from app.runs.schemas import RunOut
-from app.states import State
 from app.text import Storable
 
 MOST_HELD_OUT = 20

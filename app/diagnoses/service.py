@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import uuid
-from datetime import UTC, datetime
 from typing import Any
 
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
-from app import states
 from app.config import Settings
+from app.diagnoses.job import DIAGNOSES
+from app.diagnoses.order import Diagnosed
 from app.diagnoses.repository import DiagnosisRepository
 from app.diagnoses.schemas import Asked
 from app.diagnoses.sources import Sources, file_of
+from app.jobs.service import JobService, Queue
+from app.jobs.states import State
 from app.models import Diagnosis, Run
-from app.problems import Conflict, NotFound
-from app.queue import DIAGNOSES, DurableQueue
-from app.runs.service import NOBODY, RunService
-from app.states import State
+from app.problems import Conflict
+from app.runs.service import RunService
 from rths_engine import __version__
 from rths_engine.recordings.measured import Measured
 from rths_engine.recordings.opening import load
@@ -27,9 +26,10 @@ LONGEST_NAME = 200
 
 
 class DiagnosisService:
-    def __init__(self, session: Session, sources: Sources, queue: DurableQueue):
+    def __init__(self, session: Session, sources: Sources, queue: Queue):
         self.rows = DiagnosisRepository(session)
-        self.session, self.sources, self.queue = session, sources, queue
+        self.jobs: JobService[Diagnosis, Diagnosed] = JobService(session, DIAGNOSES, queue)
+        self.sources = sources
 
     @property
     def runs(self) -> RunService:
@@ -40,28 +40,21 @@ class DiagnosisService:
         plan = self.sources.plan(asked)
         inputs = self.sources.inputs(asked, plan)
         diagnosis = Diagnosis(
-            id=str(uuid.uuid4()),
             name=asked.name.strip() or inputs[0].name,
             plan=plan.as_dict(),
             level=asked.level,
             code_version=__version__,
-            state=State.QUEUED,
-            submitted_by=asked.submitted_by.strip() or NOBODY,
-            submitted_at=datetime.now(UTC),
             inputs=inputs,
         )
         try:
-            self.rows.add(diagnosis)
+            self.jobs.submit([diagnosis], asked.submitted_by)
         except IntegrityError:
             raise Conflict("A recording was removed meanwhile.") from None
-        self.queue.enqueue(self.session, [diagnosis.id], DIAGNOSES)
         return diagnosis
 
     def get(self, diagnosis_id: str) -> Diagnosis:
-        diagnosis = self.rows.get(diagnosis_id)
-        if diagnosis is None:
-            raise NotFound(f"There is no diagnosis {diagnosis_id}.")
-        return diagnosis
+        """Raises NotFound."""
+        return self.jobs.get(diagnosis_id)
 
     def listed(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
         return self.rows.listed(limit, offset)
@@ -75,25 +68,15 @@ class DiagnosisService:
 
     def cancel(self, diagnosis_id: str, by: str) -> Diagnosis:
         """End a queued one now; ask the worker to end a running one. Raises IllegalTransition for an ended one."""
-        diagnosis = self.rows.locked(diagnosis_id) or self.get(diagnosis_id)
-        by = by.strip() or NOBODY
-        states.check(diagnosis.state, State.CANCELLED)
-        diagnosis.cancel_requested_by = by
-        if diagnosis.state is State.QUEUED:
-            diagnosis.state, diagnosis.finished_at = State.CANCELLED, datetime.now(UTC)
-            diagnosis.reason = f"Cancelled by {by} before it started."
-        return diagnosis
+        return self.jobs.cancel(diagnosis_id, by)
 
     def remove(self, diagnosis_id: str) -> None:
         """Raises Conflict while it is under way."""
-        diagnosis = self.rows.locked(diagnosis_id) or self.get(diagnosis_id)
-        if not diagnosis.state.ended:
-            raise Conflict(f"The diagnosis is {diagnosis.state}; cancel it first.")
-        self.rows.remove(diagnosis)
+        self.jobs.remove(diagnosis_id)
 
     def simulate(self, diagnosis_id: str, by: str) -> tuple[Run, Run]:
         """Queue the plan and the extended plan as ordinary runs, once unless one of them came to nothing."""
-        diagnosis = self.rows.locked(diagnosis_id) or self.get(diagnosis_id)
+        diagnosis = self.jobs.locked(diagnosis_id)
         extended = (diagnosis.verdict or {}).get("extended_plan")
         if extended is None:
             raise Conflict("There is no extended plan to run: the diagnosis names no effect that the plan has a place for.")

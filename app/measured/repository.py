@@ -9,7 +9,8 @@ import sqlalchemy as sa
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Session
 
-from app.models import Base, MeasuredRecording, RawFile
+from app.db import Base
+from app.models import MeasuredRecording, RawFile
 
 INSERT: dict[str, Any] = {"postgresql": postgresql.insert, "sqlite": sqlite.insert}
 RECORDED = MeasuredRecording.raw_sha256 == RawFile.sha256

@@ -10,6 +10,7 @@ from fastapi.responses import HTMLResponse
 from app.dependencies import Configured
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.exports import facts
+from app.jobs.states import State
 from app.measured.dependency import Recordings
 from app.models import Diagnosis
 from app.pages.errors import PageRoute
@@ -19,7 +20,6 @@ from app.reports.diagnosis import shown
 from app.reports.diagnosis_overlay import overlay
 from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
-from app.states import State
 from rths_engine.foundation.errors import RthsError
 
 LIMIT = 50

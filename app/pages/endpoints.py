@@ -9,6 +9,7 @@ from fastapi.responses import HTMLResponse
 
 from app.config import MEGABYTE
 from app.dependencies import Configured
+from app.jobs.states import State
 from app.live.hub import Hub
 from app.models import Run
 from app.pages.errors import PageRoute, error_page
@@ -17,7 +18,6 @@ from app.pages.run_list import LIMIT, RunFilter
 from app.plans.dependency import Plans
 from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
-from app.states import State
 from rths_engine.foundation.errors import RthsError
 
 QUEUED_SHOWN = 20

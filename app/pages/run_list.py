@@ -8,8 +8,8 @@ from urllib.parse import urlencode
 
 from pydantic import BaseModel
 
+from app.jobs.states import State
 from app.runs.repository import Filter, Page
-from app.states import State
 from rths_engine.foundation.errors import Issue, RthsError
 
 LIMIT = 50

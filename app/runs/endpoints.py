@@ -10,11 +10,11 @@ from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, Str
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from app.dependencies import Configured
+from app.jobs.states import State
 from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, recording_path, report
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
-from app.states import State
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning import plan_yaml
 

@@ -7,8 +7,8 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.jobs.states import State
 from app.models import Run
-from app.states import State
 from app.text import Storable
 
 
@@ -74,6 +74,8 @@ class RunOut(BaseModel):
     started_at: datetime | None
     finished_at: datetime | None
     attempt: int
+    doing: str
+    share: float
     reason: str | None
     trip: dict[str, Any] | None
     elapsed_s: float | None

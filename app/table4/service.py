@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from app.jobs.states import State
 from app.models import Run
 from app.runs.repository import Filter, Page
 from app.runs.schemas import RunOut
 from app.runs.service import RunService
-from app.states import State
 from app.table4.schemas import PaperOut, SimulationOut, TableOut
 from rths_engine import table4 as engine
 from rths_engine.table4.comparison import CALIBRATED, MEASURES, stable

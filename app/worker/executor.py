@@ -1,121 +1,160 @@
-"""What a worker does with one run: start it in the database, execute it, store it once."""
+"""What a worker does with one job of any kind: start it in the database, execute it, store its result once."""
 
 from __future__ import annotations
 
 import logging
-import os
 import threading
 import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from sqlalchemy.orm import Session, sessionmaker
 
 from app.config import Settings
 from app.db import unit_of_work
-from app.models import Run
-from app.runs.repository import RunRepository
-from app.runs.service import Outcome, RunService
-from app.worker.engine import Done, Job
-from app.worker.link import Link
-from app.worker.pool import EngineDied, EngineProcess, Pool
-from rths_engine.parts.ground_motions import MotionLibrary
+from app.jobs.hold import Hold
+from app.jobs.kind import Kind
+from app.jobs.order import Order
+from app.jobs.service import JobService
+from app.worker.child import Done, Failed, Progress
+from app.worker.link import Link, Telling
+from app.worker.pool import JobProcess, Outcome, Pool, ProcessDied
 
 log = logging.getLogger("rths.worker")
 HOLD_POLL_S = 0.1
+PROGRESS_S = 1.0  # between two writes of a job's progress
+AnyKind = Kind[Any, Any, Any]
+
+
+@dataclass(slots=True)
+class Running:
+    """A job in its process, and what of its progress is to be written."""
+
+    kind: AnyKind
+    order: Order
+    process: JobProcess
+    telling: Telling | None
+    progress: Progress | None = None
+    written_at: float = -PROGRESS_S
+
+    def take(self, told: Any) -> None:
+        """What the process sends: its progress, else a message for viewers. Only remembered, so that it never waits."""
+        if isinstance(told, Progress):
+            self.progress = told
+        elif self.telling is not None:
+            self.telling.take(told)
+
+    def news(self) -> Progress | None:
+        """Progress to write now, once."""
+        now = time.monotonic()
+        if self.progress is None or now - self.written_at < PROGRESS_S:
+            return None
+        news, self.progress, self.written_at = self.progress, None, now
+        return news
 
 
 class Executor:
-    """Executes runs in engine processes. `running` says which engine works on which run."""
+    """Executes jobs in processes. `running` holds the jobs under way by their ids."""
 
-    def __init__(self, settings: Settings, maker: sessionmaker[Session], link: Link, name: str):
+    def __init__(self, settings: Settings, maker: sessionmaker[Session], link: Link, name: str, kinds: Sequence[AnyKind]):
         self.settings, self.maker, self.link, self.name = settings, maker, link, name
-        self.motions = MotionLibrary(settings.motions)
-        self.pool = Pool(settings.worker_concurrency)
-        self.running: dict[str, EngineProcess] = {}
+        self.pools = {kind.name: Pool(kind, kind.at_a_time(settings)) for kind in kinds}
+        self.running: dict[str, Running] = {}
         self._lock = threading.Lock()
 
-    def execute(self, run_id: str) -> None:
-        """Execute a run to its end, again where its engine dies; one that has ended or was cancelled is left alone."""
+    def execute(self, kind: AnyKind, job_id: str) -> None:
+        """Execute a job to its end, again where its process dies; one that has ended or was cancelled is left alone."""
         try:
-            self._attempt(run_id)
-        except EngineDied as died:
-            log.warning("the engine died (%s) over run %s", died, run_id)
-            self.execute(run_id)
+            self._attempt(kind, job_id)
+        except ProcessDied as died:
+            log.warning("the process died (%s) over %s %s", died, kind.name, job_id)
+            self.execute(kind, job_id)
 
-    def _attempt(self, run_id: str) -> None:
-        engine = self.pool.take()
-        try:
-            self._wait_while_held()
-            job = self._start(run_id)
-            if job is not None:
-                self._execute(job, engine)
-        finally:
-            self.pool.give(engine)
-
-    def cancel_requested(self) -> None:
-        """Stop the running tests that someone asked to stop."""
+    def look(self) -> None:
+        """Write the progress of running jobs, and stop those that someone asked to stop."""
         with self._lock:
-            running = dict(self.running)
-        if running:
-            with unit_of_work(self.maker) as session:
-                asked = RunRepository(session).cancel_requested(list(running))
-            for run_id in asked:
-                running[run_id].cancel()
+            running = list(self.running.values())
+        for one in running:
+            self._look(one)
+
+    def _look(self, one: Running) -> None:
+        order, news = one.order, one.news()
+        with unit_of_work(self.maker) as session:
+            jobs = JobService(session, one.kind)
+            if news is not None:
+                jobs.progress(order.job_id, order.attempt, news.doing, news.share)
+            cancelled = jobs.cancel_requested(order.job_id)
+        if cancelled:
+            one.process.cancel()
+
+    def _attempt(self, kind: AnyKind, job_id: str) -> None:
+        if self._ended(kind, job_id):
+            self._start(kind, job_id)  # removes what is left of it, and viewers hear of its end
+            return
+        pool = self.pools[kind.name]
+        process = pool.take()
+        try:
+            if kind.waits_while_held:
+                self._wait_while_held()
+            order = self._start(kind, job_id)
+            if order is not None:
+                self._execute(kind, order, process)
+        finally:
+            pool.give(process)
+
+    def _ended(self, kind: AnyKind, job_id: str) -> bool:
+        with unit_of_work(self.maker) as session:
+            job = JobService(session, kind).rows.get(job_id)
+            return job is None or job.state.ended
 
     def _wait_while_held(self) -> None:
         while True:
             with unit_of_work(self.maker) as session:
-                if not RunRepository(session).held():
+                if not Hold(session).held:
                     return
             time.sleep(HOLD_POLL_S)
 
-    def _start(self, run_id: str) -> Job | None:
+    def _start(self, kind: AnyKind, job_id: str) -> Order | None:
         with unit_of_work(self.maker) as session:
-            started = RunService(session, self.motions).start(run_id, self.name)
-            run = started or RunRepository(session).get(run_id)
-            if run is None:
+            jobs = JobService(session, kind)
+            started = jobs.start(job_id, self.name)
+            job = started or jobs.rows.get(job_id)
+            if job is None:
                 return None
-            self._sweep(run)
+            kind.clear(job, self.settings)
             if started is None:
-                self.link.open(run_id, run.attempt).ended = True
+                if kind.watched_live:
+                    self.link.open(job_id, job.attempt).ended = True
                 return None
-            recording = self.settings.recordings / f".{run_id}.{run.attempt}.h5"
-            return Job(run_id, run.attempt, run.plan, recording.resolve(), self.settings.motions.resolve())
+            order: Order = kind.order(job, self.settings)
+            return order
 
-    def _sweep(self, run: Run) -> None:
-        """Remove what earlier attempts left. The caller has locked the run, so none of it is being committed."""
-        for path in self.settings.recordings.glob(f"*{run.id}*"):
-            if not (run.recording_sha256 and path.name == f"{run.id}.h5"):
-                path.unlink(missing_ok=True)
-
-    def _execute(self, job: Job, engine: EngineProcess) -> None:
+    def _execute(self, kind: AnyKind, order: Order, process: JobProcess) -> None:
+        telling = self.link.open(order.job_id, order.attempt) if kind.watched_live else None
+        running = Running(kind, order, process, telling)
         with self._lock:
-            self.running[job.run_id] = engine
-        telling = self.link.open(job.run_id, job.attempt)
+            self.running[order.job_id] = running
         try:
-            outcome = engine.execute(job, telling.take)
-            if isinstance(outcome, Done):
-                self._store(job, outcome)
-            else:
-                self._fail(job, outcome.reason)
+            self._end(kind, order, process.execute(order, running.take))
         except OSError as error:
-            self._fail(job, f"Its recording could not be stored: {error.strerror or error}.")
+            self._end(kind, order, Failed(f"The result of the {kind.noun} could not be stored: {error.strerror or error}."))
         finally:
             with self._lock:
-                del self.running[job.run_id]
-            job.recording.unlink(missing_ok=True)
-            telling.ended = True
+                del self.running[order.job_id]
+            kind.discard(order)
+            if telling is not None:
+                telling.ended = True
 
-    def _store(self, job: Job, done: Done) -> None:
-        """Put the recording in its place and commit its checksum with the measures: both or, at the next attempt, again."""
-        outcome = Outcome(done.summary, done.sha256, done.size)
+    def _end(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
+        """Store how an attempt ended: rows and files both or, at the next attempt, again."""
         with unit_of_work(self.maker) as session:
-            if RunService(session, self.motions).finish(job.run_id, outcome):
-                session.flush()
-                os.replace(job.recording, self.settings.recordings / f"{job.run_id}.h5")
-
-    def _fail(self, job: Job, reason: str) -> None:
-        """End the run as failed, unless another worker has taken it up meanwhile."""
-        with unit_of_work(self.maker) as session:
-            run = RunRepository(session).locked(job.run_id)
-            if run is not None and run.attempt == job.attempt:
-                RunService(session, self.motions).fail(job.run_id, reason)
+            jobs = JobService(session, kind)
+            if isinstance(outcome, Done):
+                if jobs.finish(order.job_id, order.attempt, outcome.result):
+                    session.flush()
+                    kind.place(order, self.settings)
+            elif isinstance(outcome, Failed):
+                jobs.fail(order.job_id, order.attempt, outcome.reason)
+            else:
+                jobs.stop(order.job_id, order.attempt)

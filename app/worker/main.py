@@ -1,4 +1,4 @@
-"""A worker: takes tests and diagnoses from their queues. `python -m app.worker` starts one anywhere with the same database."""
+"""A worker: takes jobs of every kind from their queues. `python -m app.worker` starts one anywhere with the same database."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ import socket
 import sys
 import threading
 import time
-from datetime import UTC, datetime
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import sqlalchemy as sa
 from dbos import DBOS
@@ -19,11 +20,12 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app.config import Settings, from_environment
 from app.db import connect, sessions, unit_of_work
-from app.queue import APPLICATION, DIAGNOSES, POLLING_S, TESTS, VERSION
-from app.runs.repository import RunRepository
-from app.runs.service import MOST_ATTEMPTS, WORKER_SILENCE
-from app.worker.diagnoser import Diagnoser
+from app.jobs.kind import Kind
+from app.jobs.queue import APPLICATION, POLLING_S, VERSION
+from app.jobs.service import MOST_ATTEMPTS
+from app.jobs.workers import Workers
 from app.worker.executor import Executor
+from app.worker.kinds import KINDS
 from app.worker.link import Link
 
 log = logging.getLogger("rths.worker")
@@ -33,7 +35,7 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # engines sh
 
 
 def main(arguments: list[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(prog="rths worker", description="Execute queued tests.")
+    parser = argparse.ArgumentParser(prog="rths worker", description="Execute queued tests and diagnoses.")
     parser.add_argument("--data", type=Path, help="data folder (RTHS_DATA)")
     parser.add_argument("--database-url", help="database (RTHS_DATABASE_URL)")
     parser.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the web service")
@@ -51,14 +53,15 @@ def main(arguments: list[str] | None = None) -> None:
     work(settings, given.web, given.name)
 
 
-def work(settings: Settings, web: str, name: str) -> None:
-    """Serve the queue until the process ends."""
-    os.environ.update(ONE_THREAD)  # read where engine processes load numpy
+def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any, Any]] = KINDS) -> None:
+    """Serve the queues of all kinds of job until the process ends."""
+    os.environ.update(ONE_THREAD)  # read where the processes of jobs load numpy
     engine = connect(settings.url)
     maker = sessions(engine)
     link = Link(f"{web}/api/v1/worker", settings.worker_token)
-    executor = Executor(settings, maker, link, name)
-    _register(executor, Diagnoser(settings, maker, name))
+    executor = Executor(settings, maker, link, name, kinds)
+    for kind in kinds:
+        _register(kind, executor)
     DBOS(
         config={
             "name": APPLICATION,
@@ -70,39 +73,34 @@ def work(settings: Settings, web: str, name: str) -> None:
         }
     )
     DBOS.launch()
-    for work, at_a_time in ((TESTS, settings.worker_concurrency), (DIAGNOSES, 1)):
+    for kind in kinds:
         DBOS.register_queue(
-            work.queue, worker_concurrency=at_a_time, polling_interval_sec=POLLING_S, on_conflict="always_update"
+            kind.queue,
+            worker_concurrency=kind.at_a_time(settings),
+            polling_interval_sec=POLLING_S,
+            on_conflict="always_update",
         )
     _watch(executor, maker, name)
 
 
-def _register(executor: Executor, diagnoser: Diagnoser) -> None:
+def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
     attempts = MOST_ATTEMPTS + 1  # the last one parks the job
 
-    @DBOS.step(name="execute", retries_allowed=True, max_attempts=attempts)
-    def execute(run_id: str) -> None:
-        executor.execute(run_id)
+    @DBOS.step(name=f"execute-{kind.name}", retries_allowed=True, max_attempts=attempts)
+    def execute(job_id: str) -> None:
+        executor.execute(kind, job_id)
 
-    @DBOS.workflow(name=TESTS.workflow, max_recovery_attempts=None)
-    def run_test(run_id: str) -> None:
-        execute(run_id)
-
-    @DBOS.step(name="diagnose", retries_allowed=True, max_attempts=attempts)
-    def diagnose(diagnosis_id: str) -> None:
-        diagnoser.execute(diagnosis_id)
-
-    @DBOS.workflow(name=DIAGNOSES.workflow, max_recovery_attempts=None)
-    def run_diagnosis(diagnosis_id: str) -> None:
-        diagnose(diagnosis_id)
+    @DBOS.workflow(name=kind.workflow, max_recovery_attempts=None)
+    def run(job_id: str) -> None:
+        execute(job_id)
 
 
 def _watch(executor: Executor, maker: sessionmaker[Session], name: str) -> None:
-    """Pass on cancels, say that this worker is alive, and take over the jobs of workers that are not."""
+    """Pass on progress and cancels, say that this worker is alive, and take over the jobs of workers that are not."""
     beaten = 0.0
     while True:
         try:
-            executor.cancel_requested()
+            executor.look()
             if time.monotonic() - beaten >= BEAT_S:
                 beaten = time.monotonic()
                 _beat(maker, name)
@@ -113,14 +111,14 @@ def _watch(executor: Executor, maker: sessionmaker[Session], name: str) -> None:
 
 def _beat(maker: sessionmaker[Session], name: str) -> None:
     with unit_of_work(maker) as session:
-        runs = RunRepository(session)
-        runs.beat(name)
-        silent = runs.silent_workers(datetime.now(UTC) - WORKER_SILENCE)
+        workers = Workers(session)
+        workers.beat(name)
+        silent = workers.silent()
     for dead in silent:
         for workflow in DBOS.list_workflows(status="PENDING", executor_id=dead):
             DBOS.resume_workflow(workflow.workflow_id, queue_name=workflow.queue_name)
         with unit_of_work(maker) as session:
-            RunRepository(session).forget_worker(dead)
+            Workers(session).forget(dead)
 
 
 def _end_with_parent() -> None:

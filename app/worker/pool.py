@@ -1,4 +1,4 @@
-"""Warm engine processes, one for each test that may run at a time."""
+"""Processes that execute jobs of one kind, one for each job that may run at a time."""
 
 from __future__ import annotations
 
@@ -7,70 +7,83 @@ import multiprocessing
 import queue
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
-from app.worker.engine import Cancel, Done, Failed, Job, Ready, Stopping, serve
+from app.jobs.kind import Kind
+from app.jobs.order import Order
+from app.worker.child import Cancel, Done, Failed, Ready, Stopping, serve
 
 CANCEL_PATIENCE_S = 2.0
-KILLED = (
-    f"The engine did not answer within {CANCEL_PATIENCE_S:g} s of being asked to stop, and was ended; nothing was recorded."
-)
 Listener = Callable[[Any], None]
 
 
-class EngineDied(Exception):
-    """The engine process ended in the middle of a job; the job can be given to another."""
+class ProcessDied(Exception):
+    """The process ended in the middle of a job; the job can be given to another."""
 
 
-class EngineProcess:
-    """One engine process and the pipe to it."""
+@dataclass(frozen=True, slots=True)
+class Killed:
+    """The process was killed because someone cancelled its job, which keeps nothing."""
 
-    def __init__(self) -> None:
+
+Outcome = Done | Failed | Killed
+
+
+class JobProcess:
+    """One process and the pipe to it."""
+
+    def __init__(self, kind: Kind[Any, Any, Any]) -> None:
+        self._kind = kind
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
-        self._process = context.Process(target=serve, args=(theirs,), daemon=True, name="rths-engine")
+        arguments = (theirs, kind.process, kind.niceness)
+        self._process = context.Process(target=serve, args=arguments, daemon=True, name=f"rths-{kind.name}")
         self._process.start()
         theirs.close()
         self._sending = threading.Lock()
-        self.job: Job | None = None
-        self._asked: Job | None = None
-        self._stopping: Job | None = None
-        self._ready = self._killed = False
+        self.order: Order | None = None
+        self._asked: Order | None = None
+        self._stopping: Order | None = None
+        self._ready = False
+        self._killed: Failed | Killed | None = None
 
-    def execute(self, job: Job, listener: Listener) -> Done | Failed:
-        """Run a job; what the engine tells meanwhile goes to `listener`. Raises EngineDied."""
+    def execute(self, order: Order, listener: Listener) -> Outcome:
+        """Execute a job; what the process sends meanwhile goes to `listener`. Raises ProcessDied."""
         try:
-            return self._follow(job, listener)
+            return self._follow(order, listener)
         except (EOFError, OSError):
             self._process.join(CANCEL_PATIENCE_S)
             if self._killed:
-                return Failed(KILLED)
-            raise EngineDied(f"exit code {self._process.exitcode}") from None
+                return self._killed
+            raise ProcessDied(f"exit code {self._process.exitcode}") from None
         except BaseException:
-            self._process.kill()  # it is in the middle of this job and must not be given another
-            self._process.join()
+            self.stop()  # it is in the middle of this job and must not be given another
             raise
         finally:
-            self.job = None
+            self.order = None
 
     def wait_ready(self) -> None:
-        """Wait until the engine is compiled, or has died of it."""
+        """Wait until the process is prepared, or has died of it."""
         with contextlib.suppress(EOFError, OSError):
             while not self._ready:
                 self._ready = isinstance(self._pipe.recv(), Ready)
 
     def cancel(self) -> None:
-        """Ask the engine, once, to stop and keep what it recorded; kill it where it does not answer."""
+        """Stop the job, once: ask the process to keep what it has and kill it without an answer, or kill it at once."""
         with self._sending:
-            job = self.job
-            if job is None or job is self._asked:
+            order = self.order
+            if order is None or order is self._asked:
                 return
-            self._asked = job
+            self._asked = order
+            if not self._kind.keeps_when_cancelled:
+                self._kill(Killed())
+                return
             try:
-                self._pipe.send(Cancel(job.run_id))
+                self._pipe.send(Cancel(order.job_id))
             except OSError:
                 return
-        timer = threading.Timer(CANCEL_PATIENCE_S, self._kill_unless_stopping, args=(job,))
+        timer = threading.Timer(CANCEL_PATIENCE_S, self._kill_unless_stopping, args=(order,))
         timer.daemon = True
         timer.start()
 
@@ -79,43 +92,54 @@ class EngineProcess:
         return self._process.is_alive()
 
     def stop(self) -> None:
-        self._pipe.close()
+        """Kill the process, whatever it does."""
         self._process.kill()
+        self._process.join(CANCEL_PATIENCE_S)
+        self._pipe.close()
 
-    def _follow(self, job: Job, listener: Listener) -> Done | Failed:
+    def _follow(self, order: Order, listener: Listener) -> Done | Failed:
         with self._sending:
-            self.job = job
-            self._pipe.send(job)
+            self.order = order
+            self._pipe.send(order)
         while True:
-            told = self._pipe.recv()
-            if isinstance(told, Done | Failed):
-                return told
-            if isinstance(told, Stopping):
-                self._stopping = job
+            heard = self._pipe.recv()
+            if isinstance(heard, Done | Failed):
+                return heard
+            if isinstance(heard, Stopping):
+                self._stopping = order
             else:
-                listener(told)
+                listener(heard)
 
-    def _kill_unless_stopping(self, job: Job) -> None:
-        if self.job is job and self._stopping is not job:
-            self._killed = True
-            self._process.kill()
+    def _kill_unless_stopping(self, order: Order) -> None:
+        if self.order is order and self._stopping is not order:
+            late = f"The {self._kind.noun} did not stop within {CANCEL_PATIENCE_S:g} s of being asked to"
+            self._kill(Failed(f"{late}, and its process was killed; nothing was recorded."))
+
+    def _kill(self, outcome: Failed | Killed) -> None:
+        self._killed = outcome
+        self._process.kill()
 
 
 class Pool:
-    """Engine processes taken and given back."""
+    """The processes of one kind of job, taken and given back. Those of a kind that is not kept warm start when taken."""
 
-    def __init__(self, size: int):
-        self._idle: queue.LifoQueue[EngineProcess] = queue.LifoQueue()
+    def __init__(self, kind: Kind[Any, Any, Any], size: int):
+        self.kind = kind
+        self._idle: queue.LifoQueue[JobProcess | None] = queue.LifoQueue()
         for _ in range(size):
-            self._idle.put(EngineProcess())
+            self._idle.put(JobProcess(kind) if kind.kept_warm else None)
 
-    def take(self) -> EngineProcess:
-        """A living engine, compiled; waits for one."""
-        engine = self._idle.get()
-        if not engine.alive:
-            engine = EngineProcess()
-        engine.wait_ready()
-        return engine
+    def take(self) -> JobProcess:
+        """A living, prepared process; waits for one."""
+        process = self._idle.get()
+        if process is None or not process.alive:
+            process = JobProcess(self.kind)
+        process.wait_ready()
+        return process
 
-    def give(self, engine: EngineProcess) -> None:
-        self._idle.put(engine)
+    def give(self, process: JobProcess) -> None:
+        if self.kind.kept_warm:
+            self._idle.put(process)
+        else:
+            process.stop()
+            self._idle.put(None)

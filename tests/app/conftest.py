@@ -11,8 +11,9 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from app import db, queue
+from app import db
 from app.config import Settings
+from app.jobs import queue
 from app.main import create_app
 from rths_engine.planning import templates
 from tests.browser.service import Service, running

@@ -12,7 +12,9 @@ from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 
 from app import db
-from app.models import Base, QueueState, RunStation, WorkerHeartbeat
+from app.db import Base
+from app.jobs.tables import QueueState, WorkerHeartbeat
+from app.models import RunStation
 
 
 @pytest.fixture

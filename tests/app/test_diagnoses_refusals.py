@@ -11,7 +11,9 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
 from app.config import Settings
-from app.diagnoses.work import MOST_ATTEMPTS, DiagnosisWork
+from app.diagnoses.job import DIAGNOSES
+from app.diagnoses.order import Diagnosed
+from app.jobs.service import MOST_ATTEMPTS, JobService
 from tests.app import test_recordings_api as recordings
 from tests.app.conftest import app_of
 from tests.app.conftest import plan as hybrid
@@ -122,7 +124,7 @@ class Bench:
 
     def do(self, name: str, *given: Any) -> Any:
         with db.unit_of_work(self.maker) as session:
-            return getattr(DiagnosisWork(session), name)(self.diagnosis, *given)
+            return getattr(JobService(session, DIAGNOSES), name)(self.diagnosis, *given)
 
     @property
     def seen(self) -> dict[str, Any]:
@@ -138,10 +140,10 @@ def bench(client: TestClient, settings: Settings, recording: str) -> Bench:
 def test_a_result_is_stored_once_whatever_attempt_comes_late(bench: Bench) -> None:
     bench.do("start", "first")
     bench.do("start", "second")
-    bench.do("tell", 1, "too late", 0.9)
-    bench.do("finish", 1, VERDICT, PICTURES)
+    bench.do("progress", 1, "too late", 0.9)
+    bench.do("finish", 1, Diagnosed(VERDICT, PICTURES))
     assert (bench.seen["state"], bench.seen["attempt"], bench.seen["share"]) == ("running", 2, 0.0)
-    bench.do("finish", 2, VERDICT, PICTURES)
+    bench.do("finish", 2, Diagnosed(VERDICT, PICTURES))
     bench.do("fail", 2, "too late")
     assert (bench.seen["state"], bench.seen["verdict"]) == ("completed", VERDICT)
     assert bench.seen["sentence"] == "The recording is what the plan's models simulate, up to noise."
@@ -152,7 +154,7 @@ def test_a_result_that_comes_after_its_cancel_is_not_kept(bench: Bench) -> None:
     bench.do("start", "here")
     bench.client.post(f"{URL}/{bench.diagnosis}/cancel", json={"by": "Bo"})
     assert bench.do("cancel_requested") and bench.seen["state"] == "running"
-    bench.do("finish", 1, VERDICT, PICTURES)
+    bench.do("finish", 1, Diagnosed(VERDICT, PICTURES))
     assert (bench.seen["state"], bench.seen["verdict"]) == ("cancelled", None)
 
 
@@ -172,7 +174,7 @@ def test_a_diagnosis_that_kills_its_workers_is_given_up(bench: Bench) -> None:
 
 def test_a_diagnosis_without_an_extended_plan_queues_no_simulation(bench: Bench) -> None:
     bench.do("start", "here")
-    bench.do("finish", 1, VERDICT, PICTURES)
+    bench.do("finish", 1, Diagnosed(VERDICT, PICTURES))
     answer = bench.client.post(f"{URL}/{bench.diagnosis}/simulations")
     assert answer.status_code == 409 and "no extended plan" in answer.json()["detail"]
     assert bench.client.get("/api/v1/runs").json()["total"] == 0

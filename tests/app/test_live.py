@@ -15,11 +15,13 @@ from starlette.websockets import WebSocketDisconnect
 
 from app.config import Settings
 from app.db import unit_of_work
+from app.jobs.service import JobService
 from app.live.endpoints import FRAME_HEADER
 from app.live.frames import Decimator, bucket_size
 from app.live.messages import schema
-from app.runs.service import Outcome, RunService
-from rths_engine.parts.ground_motions import MotionLibrary
+from app.models import Run
+from app.runs.job import RUNS
+from app.runs.order import Outcome
 from rths_engine.planning.reading import read_plan
 from rths_engine.recordings.run_file import save
 from rths_engine.running.run import simulate
@@ -59,12 +61,12 @@ class Told:
         path = self.settings.recordings / f"{self.id}.h5"
         saved = save(path, self.result)
         with self._service() as runs:
-            runs.finish(self.id, Outcome(self.result.summary(), saved.sha256, saved.size))
+            runs.finish(self.id, self.attempt, Outcome(self.result.summary(), saved.sha256, saved.size))
         return path
 
     def park(self) -> None:
         with self._service() as runs:
-            runs.fail(self.id, "Its worker died.")
+            runs.fail(self.id, self.attempt, "Its worker died.")
 
     @property
     def whole(self) -> bytes:
@@ -78,9 +80,9 @@ class Told:
             yield socket
 
     @contextmanager
-    def _service(self) -> Iterator[RunService]:
+    def _service(self) -> Iterator[JobService[Run, Outcome]]:
         with unit_of_work(app_of(self.client).state.sessions) as session:
-            yield RunService(session, MotionLibrary(None))
+            yield JobService(session, RUNS)
 
 
 @pytest.fixture

@@ -15,7 +15,8 @@ from fastapi.testclient import TestClient
 
 from app import db
 from app.config import Settings
-from app.models import Base, RawFile
+from app.db import Base
+from app.models import RawFile
 from rths_engine.recordings.measured import Mapping
 from rths_engine.recordings.opening import load
 from tests.engine import measurements as made

@@ -13,11 +13,15 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
 from app.config import Settings
+from app.jobs.hold import Hold
+from app.jobs.repository import JobRepository
+from app.jobs.service import JobService
+from app.jobs.states import IllegalTransition, State
 from app.models import Run
-from app.runs.repository import RunRepository
+from app.runs.job import RUNS
+from app.runs.order import Outcome
 from app.runs.schemas import RunOut
-from app.runs.service import Outcome, RunService
-from app.states import IllegalTransition, State
+from app.runs.service import RunService
 from rths_engine.parts.ground_motions import MotionLibrary
 from tests.app.conftest import plan
 
@@ -42,12 +46,12 @@ class FakeQueue:
     def __init__(self) -> None:
         self.queued: list[str] = []
 
-    def enqueue(self, session: Session, run_ids: Any) -> None:
+    def enqueue(self, session: Session, kind: Any, run_ids: Any) -> None:
         self.queued += run_ids
 
 
 class BrokenQueue:
-    def enqueue(self, session: Session, run_ids: Any) -> None:
+    def enqueue(self, session: Session, kind: Any, run_ids: Any) -> None:
         raise RuntimeError("the queue is gone")
 
 
@@ -62,6 +66,10 @@ def service(session: Session, queue: Any = None) -> RunService:
     return RunService(session, MotionLibrary(None), queue)
 
 
+def jobs(session: Session) -> JobService[Run, Outcome]:
+    return JobService(session, RUNS)
+
+
 def submitted(maker: sessionmaker[Session]) -> str:
     with db.unit_of_work(maker) as session:
         return service(session, FakeQueue()).submit([plan()], "Ana")[0].id
@@ -70,7 +78,7 @@ def submitted(maker: sessionmaker[Session]) -> str:
 def started(maker: sessionmaker[Session]) -> str:
     run_id = submitted(maker)
     with db.unit_of_work(maker) as session:
-        assert service(session).start(run_id, "one") is not None
+        assert jobs(session).start(run_id, "one") is not None
     return run_id
 
 
@@ -90,7 +98,7 @@ class Meanwhile:
 
     def _start(self, maker: sessionmaker[Session], run_id: str) -> None:
         with db.unit_of_work(maker) as session:
-            self.found.append(service(session).start(run_id, "other"))
+            self.found.append(jobs(session).start(run_id, "other"))
 
     def result(self) -> Run | None:
         self._thread.join(PATIENCE_S)
@@ -130,7 +138,7 @@ def test_a_cancel_sees_the_state_at_its_turn_not_the_one_it_read_before(maker: s
     with db.unit_of_work(maker) as session:
         assert service(session).get(run_id).state is State.QUEUED
         with db.unit_of_work(maker) as other:
-            assert service(other).start(run_id, "one") is not None
+            assert jobs(other).start(run_id, "one") is not None
         run = service(session).cancel(run_id, "Bo")
         assert (run.state, run.cancel_requested_by) == (State.RUNNING, "Bo")
 
@@ -148,11 +156,11 @@ def test_abort_holds_the_queue_even_when_a_test_ends_at_that_moment(
 ) -> None:
     run_id = started(maker)
     with db.unit_of_work(maker) as session:
-        service(session).fail(run_id, "crashed")
-        monkeypatch.setattr(RunRepository, "in_states", lambda runs, *_: [runs.get(run_id)])
+        jobs(session).fail(run_id, 1, "crashed")
+        monkeypatch.setattr(JobRepository, "ids", lambda *_: [run_id])
         assert service(session).abort("Bo") == []
     with db.unit_of_work(maker) as session:
-        assert RunRepository(session).held()
+        assert Hold(session).held
     assert run_of(maker, run_id).reason == "crashed"
 
 
@@ -172,14 +180,14 @@ def test_a_run_whose_cancel_its_dead_worker_missed_is_cancelled_when_taken_up(ma
     with db.unit_of_work(maker) as session:
         service(session).cancel(run_id, "Bo")
     with db.unit_of_work(maker) as session:
-        assert service(session).start(run_id, "other") is None
+        assert jobs(session).start(run_id, "other") is None
     assert run_of(maker, run_id).state is State.CANCELLED
 
 
 def test_a_result_before_the_start_is_refused_and_stores_nothing(maker: sessionmaker[Session]) -> None:
     run_id = submitted(maker)
     with pytest.raises(IllegalTransition), db.unit_of_work(maker) as session:
-        service(session).finish(run_id, Outcome(SUMMARY, "0" * 64, 1))
+        jobs(session).finish(run_id, 0, Outcome(SUMMARY, "0" * 64, 1))
     run = run_of(maker, run_id)
     assert (run.state, run.stations, run.recording_sha256) == (State.QUEUED, [], None)
 
@@ -187,10 +195,10 @@ def test_a_result_before_the_start_is_refused_and_stores_nothing(maker: sessionm
 def test_a_failed_run_stays_failed_whatever_comes_later(maker: sessionmaker[Session]) -> None:
     run_id = started(maker)
     with db.unit_of_work(maker) as session:
-        service(session).fail(run_id, "its engine crashed")
+        jobs(session).fail(run_id, 1, "its engine crashed")
     with db.unit_of_work(maker) as session:
-        assert service(session).finish(run_id, Outcome(SUMMARY, "0" * 64, 1)) is False
-        service(session).fail(run_id, "again")
+        assert jobs(session).finish(run_id, 1, Outcome(SUMMARY, "0" * 64, 1)) is False
+        jobs(session).fail(run_id, 1, "again")
     assert (run_of(maker, run_id).reason, run_of(maker, run_id).stations) == ("its engine crashed", [])
 
 
@@ -199,7 +207,7 @@ def test_a_measure_that_is_no_finite_number_is_stored_as_null(maker: sessionmake
     stations = [{**SUMMARY["stations"][0], "rms_percent": math.nan, "peak_force_kN": math.inf}]
     summary = {**SUMMARY, "stations": stations, "floors_peak_mm": [math.inf, 2.0]}
     with db.unit_of_work(maker) as session:
-        assert service(session).finish(run_id, Outcome(summary, "0" * 64, 1))
+        assert jobs(session).finish(run_id, 1, Outcome(summary, "0" * 64, 1))
     with db.unit_of_work(maker) as session:
         told = RunOut.of(service(session).get(run_id))
     assert (told.stations[0].rms_percent, told.stations[0].peak_force_kN, told.stations[0].mte_mm) == (None, None, 1)

@@ -18,10 +18,12 @@ from hypothesis import strategies as st
 
 from app.config import Settings
 from app.db import unit_of_work
+from app.jobs.service import JobService
+from app.jobs.states import TRANSITIONS, IllegalTransition, State, check
 from app.npm_parts import PARTS
+from app.runs import job
 from app.runs.exports import ROWS
-from app.runs.service import Outcome, RunService
-from app.states import TRANSITIONS, IllegalTransition, State, check
+from app.runs.order import Outcome
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.reading import plan_from_yaml, read_plan
 from rths_engine.recordings import run_file as recording
@@ -42,12 +44,12 @@ def execute(client: TestClient, settings: Settings, run_id: str) -> dict[str, An
     """What a worker does, in this process."""
     motions = MotionLibrary(settings.motions)
     with unit_of_work(app_of(client).state.sessions) as session:
-        run = RunService(session, motions).start(run_id, "test")
+        run = JobService(session, job.RUNS).start(run_id, "test")
         assert run is not None
         result = simulate(read_plan(run.plan), motions)
     saved = recording.save(settings.recordings / f"{run_id}.h5", result)
     with unit_of_work(app_of(client).state.sessions) as session:
-        RunService(session, motions).finish(run_id, Outcome(result.summary(), saved.sha256, saved.size))
+        JobService(session, job.RUNS).finish(run_id, 1, Outcome(result.summary(), saved.sha256, saved.size))
     return result.summary()
 
 
@@ -208,9 +210,9 @@ def test_a_second_finish_changes_nothing(client: TestClient, settings: Settings)
     run_id = submit(client)
     summary = execute(client, settings, run_id)
     with unit_of_work(app_of(client).state.sessions) as session:
-        service = RunService(session, MotionLibrary(None))
+        service = JobService(session, job.RUNS)
         assert service.start(run_id, "other") is None
-        assert service.finish(run_id, Outcome({**summary, "status": "tripped"}, "0" * 64, 1)) is False
+        assert service.finish(run_id, 1, Outcome({**summary, "status": "tripped"}, "0" * 64, 1)) is False
     assert client.get(f"{RUNS}/{run_id}").json()["state"] == "completed"
 
 
@@ -218,10 +220,10 @@ def test_a_run_that_kills_its_worker_is_parked_after_three_attempts(client: Test
     run_id = submit(client)
     for attempt in (1, 2, 3):
         with unit_of_work(app_of(client).state.sessions) as session:
-            run = RunService(session, MotionLibrary(None)).start(run_id, "dying")
+            run = JobService(session, job.RUNS).start(run_id, "dying")
             assert run is not None and run.attempt == attempt
     with unit_of_work(app_of(client).state.sessions) as session:
-        assert RunService(session, MotionLibrary(None)).start(run_id, "dying") is None
+        assert JobService(session, job.RUNS).start(run_id, "dying") is None
     run = client.get(f"{RUNS}/{run_id}").json()
     assert run["state"] == "failed" and "3 times" in run["reason"]
 

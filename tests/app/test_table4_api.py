@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from fastapi.testclient import TestClient
 from sqlalchemy.orm import Session
 
 from app import db
 from app.config import Settings
-from app.runs.service import Outcome, RunService
+from app.jobs.service import JobService
+from app.runs.job import RUNS
+from app.runs.order import Outcome
 from rths_engine import table4
-from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.table4.comparison import MEASURES, PAPER, published, stable
 
 
@@ -74,7 +73,7 @@ def summary(number: int) -> dict[str, object]:
 def end(settings: Settings, run_id: str, found: dict[str, object]) -> None:
     """End a run as a worker does."""
     with Session(db.connect(settings.url)) as session:
-        service = RunService(session, MotionLibrary(Path(settings.motions)))
+        service = JobService(session, RUNS)
         assert service.start(run_id, "worker") is not None
-        service.finish(run_id, Outcome(found, "0" * 64, 1))
+        service.finish(run_id, 1, Outcome(found, "0" * 64, 1))
         session.commit()

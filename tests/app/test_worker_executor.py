@@ -10,15 +10,18 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
 from app.config import Settings
+from app.jobs.queue import DurableQueue
+from app.jobs.service import MOST_ATTEMPTS, JobService
+from app.jobs.states import State
 from app.models import Run
-from app.queue import DurableQueue
+from app.runs.job import RUNS
+from app.runs.order import Outcome, RunOrder
 from app.runs.repository import RunRepository
-from app.runs.service import MOST_ATTEMPTS, RunService
-from app.states import State
+from app.runs.service import RunService
 from app.worker import executor as module
-from app.worker.engine import Done, Failed, Job
+from app.worker.child import Done, Failed
 from app.worker.executor import Executor
-from app.worker.pool import EngineDied
+from app.worker.pool import ProcessDied
 from rths_engine.parts.ground_motions import MotionLibrary
 from tests.app.conftest import plan
 
@@ -26,7 +29,7 @@ SUMMARY: dict[str, Any] = {
     "status": "completed", "trip": None, "elapsed_s": 0.1, "simulated_s": 2.0, "floors_peak_mm": [1.0, 2.0],
     "input_energy_kNm": 3.0, "stations": []
 }  # fmt: skip
-Script = Callable[[Job], Done | Failed]
+Script = Callable[[RunOrder], Done | Failed]
 
 
 class ScriptedEngine:
@@ -34,7 +37,7 @@ class ScriptedEngine:
 
     script: Script
 
-    def execute(self, job: Job, listener: Any) -> Done | Failed:
+    def execute(self, job: RunOrder, listener: Any) -> Done | Failed:
         return self.script(job)
 
 
@@ -77,14 +80,14 @@ class Bench:
     def __init__(self, settings: Settings, maker: sessionmaker[Session], queue: DurableQueue):
         self.settings, self.maker = settings, maker
         self.told, self.pool = Told(), OneEngine()
-        self.executor = Executor(settings, maker, self.told, "here")  # type: ignore[arg-type]
+        self.executor = Executor(settings, maker, self.told, "here", [RUNS])  # type: ignore[arg-type]
         with db.unit_of_work(maker) as session:
             (run,) = RunService(session, MotionLibrary(None), queue).submit([plan()], "Ana Ruiz")
             self.run_id = run.id
 
     def execute(self, script: Script) -> Run:
         self.pool.engine.script = script
-        self.executor.execute(self.run_id)
+        self.executor.execute(RUNS, self.run_id)
         return self.run
 
     @property
@@ -98,7 +101,7 @@ class Bench:
         """As a worker leaves a run that it was killed with."""
         for _ in range(times):
             with db.unit_of_work(self.maker) as session:
-                RunService(session, MotionLibrary(None)).start(self.run_id, "elsewhere")
+                JobService(session, RUNS).start(self.run_id, "elsewhere")
 
     def cancel(self) -> None:
         with db.unit_of_work(self.maker) as session:
@@ -114,7 +117,7 @@ def bench(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench
     engine = db.connect(settings.url)
     queue = DurableQueue(engine)
     pool = OneEngine()
-    monkeypatch.setattr(module, "Pool", lambda size: pool)
+    monkeypatch.setattr(module, "Pool", lambda kind, size: pool)
     made = Bench(settings, db.sessions(engine), queue)
     made.pool = pool
     yield made
@@ -122,12 +125,12 @@ def bench(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench
     engine.dispose()
 
 
-def recorded(job: Job) -> Done:
+def recorded(job: RunOrder) -> Done:
     job.recording.write_bytes(b"recording")
-    return Done(SUMMARY, "0" * 64, len(b"recording"))
+    return Done(Outcome(SUMMARY, "0" * 64, len(b"recording")))
 
 
-def never(job: Job) -> Done:
+def never(job: RunOrder) -> Done:
     raise AssertionError("this run must not be executed")
 
 
@@ -139,8 +142,8 @@ def test_a_recording_goes_to_its_place_and_viewers_are_told_of_the_end(bench: Be
 
 
 def test_a_recording_that_cannot_be_put_in_its_place_is_a_failed_run_that_says_why(bench: Bench) -> None:
-    def unwritable(job: Job) -> Done:
-        (bench.settings.recordings / f"{job.run_id}.h5" / "in the way").mkdir(parents=True)
+    def unwritable(job: RunOrder) -> Done:
+        (bench.settings.recordings / f"{job.job_id}.h5" / "in the way").mkdir(parents=True)
         return recorded(job)
 
     run = bench.execute(unwritable)
@@ -156,7 +159,7 @@ def test_what_a_killed_worker_left_behind_is_removed_before_the_next_attempt(ben
         (bench.settings.recordings / name).write_bytes(b"half")
     seen: list[str] = []
 
-    def look(job: Job) -> Failed:
+    def look(job: RunOrder) -> Failed:
         seen.extend(bench.files)
         return Failed("looked")
 
@@ -180,13 +183,13 @@ def test_a_run_that_kept_killing_its_worker_is_parked_and_its_viewers_are_told(b
 
 
 def test_a_run_that_keeps_killing_its_engine_is_tried_again_and_then_parked(bench: Bench) -> None:
-    def dies(job: Job) -> Done:
+    def dies(job: RunOrder) -> Done:
         job.recording.write_bytes(b"half")
-        raise EngineDied("exit code -11")
+        raise ProcessDied("exit code -11")
 
     run = bench.execute(dies)
     assert (run.state, run.attempt) == (State.FAILED, MOST_ATTEMPTS)
-    assert "engine died 3 times" in (run.reason or "")
+    assert "died 3 times; the test is not tried again" in (run.reason or "")
     assert bench.files == [] and bench.executor.running == {}
 
 
@@ -211,7 +214,7 @@ def test_a_run_waits_queued_for_an_engine_that_is_being_compiled_and_can_be_canc
 
 
 def test_a_worker_taken_for_dead_cannot_fail_the_run_that_another_took_up(bench: Bench) -> None:
-    def slow(job: Job) -> Failed:
+    def slow(job: RunOrder) -> Failed:
         bench.started_elsewhere()
         return Failed("too late")
 
@@ -220,7 +223,7 @@ def test_a_worker_taken_for_dead_cannot_fail_the_run_that_another_took_up(bench:
 
 
 def test_a_run_whose_worker_stumbled_is_executed_when_it_is_delivered_again(bench: Bench) -> None:
-    def broken(job: Job) -> Failed:
+    def broken(job: RunOrder) -> Failed:
         raise RuntimeError("the listener broke")
 
     with pytest.raises(RuntimeError):

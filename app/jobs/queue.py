@@ -4,24 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
-from typing import NamedTuple
+from typing import Any
 
 import sqlalchemy as sa
 from dbos import DBOS, DBOSClient, EnqueueOptions
 from sqlalchemy.orm import Session
 
+from app.jobs.kind import Kind
 
-class Work(NamedTuple):
-    """A kind of job: the queue it waits in and the workflow that does it."""
-
-    queue: str
-    workflow: str
-
-
-TESTS = Work("tests", "run-test")
-DIAGNOSES = Work("diagnoses", "diagnose")
 APPLICATION = "rths"
-VERSION = "1"  # pinned: editing the workflow must not strand tests that wait in the queue
+VERSION = "1"  # pinned: editing the workflow must not strand jobs that wait in the queue
 POLLING_S = 0.1
 KEEP = timedelta(days=7)
 MOST_PURGED = 5000
@@ -38,15 +30,15 @@ class DurableQueue:
     def __init__(self, engine: sa.Engine):
         self.client = DBOSClient(system_database_engine=engine, application_name=APPLICATION)
 
-    def enqueue(self, session: Session, ids: Sequence[str], work: Work = TESTS) -> None:
-        for one in ids:
+    def enqueue(self, session: Session, kind: Kind[Any, Any, Any], ids: Sequence[str]) -> None:
+        for job_id in ids:
             options: EnqueueOptions = {
-                "workflow_name": work.workflow,
-                "queue_name": work.queue,
-                "workflow_id": one,
+                "workflow_name": kind.workflow,
+                "queue_name": kind.queue,
+                "workflow_id": job_id,
                 "app_version": VERSION,
             }
-            self.client.enqueue_in_transaction(session, options, one)
+            self.client.enqueue_in_transaction(session, options, job_id)
 
     def purge(self) -> int:
         """Delete the records of workflows that ended long ago; returns how many."""

@@ -1,8 +1,10 @@
-"""States of a run, and the one table of what may follow what."""
+"""States of a job, and the one table of which state may follow which."""
 
 from __future__ import annotations
 
 from enum import StrEnum
+
+from app.problems import Conflict
 
 
 class State(StrEnum):
@@ -22,7 +24,7 @@ class State(StrEnum):
         return [state.value for state in kind]
 
 
-# a running test goes back to the queue when its worker died
+# a running job goes back to the queue when its worker has died
 TRANSITIONS: dict[State, frozenset[State]] = {
     State.QUEUED: frozenset({State.RUNNING, State.CANCELLED, State.FAILED}),
     State.RUNNING: frozenset({State.QUEUED, State.COMPLETED, State.TRIPPED, State.CANCELLED, State.FAILED}),
@@ -33,15 +35,15 @@ TRANSITIONS: dict[State, frozenset[State]] = {
 }
 
 
-class IllegalTransition(Exception):
+class IllegalTransition(Conflict):
     """A change of state that TRANSITIONS does not have."""
 
-    def __init__(self, old: State, new: State):
+    def __init__(self, noun: str, old: State, new: State):
         self.old, self.new = old, new
-        super().__init__(f"the test is {old} and can't become {new}")
+        super().__init__(f"The {noun} is {old}; it cannot become {new}.")
 
 
-def check(old: State, new: State) -> None:
-    """Raises IllegalTransition."""
+def check(old: State, new: State, noun: str = "job") -> None:
+    """Raise IllegalTransition unless a job may go from state `old` to state `new`."""
     if new not in TRANSITIONS[old]:
-        raise IllegalTransition(old, new)
+        raise IllegalTransition(noun, old, new)

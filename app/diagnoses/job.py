@@ -1,0 +1,31 @@
+"""Diagnoses as a kind of job: one at a time, each in a process of its own that tests go before."""
+
+from __future__ import annotations
+
+from app.config import Settings
+from app.diagnoses.order import Diagnosed, DiagnosisOrder
+from app.diagnoses.sources import file_of
+from app.jobs.kind import Ending, Kind
+from app.jobs.states import State
+from app.models import Diagnosis
+from app.reports.diagnosis_tables import tables
+
+
+class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
+    name = noun = "diagnosis"
+    table = Diagnosis
+    queue, workflow = "diagnoses", "diagnose"
+    process = "app.worker.diagnosis"
+    niceness = 10
+
+    def order(self, job: Diagnosis, settings: Settings) -> DiagnosisOrder:
+        first, *others = [file_of(given, settings).resolve() for given in job.inputs]
+        return DiagnosisOrder(job.id, job.attempt, job.plan, first, tuple(others), job.level)
+
+    def store(self, job: Diagnosis, result: Diagnosed) -> Ending:
+        job.verdict, job.pictures = result.verdict, result.pictures
+        job.found, job.sentence = result.verdict["verdict"], tables(result.verdict).sentence
+        return Ending(State.COMPLETED, "Done.")
+
+
+DIAGNOSES = DiagnosisKind()

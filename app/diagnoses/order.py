@@ -1,0 +1,27 @@
+"""What the process of a diagnosis is given, and what it returns. Imports nothing heavy: that process loads it too."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.jobs.order import Order
+
+
+@dataclass(frozen=True, slots=True)
+class DiagnosisOrder(Order):
+    """One attempt at a diagnosis: the plan, the files of the recording and of those held out, the false-alarm rate."""
+
+    plan: dict[str, Any]
+    recording: Path
+    heldout: tuple[Path, ...]
+    level: float
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosed:
+    """The verdict (`rths-diagnosis/1`) and its pictures (`rths-diagnosis-pictures/1`)."""
+
+    verdict: dict[str, Any]
+    pictures: dict[str, Any]

@@ -1,0 +1,39 @@
+"""The hold of the queue, which keeps tests from starting. Never commits."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+
+import sqlalchemy as sa
+from sqlalchemy.orm import Session
+
+from app.jobs.tables import QueueState
+
+
+class Hold:
+    def __init__(self, session: Session):
+        self.session = session
+
+    @property
+    def state(self) -> QueueState:
+        return self.session.get_one(QueueState, 1, populate_existing=True)
+
+    @property
+    def held(self) -> bool:
+        return bool(self.session.scalar(sa.select(QueueState.held).where(QueueState.id == 1)))
+
+    def set(self, by: str) -> None:
+        self._change(held=True, held_by=by, held_at=datetime.now(UTC))
+
+    def release(self) -> None:
+        self._change(held=False, held_by=None, held_at=None)
+
+    def locked(self) -> QueueState:
+        """The state, which nobody else can change until the end of the transaction; locks as JobRepository.locked does."""
+        self._change(held=QueueState.held)
+        return self.state
+
+    def _change(self, **values: Any) -> None:
+        change = sa.update(QueueState).where(QueueState.id == 1).values(**values)
+        self.session.execute(change, execution_options={"synchronize_session": False})

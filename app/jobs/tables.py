@@ -1,0 +1,53 @@
+"""Columns that every kind of job has, and the tables of the queue's hold and of workers."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+import sqlalchemy as sa
+from sqlalchemy.orm import Mapped, mapped_column
+
+from app.db import Base
+from app.jobs.states import State
+
+
+class Job:
+    """Mixin of a job's table: `class Run(Job, Base)`. Times are UTC.
+
+    `attempt` counts the starts, `worker` names the worker of the last start, `doing` and `share` (0 to 1) say how far the
+    running attempt is, and `reason` says why the job ended.
+    """
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    state: Mapped[State] = mapped_column(sa.Enum(State, native_enum=False, length=16, values_callable=State.values), index=True)
+    submitted_by: Mapped[str] = mapped_column(sa.String(80))
+    submitted_at: Mapped[datetime]
+    started_at: Mapped[datetime | None]
+    finished_at: Mapped[datetime | None]
+    cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
+    attempt: Mapped[int] = mapped_column(default=0)
+    worker: Mapped[str | None] = mapped_column(sa.String(80))
+    doing: Mapped[str] = mapped_column(sa.String(200), default="")
+    share: Mapped[float] = mapped_column(default=0.0)
+    reason: Mapped[str | None] = mapped_column(sa.Text)
+
+
+class QueueState(Base):
+    """Whether the queue is held: one row."""
+
+    __tablename__ = "queue_state"
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    held: Mapped[bool] = mapped_column(default=False)
+    held_by: Mapped[str | None] = mapped_column(sa.String(80))
+    held_at: Mapped[datetime | None]
+
+
+class WorkerHeartbeat(Base):
+    """When a worker was last alive."""
+
+    __tablename__ = "worker_heartbeat"
+
+    worker: Mapped[str] = mapped_column(sa.String(80), primary_key=True)
+    seen_at: Mapped[datetime]

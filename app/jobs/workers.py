@@ -1,0 +1,38 @@
+"""Heartbeats of workers. Never commits."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+
+import sqlalchemy as sa
+from sqlalchemy.orm import Session
+
+from app.jobs.tables import WorkerHeartbeat
+
+WORKER_SILENCE = timedelta(seconds=6)  # six heartbeats: a worker this long silent is taken for dead
+
+
+class Workers:
+    def __init__(self, session: Session):
+        self.session = session
+
+    def beat(self, worker: str) -> None:
+        self.session.merge(WorkerHeartbeat(worker=worker, seen_at=datetime.now(UTC)))
+
+    def last_beat(self) -> datetime | None:
+        newest = sa.select(WorkerHeartbeat).order_by(WorkerHeartbeat.seen_at.desc()).limit(1)
+        found = self.session.scalar(newest)
+        return found.seen_at if found else None
+
+    def silent(self) -> list[str]:
+        """Workers that are taken for dead."""
+        before = datetime.now(UTC) - WORKER_SILENCE
+        return list(self.session.scalars(sa.select(WorkerHeartbeat.worker).where(WorkerHeartbeat.seen_at < before)))
+
+    def forget(self, worker: str) -> None:
+        self.session.execute(sa.delete(WorkerHeartbeat).where(WorkerHeartbeat.worker == worker))
+
+
+def alive(seen: datetime | None) -> bool:
+    """Whether a worker last seen then is still taken to be alive."""
+    return seen is not None and datetime.now(UTC) - seen < WORKER_SILENCE

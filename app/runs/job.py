@@ -1,0 +1,66 @@
+"""Runs as a kind of job: the engine executes them, one engine for each test that may run at a time."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any
+
+from app.config import Settings
+from app.jobs.kind import Ending, Kind
+from app.jobs.service import NOBODY
+from app.jobs.states import State
+from app.models import Run, RunStation
+from app.runs.order import Outcome, RunOrder
+
+
+class RunKind(Kind[Run, RunOrder, Outcome]):
+    name, noun, table = "run", "test", Run
+    queue, workflow = "tests", "run-test"
+    process = "app.worker.engine"
+    kept_warm = keeps_when_cancelled = waits_while_held = watched_live = True
+
+    def at_a_time(self, settings: Settings) -> int:
+        return settings.worker_concurrency
+
+    def order(self, job: Run, settings: Settings) -> RunOrder:
+        recording = settings.recordings / f".{job.id}.{job.attempt}.h5"
+        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings.motions.resolve())
+
+    def store(self, job: Run, result: Outcome) -> Ending:
+        summary = _finite(result.summary)
+        job.trip = summary["trip"]
+        job.elapsed_s, job.simulated_s = summary["elapsed_s"], summary["simulated_s"]
+        job.floors_peak_mm = summary["floors_peak_mm"]
+        job.input_energy_kNm = summary["input_energy_kNm"]
+        job.recording_sha256, job.recording_size = result.recording_sha256, result.recording_size
+        job.stations = [RunStation(number=number, **station) for number, station in enumerate(summary["stations"], start=1)]
+        state = State(summary["status"])
+        return Ending(state, _reason(job, state))
+
+    def place(self, order: RunOrder, settings: Settings) -> None:
+        """Put the recording in its place: it and the run's row are stored both or, at the next attempt, again."""
+        os.replace(order.recording, settings.recordings / f"{order.job_id}.h5")
+
+    def discard(self, order: RunOrder) -> None:
+        order.recording.unlink(missing_ok=True)
+
+    def clear(self, job: Run, settings: Settings) -> None:
+        for path in settings.recordings.glob(f"*{job.id}*"):
+            if not (job.recording_sha256 and path.name == f"{job.id}.h5"):
+                path.unlink(missing_ok=True)
+
+
+RUNS = RunKind()
+
+
+def _reason(run: Run, state: State) -> str:
+    if state is State.CANCELLED:
+        return f"Stopped by {run.cancel_requested_by or NOBODY} at {run.simulated_s:.2f} s."
+    return run.trip["sentence"] if run.trip else "Ran to its end."
+
+
+def _finite(summary: dict[str, Any]) -> dict[str, Any]:
+    """The summary with null for numbers that are not finite, which no database's JSON can hold."""
+    found: dict[str, Any] = json.loads(json.dumps(summary), parse_constant=lambda _: None)
+    return found

@@ -1,0 +1,130 @@
+"""The process of a job, as the process sees it: it takes orders, sends what happens, and ends with its worker."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import queue
+import signal
+import threading
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from typing import Any
+
+from app.jobs.order import Order
+
+
+@dataclass(frozen=True, slots=True)
+class Cancel:
+    """A request to stop a job; it may come when the job has just ended, and then changes nothing."""
+
+    job_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """The process is prepared and takes orders."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stopping:
+    """The answer to Cancel: the job has stopped, and what it has is being saved."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """What is being done, and the share of the whole that is done, 0 to 1."""
+
+    doing: str
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """The result of a job, as its kind stores it."""
+
+    result: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """Why a job could not be executed."""
+
+    reason: str
+
+
+class Refused(Exception):
+    """A job cannot be executed; the message is the reason that people read."""
+
+
+class Line:
+    """The process' end of the pipe to its worker. A thread listens, so that a cancel or the worker's end is heard at once."""
+
+    def __init__(self, pipe: Connection):
+        self._pipe = pipe
+        self._orders: queue.SimpleQueue[Order] = queue.SimpleQueue()
+        self._current: str | None = None
+        self._cancelled = threading.Event()
+        threading.Thread(target=self._listen, daemon=True, name="rths-line").start()
+
+    def order(self) -> Order:
+        """The next order; waits for it."""
+        return self._orders.get()
+
+    def send(self, message: Any) -> None:
+        self._pipe.send(message)
+
+    def show(self, message: Any) -> None:
+        """Send a frame or a message to the viewers of the job."""
+        self.send(message)
+
+    def progress(self, doing: str, share: float) -> None:
+        """Send how far the job is; `share` of the whole, 0 to 1."""
+        self.send(Progress(doing, min(1.0, max(0.0, float(share)))))
+
+    def cancelled(self, within_s: float = 0.0) -> bool:
+        """Whether someone asked to stop the job; waits `within_s` seconds for that."""
+        return self._cancelled.wait(within_s)
+
+    def stopping(self) -> None:
+        """Answer a cancel: the job has stopped, and what it has is being saved."""
+        self.send(Stopping())
+
+    def _listen(self) -> None:
+        while True:
+            try:
+                heard = self._pipe.recv()
+            except (EOFError, OSError):
+                os._exit(0)  # the worker has ended
+            if isinstance(heard, Order):
+                self._cancelled.clear()
+                self._current = heard.job_id
+                self._orders.put(heard)
+            elif heard == Cancel(self._current or ""):
+                self._cancelled.set()
+
+
+def serve(pipe: Connection, module: str, niceness: int) -> None:
+    """Execute orders with `module` (`Kind.process`) until the worker ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the worker too, which ends this process in its order
+    line = Line(pipe)
+    os.nice(niceness)
+    executing = importlib.import_module(module)
+    executing.prepare()
+    try:
+        line.send(Ready())
+        while True:
+            line.send(_outcome(executing, line.order(), line))
+    except ConnectionError:
+        return  # the worker has ended
+
+
+def _outcome(executing: Any, order: Order, line: Line) -> Done | Failed:
+    try:
+        return Done(executing.execute(order, line))
+    except ConnectionError:
+        raise
+    except Refused as refused:
+        return Failed(str(refused))
+    except Exception as error:
+        return Failed(f"{type(error).__name__}: {error}")

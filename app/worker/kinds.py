@@ -1,0 +1,11 @@
+"""The kinds of job that a worker executes. A further kind is one line here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.diagnoses.job import DIAGNOSES
+from app.jobs.kind import Kind
+from app.runs.job import RUNS
+
+KINDS: tuple[Kind[Any, Any, Any], ...] = (RUNS, DIAGNOSES)
