@@ -152,5 +152,5 @@ def selected(used: Recordings, baseline: Fitted, chosen: Fitted, **more: Any) ->
     return Selection(used, baseline, chosen, **(given | more))
 
 
-def as_judged(selection: Selection, verdict: str = "mismatch", unknown: bool = False, heldout: tuple[Any, ...] = ()) -> Judged:
+def as_judged(selection: Selection, verdict: Any = "mismatch", unknown: bool = False, heldout: tuple[Any, ...] = ()) -> Judged:
     return Judged(selection.recordings.component, "specimen of station 1", selection, verdict, unknown, heldout)
