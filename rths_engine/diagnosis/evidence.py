@@ -8,7 +8,9 @@ import numpy as np
 
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.foundation.part import Part
-from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.search import Seen
 
 MATERIAL = 0.02  # of all that effects account for: what models err by, so that less says little
 STRONG = 6.0  # of BIC: strong evidence (Kass and Raftery 1995)
@@ -31,7 +33,9 @@ def tempering(best: float, before: float) -> float:
 
 
 def _doubt(part: Part, seen: Sequence[Seen]) -> float:
-    return part.doubt(seen[getattr(part, "storey", 1) - 1]) if isinstance(part, Effect) else 0.0
+    if not isinstance(part, Effect):
+        return 0.0
+    return physics.SEARCHES[type(part)].doubt(part, seen[getattr(part, "storey", 1) - 1])
 
 
 def probabilities(weights: Sequence[float]) -> list[float]:

@@ -12,6 +12,7 @@ import numpy as np
 from rths_engine.diagnosis.components.component import Component, Loose
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
+from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
 SMALLEST = 1e-12
@@ -67,8 +68,9 @@ def moved(parts: Sequence[Part], free: Sequence[Number], z: Array) -> list[Part]
 
 
 def _of(owner: int, part: Part, planned: Part | None, spread: float | None) -> Iterator[Number]:
+    held = physics.SEARCHES[type(part)].held if isinstance(part, Effect) else ()
     for name, field in type(part).model_fields.items():
-        if field.annotation is not float or name in getattr(part, "held", ()):
+        if field.annotation is not float or name in held:
             continue
         low, high, strict = -math.inf, math.inf, False
         for bound in field.metadata:

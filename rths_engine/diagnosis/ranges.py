@@ -10,6 +10,7 @@ from scipy.stats import chi2
 from rths_engine.diagnosis.fitting import Fitted, Recordings, problem
 from rths_engine.diagnosis.parallel import each
 from rths_engine.foundation.arrays import Array
+from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
 RISE = float(chi2.ppf(0.9, 1))  # of chi^2, of one number
@@ -88,7 +89,7 @@ def _held(recordings: Recordings, fitted: Fitted) -> Array:
     before = recordings.misfit(fitted.parts)
     for place, part in enumerate(fitted.parts[first:], start=first):
         assert isinstance(part, Effect)
-        for name, value in part.otherwise.items():
+        for name, value in physics.SEARCHES[type(part)].otherwise.items():
             parts = [*fitted.parts]
             parts[place] = part.model_copy(update={name: value})
             change = recordings.misfit(parts) - before

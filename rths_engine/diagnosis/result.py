@@ -13,6 +13,7 @@ from rths_engine.diagnosis.locate import place
 from rths_engine.diagnosis.next_test import next_test
 from rths_engine.diagnosis.separate import alike, separation
 from rths_engine.diagnosis.unknown import Law, law
+from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.planning.plan import Plan
 
@@ -122,7 +123,8 @@ def _sentence(one: Judged, effect: Effect, numbers: Sequence[dict[str, Any]]) ->
     elif at.startswith("structure:"):
         subject = f"structure, in storey {at.partition(':')[2]},"
     before, after = (100 * one.nrmse(parts, False) for parts in (one.selection.baseline.parts, one.selection.chosen.parts))
-    told = f"The {subject} {effect.says()}: {effect.noun} was left out ({spans})."
+    search = physics.SEARCHES[type(effect)]
+    told = f"The {subject} {search.says(effect)}: {search.noun} was left out ({spans})."
     return f"{told} Its model takes the error on what was not fitted from {before:.3g} % to {after:.3g} %."
 
 

@@ -17,7 +17,9 @@ from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.ranges import ranges
 from rths_engine.diagnosis.signatures import Signatures, best_first, general, signatures
 from rths_engine.foundation.part import Part
-from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.offset import ForceOffset
 
 MOST_EFFECTS = 3  # beside the load cell's zero
@@ -129,7 +131,7 @@ def _simplified(recordings: Recordings, chosen: Fitted) -> list[Fitted]:
         assert isinstance(part, Effect)
         rest = [*chosen.parts[:place], *chosen.parts[place + 1 :]]
         models += [rest] if len(rest) > base else []
-        for name in part.relatives:
+        for name in physics.SEARCHES[type(part)].relatives:
             relative = others.get(name)
             if relative is None or key(relative) in {key(one) for one in rest}:
                 continue

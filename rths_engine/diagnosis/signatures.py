@@ -11,6 +11,7 @@ from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
 from rths_engine.foundation.arrays import Array
+from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
 ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
@@ -64,7 +65,7 @@ def signatures(recordings: Recordings, fitted: Fitted, sized: bool = True) -> Si
         share = share if share > 0 or _two_sided(guess) else LEAST
         if abs(share) > NEAR:
             return first
-        return seen(guess.times(float(np.copysign(max(abs(share), LEAST), share)))) or first
+        return seen(_times(guess, float(np.copysign(max(abs(share), LEAST), share)))) or first
 
     found = [row for row in each(left, guesses) if row is not None]
     return Signatures(
@@ -157,6 +158,11 @@ def _beyond(change: Array, absorbed: Array) -> tuple[Array, float] | None:
     if size <= NOTHING * max(1.0, float(np.linalg.norm(change))):
         return None
     return left / size, size
+
+
+def _times(guess: Effect, share: float) -> Effect:
+    resized: Effect = physics.SEARCHES[type(guess)].times(guess, share)
+    return resized
 
 
 def _two_sided(effect: Effect) -> bool:

@@ -57,9 +57,6 @@ def _folder() -> Path:
     return Path(tempfile.gettempdir()) / f"rths-{os.getuid()}"
 
 
-numba.config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Kept.__name__}"  # type: ignore[attr-defined]
-
-
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a function that other compiled functions call."""
     return numba.njit(**_OPTIONS)(function)
@@ -67,7 +64,13 @@ def compiled(function: Callable[..., Any]) -> Any:
 
 def entry(function: Callable[..., Any]) -> Any:
     """Compile a function that Python calls; kept on disk."""
-    return numba.njit(cache=True, **_OPTIONS)(function)
+    config: Any = numba.config
+    others = config.CACHE_LOCATOR_CLASSES
+    config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Kept.__name__}"
+    try:
+        return numba.njit(cache=True, **_OPTIONS)(function)
+    finally:
+        config.CACHE_LOCATOR_CLASSES = others
 
 
 def fold(steps: Sequence[Callable[..., Any]]) -> Any:

@@ -8,7 +8,8 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import entry
-from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR, Effect, Seen
+from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR, Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.structures.assembled import Assembled
 from rths_engine.parts.structures.shear_building import ShearBuilding
 from rths_engine.running.dispatch import effects, extend_actuator, extend_sensor, extend_specimen, extend_storey

@@ -16,7 +16,8 @@ from rths_engine.foundation.errors import PlanError
 from rths_engine.foundation.part import Value, validated
 from rths_engine.parts import physics, specimens
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
-from rths_engine.parts.physics.effect import F_SENSOR, GROUND, MATRICES, PART, X_SENSOR, Effect, Seen
+from rths_engine.parts.physics.effect import F_SENSOR, GROUND, MATRICES, PART, X_SENSOR, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.running import replay
 from tests.engine.effects import CURRENT, DT, PATH, SEEN, building, signals, streamed
 
@@ -30,13 +31,18 @@ NAMES = {
     " bouc_wen_hysteresis pinching gap_contact p_delta base_flexibility stiffness_drop",
     "INPUT": "scale_error time_shift low_pass baseline_drift",
 }
-GUESSES = [guess for kind in physics.KINDS for guess in kind.guesses(SEEN)]
+SEARCHES = [physics.SEARCHES[kind] for kind in physics.KINDS]
+GUESSES: list[Effect] = [guess for search in SEARCHES for guess in search.guesses(SEEN)]
 UNITS = r"(%|\bm?m\b|kN|\bkg\b|\bm?s\b|Hz|MJ|/s\b|by the power)"
 BEFORE = (PART, MATRICES, GROUND)
 
 
 def named(guess: Effect) -> str:
     return f"{type(guess).__module__.rsplit('.', 2)[1]}-{guess.kind}"  # type: ignore[attr-defined]
+
+
+def says(effect: Effect) -> str:
+    return physics.SEARCHES[type(effect)].says(effect)
 
 
 def of(hook: int) -> Any:
@@ -80,7 +86,7 @@ def test_an_effect_vanishes_at_its_neutral_values(guess: Effect) -> None:
 
 @pytest.mark.parametrize("kind", physics.SPECIMEN, ids=lambda kind: kind.model_fields["kind"].default)
 def test_every_specimen_stays_itself_beside_a_neutral_effect(kind: type[Effect]) -> None:
-    neutral = next(iter(kind.guesses(SEEN))).model_copy(update=dict(kind.neutral))
+    neutral = next(iter(physics.SEARCHES[kind].guesses(SEEN))).model_copy(update=dict(kind.neutral))
     for part in (specimen() for specimen in specimens.KINDS):
         plain = replay.specimen(part, [], PATH, CURRENT, DT)
         np.testing.assert_allclose(replay.specimen(part, [neutral], PATH, CURRENT, DT), plain, rtol=1e-12, atol=1e-9)
@@ -93,41 +99,44 @@ def test_an_effect_changes_something_at_each_of_its_guesses(guess: Effect) -> No
     assert len(after) != len(before) or (np.abs(after - before) > 1e-6 * np.abs(after)).any()
 
 
-@pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
-def test_an_effect_is_looked_for_from_few_sizes_and_moments(kind: type[Effect]) -> None:
-    moments = {getattr(guess, "time", 0.0) for guess in kind.guesses(SEEN)}
-    assert 1 <= len(moments) <= 8 and len(moments) <= len(list(kind.guesses(SEEN))) <= 4 * len(moments)
+@pytest.mark.parametrize("search", SEARCHES, ids=lambda search: search.effect.__name__)
+def test_an_effect_is_looked_for_from_few_sizes_and_moments(search: Search[Effect]) -> None:
+    guesses = list(search.guesses(SEEN))
+    moments = {getattr(guess, "time", 0.0) for guess in guesses}
+    assert 1 <= len(moments) <= 8 and len(moments) <= len(guesses) <= 4 * len(moments)
 
 
-@pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
-def test_guesses_keep_their_bounds_whatever_was_seen(kind: type[Effect]) -> None:
+@pytest.mark.parametrize("search", SEARCHES, ids=lambda search: search.effect.__name__)
+def test_guesses_keep_their_bounds_whatever_was_seen(search: Search[Effect]) -> None:
     for size in (0.0, 1e-30, 1e30):
-        for guess in kind.guesses(Seen(size, size, 1 / max(size, 1e-30), size, size, DT)):
-            assert kind.model_validate(guess.model_dump()) == guess
-            assert guess.says()
+        for guess in search.guesses(Seen(size, size, 1 / max(size, 1e-30), size, size, DT)):
+            assert search.effect.model_validate(guess.model_dump()) == guess
+            assert search.says(guess)
 
 
 @pytest.mark.parametrize("guess", GUESSES, ids=named)
 def test_the_sentence_says_size_and_unit_and_what_was_left_out(guess: Effect) -> None:
-    sentence = f"The first one {guess.says()}: {guess.noun} was left out."
-    assert re.search(rf"\d.*{UNITS}|{UNITS}.*\d", guess.says()), sentence
-    assert "e+" not in sentence and "  " not in sentence and guess.says()[0].islower() and not guess.says().endswith(".")
+    middle = says(guess)
+    sentence = f"The first one {middle}: {physics.SEARCHES[type(guess)].noun} was left out."
+    assert re.search(rf"\d.*{UNITS}|{UNITS}.*\d", middle), sentence
+    assert "e+" not in sentence and "  " not in sentence and middle[0].islower() and not middle.endswith(".")
 
 
 @pytest.mark.parametrize("guess", [guess for guess in GUESSES if hasattr(guess, "time")], ids=named)
 def test_the_sentence_of_an_event_says_when(guess: Effect) -> None:
-    assert f"{guess.time:.3g} s" in guess.says()  # type: ignore[attr-defined]
+    assert f"{guess.time:.3g} s" in says(guess)  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
 def test_an_effect_declares_its_equation_and_label_unit_and_bounds_of_each_number(kind: type[Effect]) -> None:
-    assert kind.title and kind.noun and kind.needs and re.search(r"[=<+]|K|M", (kind.__doc__ or "").splitlines()[0])
+    search = physics.SEARCHES[kind]
+    assert kind.title and search.noun and search.needs and re.search(r"[=<+]|K|M", (kind.__doc__ or "").splitlines()[0])
     for name, field in kind.model_json_schema()["properties"].items():
         assert field["title"]
         if name not in ("kind", "channel", "side"):
             assert {"unit", "shown", "factor"} <= field.keys()
             assert {"maximum"} <= field.keys() and {"minimum", "exclusiveMinimum"} & field.keys()
-    assert set(kind.neutral) | set(kind.held) <= set(kind.model_fields)
+    assert set(kind.neutral) | {*search.held, *search.otherwise} <= set(kind.model_fields)
 
 
 def test_titles_differ_and_relatives_are_effects() -> None:
@@ -135,7 +144,12 @@ def test_titles_differ_and_relatives_are_effects() -> None:
         titles = [kind.title for kind in getattr(physics, registry)]
         assert len(set(titles)) == len(titles)
     known = {kind.model_fields["kind"].default for kind in physics.KINDS}
-    assert all(set(kind.relatives) <= known for kind in physics.KINDS)
+    assert all(set(search.relatives) <= known for search in SEARCHES)
+
+
+def test_a_law_knows_nothing_of_the_search_for_it() -> None:
+    own = {name for name in vars(Search) if not name.startswith("_")}
+    assert own and not [(kind, name) for kind in physics.KINDS for name in own & set(dir(kind))]
 
 
 @pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)

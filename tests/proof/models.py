@@ -14,7 +14,8 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
 from rths_engine.parts.integrators.cr import CrIntegrator
-from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.effect import GROUND, Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.structure.damping_error import DampingError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import drift

@@ -15,6 +15,7 @@ from scipy.optimize import least_squares
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
+from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from tests.proof.generator.noise import TRUSTED, Colour
 from tests.proof.models import Case, model
@@ -94,7 +95,8 @@ class Oracle:
     def guess(self, kind: type[Effect], component: str) -> Effect:
         """The guess nearest to the true output."""
         place = component.partition(":")[2]
-        guesses = list(kind.guesses(self.model.seen(int(place) if component.startswith("structure:") else 1)))
+        seen = self.model.seen(int(place) if component.startswith("structure:") else 1)
+        guesses: list[Effect] = list(physics.SEARCHES[kind].guesses(seen))
         if len(guesses) == 1:
             return guesses[0]
         return min(
@@ -103,7 +105,7 @@ class Oracle:
 
     def rivals(self) -> list[Effect]:
         (told,) = self.case.truth["effects"]
-        names = type(self.started(told)).relatives
+        names = physics.SEARCHES[type(self.started(told))].relatives
         kinds = [one for one in self.model.rivals if one.model_fields["kind"].default in names]
         return [self.guess(kind, told["component"]) for kind in kinds]
 
@@ -140,8 +142,9 @@ def _numbers(parts: tuple[Part, ...], base: int) -> list[tuple[int, str, float, 
     """Of every number that moves: its part's place, name, value, and the scale of its change."""
     found = []
     for place, part in enumerate(parts):
+        held = physics.SEARCHES[type(part)].held if isinstance(part, Effect) else ()
         for name, field in type(part).model_fields.items():
-            if field.annotation is float and name not in (*getattr(part, "held", ()), "velocity_limit", "force_limit"):
+            if field.annotation is float and name not in (*held, "velocity_limit", "force_limit"):
                 value = float(getattr(part, name))
                 found.append((place, name, value, abs(value) or (1.0 if place < base else 1e-3)))
             elif name == "velocity_limit" and isinstance(part, Effect):
@@ -152,6 +155,6 @@ def _numbers(parts: tuple[Part, ...], base: int) -> list[tuple[int, str, float, 
 def _changed(part: Any, change: dict[str, float]) -> Any:
     """Within the bounds of an effect; a planned number that is zero stays so."""
     if isinstance(part, Effect) and not change.keys() - type(part).model_fields.keys():
-        sized = type(part).sized(**{name: float(value) for name, value in change.items()})
+        sized = physics.SEARCHES[type(part)].sized(**{name: float(value) for name, value in change.items()})
         return part.model_copy(update={name: getattr(sized, name) for name in change})
     return part.model_copy(update={name: value for name, value in change.items() if getattr(part, name)})

@@ -10,12 +10,13 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.signal import detrend
 
-from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal, guessed
 from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
-from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import OfDisplacement
 from rths_engine.running import replay
 
@@ -75,10 +76,7 @@ class Actuator(Component):
         return replay.actuator(parts[0], parts[1:], data.command, data.load, data.dt, data.start)
 
     def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
-        seen = data.seen()
-        for kind in (*physics.ACTUATOR, *SENSORS):
-            if data.force is not None or "f_meas" not in kind.needs:
-                yield from kind.guesses(seen)
+        yield from guessed((*physics.ACTUATOR, *SENSORS), data.seen(), lacking="f_meas" if data.force is None else "")
 
     def features(self, parts: Sequence[Any], data: ActuatorData) -> list[Feature]:
         terms = of_motion(data.command, data.velocity, data.dt, data.velocity if data.force is None else data.force)

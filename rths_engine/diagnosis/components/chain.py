@@ -9,13 +9,13 @@ from typing import Any, ClassVar
 import numpy as np
 
 from rths_engine.diagnosis.components.actuator import TOLERANCE, ActuatorData
-from rths_engine.diagnosis.components.component import Component, Feature, Signal
+from rths_engine.diagnosis.components.component import Component, Feature, Signal, guessed
 from rths_engine.diagnosis.components.features import of_motion, of_position
 from rths_engine.diagnosis.components.specimen import SENSORS, SPREADS, pressed, settled
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
-from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.effect import Effect
 from rths_engine.running import replay
 
 
@@ -46,10 +46,7 @@ class Chain(Component):
             settled(*_between(parts, one), one)
 
     def hypotheses(self, data: ChainData) -> Iterator[Effect]:
-        seen: Seen = data.seen()
-        for kind in (*physics.ACTUATOR, *physics.SPECIMEN, *SENSORS):
-            if "current" not in kind.needs:
-                yield from kind.guesses(seen)
+        yield from guessed((*physics.ACTUATOR, *physics.SPECIMEN, *SENSORS), data.seen(), lacking="current")
 
     def features(self, parts: Sequence[Any], data: ChainData) -> list[Feature]:
         terms = of_motion(data.command, data.velocity, data.dt, data.load)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
@@ -14,7 +14,9 @@ from scipy.interpolate import CubicSpline
 from rths_engine.diagnosis.band import Band
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
-from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import Reading
 
 REPLAY_RATE = 1024.0  # Hz
@@ -175,6 +177,13 @@ class Component(ABC):
         if isinstance(effect, Reading):
             return f"sensor:{effect.channel}.{self.station}"  # type: ignore[attr-defined]
         return self.name
+
+
+def guessed(kinds: Iterable[type[Effect]], seen: Seen, lacking: str = "") -> Iterator[Effect]:
+    """Every effect of the kinds at its guesses, but for those that need the role `lacking`."""
+    for search in (physics.SEARCHES[kind] for kind in kinds):
+        if lacking not in search.needs:
+            yield from search.guesses(seen)
 
 
 def key(effect: Part) -> tuple[type[Part], int]:

@@ -10,13 +10,14 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal, guessed
 from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
 from rths_engine.diagnosis.smoother import Smoother
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
-from rths_engine.parts.physics.effect import Effect, Seen
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import OfForce
 from rths_engine.running import replay
 
@@ -143,11 +144,8 @@ class Specimen(Component):
             settled(parts, one.smooth, one.current, one)
 
     def hypotheses(self, data: SpecimenData) -> Iterator[Effect]:
-        seen = data.seen()
         varies = np.ptp(data.current) > 0
-        for kind in (*physics.SPECIMEN, *SENSORS):
-            if varies or "current" not in kind.needs:
-                yield from kind.guesses(seen)
+        yield from guessed((*physics.SPECIMEN, *SENSORS), data.seen(), lacking="" if varies else "current")
 
     def features(self, parts: Sequence[Any], data: SpecimenData) -> list[Feature]:
         terms = of_motion(data.smooth, data.velocity, data.dt, data.force)

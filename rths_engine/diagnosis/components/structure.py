@@ -11,13 +11,14 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh
 
-from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal, guessed
 from rths_engine.diagnosis.components.features import of_motion
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
 from rths_engine.parts.integrators.cr import CrIntegrator
-from rths_engine.parts.physics.effect import GROUND, MATRICES, Effect, Seen
+from rths_engine.parts.physics.effect import GROUND, MATRICES, Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.structure.damping_error import DampingError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
@@ -192,12 +193,9 @@ class Structure(Component):
 
     def hypotheses(self, data: StructureData) -> Iterator[Effect]:
         for seen in self.seen(data):
-            for kind in physics.STRUCTURE:
-                if issubclass(kind, OfStorey) or seen.storey == 1:
-                    yield from kind.guesses(seen)
+            yield from guessed((kind for kind in physics.STRUCTURE if issubclass(kind, OfStorey) or seen.storey == 1), seen)
             if seen.storey == 1 and data.ground.any():
-                for ground in physics.INPUT:
-                    yield from ground.guesses(seen)
+                yield from guessed(physics.INPUT, seen)
 
     def features(self, parts: Sequence[Any], data: StructureData) -> list[Feature]:
         plain = self.motion(parts, data)

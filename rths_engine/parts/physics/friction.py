@@ -6,8 +6,6 @@ import math
 
 from rths_engine.foundation.kernel import compiled
 
-PRESLIDING = 0.02  # of the stroke: friction that builds up over more is rather a hysteresis of its own
-
 
 @compiled
 def bristle(z, moved):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, Self
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from rths_engine.diagnosis.noise import Noise
 from rths_engine.diagnosis.select import Selection
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 
 DT = 0.01  # s: 100 Hz is below the rate of the analysis, so that the band passes the signals unchanged
 SAMPLES = 600
@@ -60,21 +62,29 @@ class Wave(Effect):
     title: ClassVar[str] = "Wave"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"size": 0.0}
-    noun: ClassVar[str] = "a wave"
 
     @property
     def id(self) -> str:
         return f"wave_{self.storey}"
 
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(size=0.3, storey=seen.storey)
-
-    def says(self) -> str:
-        return f"adds a wave of {self.size:.3g}"
-
     def output(self, x: Array) -> Array:
         return self.size * SHAPES[self.storey - 1](x)
+
+
+class WaveSearch(Search[Wave]):
+    """In each place on its own."""
+
+    needs = ("x_meas", "f_meas")
+    noun = "a wave"
+
+    def guesses(self, seen: Seen) -> Iterator[Wave]:
+        yield Wave(size=0.3, storey=seen.storey)
+
+    def says(self, effect: Wave) -> str:
+        return f"adds a wave of {effect.size:.3g}"
+
+
+physics.SEARCHES[Wave] = WaveSearch(Wave)
 
 
 @dataclass(frozen=True)

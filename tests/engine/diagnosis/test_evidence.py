@@ -11,7 +11,7 @@ from rths_engine.diagnosis.components import Specimen
 from rths_engine.diagnosis.evidence import MATERIAL, STRONG, probabilities, tempering, weighed
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.free import numbers
-from rths_engine.parts.physics.effect import Seen
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.specimen.coulomb_friction import CoulombFriction
 from rths_engine.parts.specimens.linear import LinearSpecimen
 from tests.engine.diagnosis.made import Gain, Wave, linear

@@ -9,6 +9,7 @@ import pytest
 
 from rths_engine.diagnosis.components import ClockSkew, Specimen, StepError
 from rths_engine.diagnosis.free import SMALLEST, moved, numbers, vector
+from rths_engine.parts import physics
 from rths_engine.parts.physics.specimen.backlash import Backlash
 from rths_engine.parts.physics.specimen.bouc_wen_hysteresis import BoucWenHysteresis
 from rths_engine.parts.specimens.linear import LinearSpecimen
@@ -36,7 +37,7 @@ def test_what_is_loose_and_planned_effects_are_free_from_zero() -> None:
 
 def test_numbers_that_an_effect_holds_are_not_moved() -> None:
     hysteresis = BoucWenHysteresis(strength=1e3, yield_displacement=1e-3)
-    held = set(BoucWenHysteresis.held)
+    held = set(physics.SEARCHES[BoucWenHysteresis].held)
     assert held
     free = {one.field for one in numbers(Specimen("specimen:1", (SPRING,)), [SPRING, hysteresis]) if one.owner == 1}
     assert free and not free & held

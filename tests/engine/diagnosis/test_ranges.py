@@ -13,7 +13,9 @@ from rths_engine.diagnosis.detect import null_misfits
 from rths_engine.diagnosis.fitting import fit
 from rths_engine.diagnosis.ranges import NORMAL_90, RISE, deviations, ranges
 from rths_engine.foundation.arrays import Array
-from tests.engine.diagnosis.made import Gain, Wave, linear, noisy, recordings
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect
+from tests.engine.diagnosis.made import Gain, Wave, WaveSearch, linear, noisy, recordings
 
 TRUE = [Gain(gain=2.1), Wave(size=0.3, storey=1)]
 
@@ -79,17 +81,21 @@ def test_an_interval_widens_with_the_root_of_the_temper() -> None:
     assert np.array(widths[1]) == pytest.approx(2 * np.array(widths[0]), rel=0.07)  # an end is found on a grid of a sixteenth
 
 
-def test_numbers_that_the_fit_holds_widen_the_others_by_what_they_may_as_well_be() -> None:
+def test_numbers_that_the_fit_holds_widen_the_others_by_what_they_may_as_well_be(monkeypatch: pytest.MonkeyPatch) -> None:
     """`otherwise` moves the held number by a known change d of the output: root of the squares of both."""
 
     class Held(Wave):
         shape: float = 1.0
-        held: ClassVar[tuple[str, ...]] = ("shape",)
-        otherwise: ClassVar[Mapping[str, float]] = {"shape": 1.1}
 
         def output(self, x: Array) -> Array:
             return self.shape * super().output(x)
 
+    class HeldSearch(WaveSearch):
+        held = ("shape",)
+        otherwise: ClassVar[Mapping[str, float]] = {"shape": 1.1}
+
+    kind: type[Effect] = Held
+    monkeypatch.setitem(physics.SEARCHES, kind, HeldSearch(Held))
     used = recordings(linear(), noisy(TRUE, 5))
     plain = fit(used, TRUE)
     held = [plain.parts[0], Held(size=plain.parts[1].size, storey=1)]  # type: ignore[attr-defined]

@@ -1,39 +1,33 @@
 """Left-out effects of an actuator."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+from rths_engine.parts.physics.actuator.amplitude_dependent_delay import AmplitudeDependentDelay, AmplitudeDependentDelaySearch
+from rths_engine.parts.physics.actuator.backlash import Backlash, BacklashSearch
+from rths_engine.parts.physics.actuator.dead_band import DeadBand, DeadBandSearch
+from rths_engine.parts.physics.actuator.delay_error import DelayError, DelayErrorSearch
+from rths_engine.parts.physics.actuator.force_compliance import ForceCompliance, ForceComplianceSearch
+from rths_engine.parts.physics.actuator.gain_error import GainError, GainErrorSearch
+from rths_engine.parts.physics.actuator.second_order_lag import SecondOrderLag, SecondOrderLagSearch
+from rths_engine.parts.physics.actuator.stick_friction import StickFriction, StickFrictionSearch
+from rths_engine.parts.physics.actuator.velocity_saturation import VelocitySaturation, VelocitySaturationSearch
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.registry import laws, union
+from rths_engine.parts.physics.search import Search
 
-from rths_engine.parts.physics.actuator.amplitude_dependent_delay import AmplitudeDependentDelay
-from rths_engine.parts.physics.actuator.backlash import Backlash
-from rths_engine.parts.physics.actuator.dead_band import DeadBand
-from rths_engine.parts.physics.actuator.delay_error import DelayError
-from rths_engine.parts.physics.actuator.force_compliance import ForceCompliance
-from rths_engine.parts.physics.actuator.gain_error import GainError
-from rths_engine.parts.physics.actuator.second_order_lag import SecondOrderLag
-from rths_engine.parts.physics.actuator.stick_friction import StickFriction
-from rths_engine.parts.physics.actuator.velocity_saturation import VelocitySaturation
-
-KINDS = (
-    DelayError,
-    AmplitudeDependentDelay,
-    SecondOrderLag,
-    VelocitySaturation,
-    ForceCompliance,
-    DeadBand,
-    Backlash,
-    StickFriction,
-    GainError,
+SEARCHES: tuple[Search[Any], ...] = (
+    DelayErrorSearch(DelayError),
+    AmplitudeDependentDelaySearch(AmplitudeDependentDelay),
+    SecondOrderLagSearch(SecondOrderLag),
+    VelocitySaturationSearch(VelocitySaturation),
+    ForceComplianceSearch(ForceCompliance),
+    DeadBandSearch(DeadBand),
+    BacklashSearch(Backlash),
+    StickFrictionSearch(StickFriction),
+    GainErrorSearch(GainError),
 )
-ActuatorEffect = Annotated[
-    DelayError
-    | AmplitudeDependentDelay
-    | SecondOrderLag
-    | VelocitySaturation
-    | ForceCompliance
-    | DeadBand
-    | Backlash
-    | StickFriction
-    | GainError,
-    Field(discriminator="kind"),
-]
+KINDS = laws(SEARCHES)
+if TYPE_CHECKING:
+    ActuatorEffect = Effect
+else:
+    ActuatorEffect = union(KINDS)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.delay import HEAD, delayed, ring
-from rths_engine.parts.physics.effect import COMMAND, Effect, Seen
+from rths_engine.parts.physics.effect import COMMAND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 LONGEST = 0.1  # s
@@ -32,18 +33,6 @@ class AmplitudeDependentDelay(Effect):
     title: ClassVar[str] = "Amplitude-dependent delay"
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"slope": 0.0}
-    held: ClassVar = ("memory",)
-    otherwise: ClassVar = {"memory": 1.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("delay_error", "velocity_saturation")
-    noun: ClassVar[str] = "a delay that grows with the amplitude"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(slope=0.01 / max(seen.x, 1e-6))
-
-    def says(self) -> str:
-        return f"follows its command later by {said(self.slope, 'ms/mm')} of amplitude"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         state = ring(LONGEST if self.slope > 0 else 0.0, dt)
@@ -54,3 +43,17 @@ class AmplitudeDependentDelay(Effect):
     def step(p, s, y, x, v, w, t, dt):
         s[0] = max(abs(y), p[2] * s[0])
         return delayed(s[1:], int(p[3]), y, min(p[0] * s[0], p[1]))
+
+
+class AmplitudeDependentDelaySearch(Search[AmplitudeDependentDelay]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("delay_error", "velocity_saturation")
+    held = ("memory",)
+    otherwise: ClassVar = {"memory": 1.0}
+    noun = "a delay that grows with the amplitude"
+
+    def guesses(self, seen: Seen) -> Iterator[AmplitudeDependentDelay]:
+        yield self.sized(slope=0.01 / max(seen.x, 1e-6))
+
+    def says(self, effect: AmplitudeDependentDelay) -> str:
+        return f"follows its command later by {said(effect.slope, 'ms/mm')} of amplitude"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import PISTON, Effect, Seen
+from rths_engine.parts.physics.effect import PISTON, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -27,17 +28,6 @@ class Backlash(Effect):
     title: ClassVar[str] = "Backlash of the actuator"
     hook: ClassVar[int] = PISTON
     neutral: ClassVar = {"gap": 0.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("dead_band", "stick_friction", "delay_error")
-    noun: ClassVar[str] = "backlash"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.01, 0.05):
-            yield cls.sized(gap=share * seen.x)
-
-    def says(self) -> str:
-        return f"rests over {said(self.gap, 'mm')} after each reversal"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([0.5 * self.gap]), np.zeros(2)
@@ -49,3 +39,16 @@ class Backlash(Effect):
             s[1] = 1.0
         s[0] = min(max(s[0], y - p[0]), y + p[0])
         return s[0]
+
+
+class BacklashSearch(Search[Backlash]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("dead_band", "stick_friction", "delay_error")
+    noun = "backlash"
+
+    def guesses(self, seen: Seen) -> Iterator[Backlash]:
+        for share in (0.01, 0.05):
+            yield self.sized(gap=share * seen.x)
+
+    def says(self, effect: Backlash) -> str:
+        return f"rests over {said(effect.gap, 'mm')} after each reversal"

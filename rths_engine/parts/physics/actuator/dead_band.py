@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import COMMAND, Effect, Seen
+from rths_engine.parts.physics.effect import COMMAND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,17 +27,6 @@ class DeadBand(Effect):
     title: ClassVar[str] = "Dead band"
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"half_width": 0.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("backlash", "stick_friction")
-    noun: ClassVar[str] = "a dead band"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.01, 0.05):
-            yield cls.sized(half_width=share * seen.x)
-
-    def says(self) -> str:
-        return f"does not react to errors below {said(self.half_width, 'mm')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.half_width]), np.zeros(1)
@@ -47,3 +37,16 @@ class DeadBand(Effect):
         if abs(error) <= p[0]:
             return x
         return y - p[0] if error > 0.0 else y + p[0]
+
+
+class DeadBandSearch(Search[DeadBand]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("backlash", "stick_friction")
+    noun = "a dead band"
+
+    def guesses(self, seen: Seen) -> Iterator[DeadBand]:
+        for share in (0.01, 0.05):
+            yield self.sized(half_width=share * seen.x)
+
+    def says(self, effect: DeadBand) -> str:
+        return f"does not react to errors below {said(effect.half_width, 'mm')}"

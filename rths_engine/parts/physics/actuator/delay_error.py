@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.delay import HEAD, delayed, ring
-from rths_engine.parts.physics.effect import COMMAND, Effect, Seen
+from rths_engine.parts.physics.effect import COMMAND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -28,17 +29,6 @@ class DelayError(Effect):
     title: ClassVar[str] = "Delay error"
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"delay": 0.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("second_order_lag", "amplitude_dependent_delay", "backlash")
-    noun: ClassVar[str] = "a delay error"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(delay=0.005)
-
-    def says(self) -> str:
-        way = "later" if self.delay >= 0 else "earlier"
-        return f"follows its command {said(abs(self.delay), 'ms')} {way} than its model"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         state = ring(self.delay, dt)
@@ -47,3 +37,16 @@ class DelayError(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return delayed(s, int(p[1]), y, p[0])
+
+
+class DelayErrorSearch(Search[DelayError]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("second_order_lag", "amplitude_dependent_delay", "backlash")
+    noun = "a delay error"
+
+    def guesses(self, seen: Seen) -> Iterator[DelayError]:
+        yield self.effect(delay=0.005)
+
+    def says(self, effect: DelayError) -> str:
+        way = "later" if effect.delay >= 0 else "earlier"
+        return f"follows its command {said(abs(effect.delay), 'ms')} {way} than its model"

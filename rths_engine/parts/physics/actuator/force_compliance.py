@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import PISTON, TINY, Effect, Seen
+from rths_engine.parts.physics.effect import PISTON, Effect
+from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -29,18 +30,6 @@ class ForceCompliance(Effect):
     title: ClassVar[str] = "Force compliance"
     hook: ClassVar[int] = PISTON
     neutral: ClassVar = {"flexibility": 0.0}
-    held: ClassVar = ("lag",)
-    needs: ClassVar = ("x_comp", "x_meas", "f_meas")
-    relatives: ClassVar = ("gain_error", "stick_friction")
-    noun: ClassVar[str] = "compliance under force"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.01, 0.05):
-            yield cls.sized(flexibility=share / max(seen.stiffness, TINY))
-
-    def says(self) -> str:
-        return f"gives way by {said(self.flexibility, 'mm/kN')} under the force on it"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.flexibility, -math.expm1(-dt / self.lag)]), np.zeros(1)
@@ -49,3 +38,17 @@ class ForceCompliance(Effect):
     def step(p, s, y, x, v, w, t, dt):
         s[0] += p[1] * (p[0] * w - s[0])
         return y - s[0]
+
+
+class ForceComplianceSearch(Search[ForceCompliance]):
+    needs = ("x_comp", "x_meas", "f_meas")
+    relatives = ("gain_error", "stick_friction")
+    held = ("lag",)
+    noun = "compliance under force"
+
+    def guesses(self, seen: Seen) -> Iterator[ForceCompliance]:
+        for share in (0.01, 0.05):
+            yield self.sized(flexibility=share / max(seen.stiffness, TINY))
+
+    def says(self, effect: ForceCompliance) -> str:
+        return f"gives way by {said(effect.flexibility, 'mm/kN')} under the force on it"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import PISTON, Effect, Seen
+from rths_engine.parts.physics.effect import PISTON, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -25,17 +26,6 @@ class GainError(Effect):
     title: ClassVar[str] = "Gain error"
     hook: ClassVar[int] = PISTON
     neutral: ClassVar = {"share": 0.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("force_compliance", "scale_error")
-    noun: ClassVar[str] = "a gain error"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(share=0.02)
-
-    def says(self) -> str:
-        way = "further" if self.share >= 0 else "less"
-        return f"moves {said(abs(self.share), '%')} {way} than commanded"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.share]), np.zeros(1)
@@ -43,3 +33,16 @@ class GainError(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return (1.0 + p[0]) * y
+
+
+class GainErrorSearch(Search[GainError]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("force_compliance", "scale_error")
+    noun = "a gain error"
+
+    def guesses(self, seen: Seen) -> Iterator[GainError]:
+        yield self.effect(share=0.02)
+
+    def says(self, effect: GainError) -> str:
+        way = "further" if effect.share >= 0 else "less"
+        return f"moves {said(abs(effect.share), '%')} {way} than commanded"

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 from scipy.linalg import expm
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import COMMAND, Effect, Seen
+from rths_engine.parts.physics.effect import COMMAND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 SHORT = 0.01  # of a substep: a shorter T does nothing
@@ -32,18 +33,6 @@ class SecondOrderLag(Effect):
     title: ClassVar[str] = "Second-order lag"
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"time_constant": 0.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("delay_error",)
-    noun: ClassVar[str] = "a second-order lag"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for frequency in (5.0, 15.0, 40.0):
-            yield cls(time_constant=1 / (2 * math.pi * frequency))
-
-    def says(self) -> str:
-        frequency = said(1 / (2 * math.pi * max(self.time_constant, 1e-9)), "Hz")
-        return f"passes its command through a further {frequency} with {said(self.damping_ratio, '%')} of critical damping"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         if self.time_constant < SHORT * dt:
@@ -65,3 +54,17 @@ class SecondOrderLag(Effect):
         s[0] = p[0] * lagging + p[1] * rate + p[2] * last + p[3] * increment
         s[1] = p[4] * lagging + p[5] * rate + p[6] * last + p[7] * increment
         return s[0]
+
+
+class SecondOrderLagSearch(Search[SecondOrderLag]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("delay_error",)
+    noun = "a second-order lag"
+
+    def guesses(self, seen: Seen) -> Iterator[SecondOrderLag]:
+        for frequency in (5.0, 15.0, 40.0):
+            yield self.effect(time_constant=1 / (2 * math.pi * frequency))
+
+    def says(self, effect: SecondOrderLag) -> str:
+        frequency = said(1 / (2 * math.pi * max(effect.time_constant, 1e-9)), "Hz")
+        return f"passes its command through a further {frequency} with {said(effect.damping_ratio, '%')} of critical damping"

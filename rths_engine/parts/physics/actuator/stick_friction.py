@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import PISTON, Effect, Seen
+from rths_engine.parts.physics.effect import PISTON, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -30,17 +31,6 @@ class StickFriction(Effect):
     title: ClassVar[str] = "Stick friction"
     hook: ClassVar[int] = PISTON
     neutral: ClassVar = {"breakaway": 0.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("backlash", "dead_band")
-    noun: ClassVar[str] = "stick friction"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.01, 0.05):
-            yield cls.sized(breakaway=share * seen.x)
-
-    def says(self) -> str:
-        return f"sticks at each reversal until it is {said(self.breakaway, 'mm')} behind"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.breakaway, math.exp(-dt / self.catching)]), np.zeros(6)
@@ -65,3 +55,16 @@ class StickFriction(Effect):
             return s[0]
         s[0] = y + s[3]
         return s[0]
+
+
+class StickFrictionSearch(Search[StickFriction]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("backlash", "dead_band")
+    noun = "stick friction"
+
+    def guesses(self, seen: Seen) -> Iterator[StickFriction]:
+        for share in (0.01, 0.05):
+            yield self.sized(breakaway=share * seen.x)
+
+    def says(self, effect: StickFriction) -> str:
+        return f"sticks at each reversal until it is {said(effect.breakaway, 'mm')} behind"

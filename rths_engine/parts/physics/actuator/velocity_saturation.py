@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
-from rths_engine.parts.physics.effect import PART, Effect, Seen
+from rths_engine.parts.physics.effect import PART, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,17 +27,6 @@ class VelocitySaturation(Effect):
     title: ClassVar[str] = "Velocity saturation"
     hook: ClassVar[int] = PART
     neutral: ClassVar = {"velocity_limit": 10.0}
-    needs: ClassVar = ("x_comp", "x_meas")
-    relatives: ClassVar = ("amplitude_dependent_delay", "delay_error")
-    noun: ClassVar[str] = "saturation of the velocity"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.6, 0.8, 0.95):
-            yield cls.sized(velocity_limit=share * seen.v)
-
-    def says(self) -> str:
-        return f"moves no faster than {said(self.velocity_limit, 'mm/s')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -44,3 +34,16 @@ class VelocitySaturation(Effect):
     def amended(self, part: Part) -> Part:
         limit = getattr(part, "velocity_limit", None)
         return part if limit is None else part.model_copy(update={"velocity_limit": min(limit, self.velocity_limit)})
+
+
+class VelocitySaturationSearch(Search[VelocitySaturation]):
+    needs = ("x_comp", "x_meas")
+    relatives = ("amplitude_dependent_delay", "delay_error")
+    noun = "saturation of the velocity"
+
+    def guesses(self, seen: Seen) -> Iterator[VelocitySaturation]:
+        for share in (0.6, 0.8, 0.95):
+            yield self.sized(velocity_limit=share * seen.v)
+
+    def says(self, effect: VelocitySaturation) -> str:
+        return f"moves no faster than {said(effect.velocity_limit, 'mm/s')}"

@@ -1,18 +1,23 @@
 """Left-out effects of the ground motion."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.input.baseline_drift import BaselineDrift, BaselineDriftSearch
+from rths_engine.parts.physics.input.low_pass import LowPass, LowPassSearch
+from rths_engine.parts.physics.input.scale_error import GroundScaleError, GroundScaleErrorSearch
+from rths_engine.parts.physics.input.time_shift import TimeShift, TimeShiftSearch
+from rths_engine.parts.physics.registry import laws, union
+from rths_engine.parts.physics.search import Search
 
-from rths_engine.parts.physics.input.baseline_drift import BaselineDrift
-from rths_engine.parts.physics.input.low_pass import LowPass
-from rths_engine.parts.physics.input.scale_error import GroundScaleError
-from rths_engine.parts.physics.input.time_shift import TimeShift
-
-KINDS = (
-    GroundScaleError,
-    TimeShift,
-    LowPass,
-    BaselineDrift,
+SEARCHES: tuple[Search[Any], ...] = (
+    GroundScaleErrorSearch(GroundScaleError),
+    TimeShiftSearch(TimeShift),
+    LowPassSearch(LowPass),
+    BaselineDriftSearch(BaselineDrift),
 )
-InputEffect = Annotated[GroundScaleError | TimeShift | LowPass | BaselineDrift, Field(discriminator="kind")]
+KINDS = laws(SEARCHES)
+if TYPE_CHECKING:
+    InputEffect = Effect
+else:
+    InputEffect = union(KINDS)

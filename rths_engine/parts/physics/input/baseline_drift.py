@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.effect import GROUND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,21 +27,23 @@ class BaselineDrift(Effect):
     title: ClassVar[str] = "Baseline drift of the ground motion"
     hook: ClassVar[int] = GROUND
     neutral: ClassVar = {"offset": 0.0, "rate": 0.0}
-    needs: ClassVar = ("ag",)
-    relatives: ClassVar = ("scale_error",)
-    noun: ClassVar[str] = "a drift of the baseline"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        size = 0.02 * seen.acceleration
-        yield cls.sized(offset=size)
-        yield cls.sized(rate=size / max(seen.time, seen.dt))
-
-    def says(self) -> str:
-        return f"has a baseline off by {said(self.offset, 'mm/s^2')} that drifts by {said(self.rate, 'mm/s^3')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
 
     def shaken(self, ground: Array, dt: float) -> Array:
         return ground + self.offset + self.rate * dt * np.arange(len(ground))
+
+
+class BaselineDriftSearch(Search[BaselineDrift]):
+    needs = ("ag",)
+    relatives = ("scale_error",)
+    noun = "a drift of the baseline"
+
+    def guesses(self, seen: Seen) -> Iterator[BaselineDrift]:
+        size = 0.02 * seen.acceleration
+        yield self.sized(offset=size)
+        yield self.sized(rate=size / max(seen.time, seen.dt))
+
+    def says(self, effect: BaselineDrift) -> str:
+        return f"has a baseline off by {said(effect.offset, 'mm/s^2')} that drifts by {said(effect.rate, 'mm/s^3')}"

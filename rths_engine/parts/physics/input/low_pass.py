@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.effect import GROUND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,18 +27,6 @@ class LowPass(Effect):
     title: ClassVar[str] = "Low-pass of the ground motion"
     hook: ClassVar[int] = GROUND
     neutral: ClassVar = {"time_constant": 0.0}
-    needs: ClassVar = ("ag",)
-    relatives: ClassVar = ("scale_error", "time_shift")
-    noun: ClassVar[str] = "a low-pass of the ground motion"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for frequency in (3.0, 15.0):
-            yield cls(time_constant=1 / (2 * math.pi * frequency))
-
-    def says(self) -> str:
-        corner = said(1 / (2 * math.pi * max(self.time_constant, 1e-9)), "Hz")
-        return f"has lost half its power at {corner} and more above"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -53,3 +42,17 @@ class LowPass(Effect):
 
         passed: Array = lfilter(numerator, [1.0, -decay], ground)
         return passed
+
+
+class LowPassSearch(Search[LowPass]):
+    needs = ("ag",)
+    relatives = ("scale_error", "time_shift")
+    noun = "a low-pass of the ground motion"
+
+    def guesses(self, seen: Seen) -> Iterator[LowPass]:
+        for frequency in (3.0, 15.0):
+            yield self.effect(time_constant=1 / (2 * math.pi * frequency))
+
+    def says(self, effect: LowPass) -> str:
+        corner = said(1 / (2 * math.pi * max(effect.time_constant, 1e-9)), "Hz")
+        return f"has lost half its power at {corner} and more above"

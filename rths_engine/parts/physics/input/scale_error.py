@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.effect import GROUND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -24,19 +25,21 @@ class GroundScaleError(Effect):
     title: ClassVar[str] = "Scale error of the ground motion"
     hook: ClassVar[int] = GROUND
     neutral: ClassVar = {"share": 0.0}
-    needs: ClassVar = ("ag",)
-    relatives: ClassVar = ("low_pass",)
-    noun: ClassVar[str] = "a scale error of the ground motion"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(share=0.05)
-
-    def says(self) -> str:
-        return f"is {said(abs(self.share), '%')} {'stronger' if self.share >= 0 else 'weaker'} than recorded"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
 
     def shaken(self, ground: Array, dt: float) -> Array:
         return (1 + self.share) * ground
+
+
+class GroundScaleErrorSearch(Search[GroundScaleError]):
+    needs = ("ag",)
+    relatives = ("low_pass",)
+    noun = "a scale error of the ground motion"
+
+    def guesses(self, seen: Seen) -> Iterator[GroundScaleError]:
+        yield self.effect(share=0.05)
+
+    def says(self, effect: GroundScaleError) -> str:
+        return f"is {said(abs(effect.share), '%')} {'stronger' if effect.share >= 0 else 'weaker'} than recorded"

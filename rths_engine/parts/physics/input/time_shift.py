@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import GROUND, Effect, Seen
+from rths_engine.parts.physics.effect import GROUND, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -25,16 +26,6 @@ class TimeShift(Effect):
     title: ClassVar[str] = "Time shift of the ground motion"
     hook: ClassVar[int] = GROUND
     neutral: ClassVar = {"delay": 0.0}
-    needs: ClassVar = ("ag",)
-    relatives: ClassVar = ("low_pass",)
-    noun: ClassVar[str] = "a time shift of the ground motion"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(delay=0.01)
-
-    def says(self) -> str:
-        return f"comes {said(abs(self.delay), 'ms')} {'later' if self.delay >= 0 else 'earlier'} than recorded"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -43,3 +34,15 @@ class TimeShift(Effect):
         time = dt * np.arange(len(ground))
         shifted: Array = np.interp(time - self.delay, time, ground)
         return shifted
+
+
+class TimeShiftSearch(Search[TimeShift]):
+    needs = ("ag",)
+    relatives = ("low_pass",)
+    noun = "a time shift of the ground motion"
+
+    def guesses(self, seen: Seen) -> Iterator[TimeShift]:
+        yield self.effect(delay=0.01)
+
+    def says(self, effect: TimeShift) -> str:
+        return f"comes {said(abs(effect.delay), 'ms')} {'later' if effect.delay >= 0 else 'earlier'} than recorded"

@@ -1,34 +1,33 @@
 """Left-out effects of a sensor, each for either channel."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.registry import laws, union
+from rths_engine.parts.physics.search import Search
+from rths_engine.parts.physics.sensor.clipping import ClippingSearch, DisplacementClipping, ForceClipping
+from rths_engine.parts.physics.sensor.drift import DisplacementDrift, DriftSearch, ForceDrift
+from rths_engine.parts.physics.sensor.dropout import DisplacementDropout, DropoutSearch, ForceDropout
+from rths_engine.parts.physics.sensor.offset import DisplacementOffset, ForceOffset, OffsetSearch
+from rths_engine.parts.physics.sensor.scale_error import DisplacementScaleError, ForceScaleError, ScaleErrorSearch
+from rths_engine.parts.physics.sensor.time_skew import DisplacementTimeSkew, ForceTimeSkew, TimeSkewSearch
 
-from rths_engine.parts.physics.sensor.clipping import DisplacementClipping, ForceClipping
-from rths_engine.parts.physics.sensor.drift import DisplacementDrift, ForceDrift
-from rths_engine.parts.physics.sensor.dropout import DisplacementDropout, ForceDropout
-from rths_engine.parts.physics.sensor.offset import DisplacementOffset, ForceOffset
-from rths_engine.parts.physics.sensor.scale_error import DisplacementScaleError, ForceScaleError
-from rths_engine.parts.physics.sensor.time_skew import DisplacementTimeSkew, ForceTimeSkew
-
-KINDS = (
-    DisplacementOffset,
-    ForceOffset,
-    DisplacementDrift,
-    ForceDrift,
-    DisplacementScaleError,
-    ForceScaleError,
-    DisplacementTimeSkew,
-    ForceTimeSkew,
-    DisplacementClipping,
-    ForceClipping,
-    DisplacementDropout,
-    ForceDropout,
+SEARCHES: tuple[Search[Any], ...] = (
+    OffsetSearch(DisplacementOffset),
+    OffsetSearch(ForceOffset),
+    DriftSearch(DisplacementDrift),
+    DriftSearch(ForceDrift),
+    ScaleErrorSearch(DisplacementScaleError),
+    ScaleErrorSearch(ForceScaleError),
+    TimeSkewSearch(DisplacementTimeSkew),
+    TimeSkewSearch(ForceTimeSkew),
+    ClippingSearch(DisplacementClipping),
+    ClippingSearch(ForceClipping),
+    DropoutSearch(DisplacementDropout),
+    DropoutSearch(ForceDropout),
 )
-Offset = Annotated[DisplacementOffset | ForceOffset, Field(discriminator="channel")]
-Drift = Annotated[DisplacementDrift | ForceDrift, Field(discriminator="channel")]
-ScaleError = Annotated[DisplacementScaleError | ForceScaleError, Field(discriminator="channel")]
-TimeSkew = Annotated[DisplacementTimeSkew | ForceTimeSkew, Field(discriminator="channel")]
-Clipping = Annotated[DisplacementClipping | ForceClipping, Field(discriminator="channel")]
-Dropout = Annotated[DisplacementDropout | ForceDropout, Field(discriminator="channel")]
-SensorEffect = Annotated[Offset | Drift | ScaleError | TimeSkew | Clipping | Dropout, Field(discriminator="kind")]
+KINDS = laws(SEARCHES)
+if TYPE_CHECKING:
+    SensorEffect = Effect
+else:
+    SensorEffect = union(KINDS)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, TypeVar
 
 from pydantic import Field
 
-from rths_engine.parts.physics.effect import F_SENSOR, X_SENSOR, Effect, Seen
+from rths_engine.parts.physics.effect import F_SENSOR, X_SENSOR, Effect
+from rths_engine.parts.physics.search import Search, Seen
 
 CALIBRATED = 2 * math.log(3)  # of BIC: odds of three to one against
 
@@ -15,28 +16,12 @@ CALIBRATED = 2 * math.log(3)  # of BIC: odds of three to one against
 class Reading(Effect):
     """y = w: an effect of a sensor, for the displacement and for the force as a kind each, with its own units."""
 
-    shown: ClassVar[str]  # unit of the reading
-
-    def doubt(self, seen: Seen) -> float:
-        """An actuator that answers otherwise often reads the same; the sensor was calibrated before the test."""
-        return CALIBRATED
-
-    @staticmethod
-    def largest(seen: Seen) -> float:
-        raise NotImplementedError
-
 
 class OfDisplacement(Reading):
     """y = x_meas"""
 
     channel: Literal["x_meas"] = Field("x_meas", title="Channel")
     hook: ClassVar[int] = X_SENSOR
-    needs: ClassVar = ("x_meas",)
-    shown: ClassVar[str] = "mm"
-
-    @staticmethod
-    def largest(seen: Seen) -> float:
-        return seen.x
 
 
 class OfForce(Reading):
@@ -44,9 +29,22 @@ class OfForce(Reading):
 
     channel: Literal["f_meas"] = Field("f_meas", title="Channel")
     hook: ClassVar[int] = F_SENSOR
-    needs: ClassVar = ("f_meas",)
-    shown: ClassVar[str] = "kN"
 
-    @staticmethod
-    def largest(seen: Seen) -> float:
-        return seen.f
+
+R = TypeVar("R", bound=Reading)
+
+
+class ReadingSearch(Search[R]):
+    """In the reading that the law is of, shown in the unit `shown`."""
+
+    def __init__(self, effect: type[R]):
+        super().__init__(effect)
+        self.needs = (effect.model_fields["channel"].default,)
+        self.shown = "mm" if issubclass(effect, OfDisplacement) else "kN"
+
+    def doubt(self, effect: R, seen: Seen) -> float:
+        """An actuator that answers otherwise often reads the same; the sensor was calibrated before the test."""
+        return CALIBRATED
+
+    def largest(self, seen: Seen) -> float:
+        return seen.x if issubclass(self.effect, OfDisplacement) else seen.f

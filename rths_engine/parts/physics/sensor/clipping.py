@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading, ReadingSearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -23,16 +23,6 @@ class Clipping(Reading):
 
     kind: Literal["clipping"] = "clipping"
     limit: float
-    relatives: ClassVar = ("scale_error",)
-    noun: ClassVar[str] = "clipping of the sensor"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.7, 0.95):
-            yield cls.sized(limit=share * cls.largest(seen))
-
-    def says(self) -> str:
-        return f"reads no more than {said(self.limit, self.shown)}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.limit]), np.zeros(1)
@@ -56,3 +46,15 @@ class ForceClipping(OfForce, Clipping):
     limit: float = quantity("Limit L", "N", "kN", gt=0, le=1e12, default=1e12)
     title: ClassVar[str] = "Clipping of the load cell"
     neutral: ClassVar = {"limit": 1e12}
+
+
+class ClippingSearch(ReadingSearch[Clipping]):
+    relatives = ("scale_error",)
+    noun = "clipping of the sensor"
+
+    def guesses(self, seen: Seen) -> Iterator[Clipping]:
+        for share in (0.7, 0.95):
+            yield self.sized(limit=share * self.largest(seen))
+
+    def says(self, effect: Clipping) -> str:
+        return f"reads no more than {said(effect.limit, self.shown)}"

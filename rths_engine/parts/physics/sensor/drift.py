@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading, ReadingSearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -24,15 +24,6 @@ class Drift(Reading):
     kind: Literal["drift"] = "drift"
     rate: float
     neutral: ClassVar = {"rate": 0.0}
-    relatives: ClassVar = ("offset",)
-    noun: ClassVar[str] = "a drift of the sensor"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(rate=0.05 * cls.largest(seen) / max(seen.time, seen.dt))
-
-    def says(self) -> str:
-        return f"drifts by {said(self.rate, self.shown + '/s')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.rate]), np.zeros(1)
@@ -54,3 +45,14 @@ class ForceDrift(OfForce, Drift):
 
     rate: float = quantity("Rate r", "N/s", "kN/s", ge=-1e9, le=1e9, default=0.0)
     title: ClassVar[str] = "Drift of the load cell"
+
+
+class DriftSearch(ReadingSearch[Drift]):
+    relatives = ("offset",)
+    noun = "a drift of the sensor"
+
+    def guesses(self, seen: Seen) -> Iterator[Drift]:
+        yield self.sized(rate=0.05 * self.largest(seen) / max(seen.time, seen.dt))
+
+    def says(self, effect: Drift) -> str:
+        return f"drifts by {said(effect.rate, self.shown + '/s')}"

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
 from rths_engine.parts.physics.gate import past
-from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading, ReadingSearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,16 +26,6 @@ class Dropout(Reading):
     time: float = quantity("Begin t₀", "s", ge=0, le=1e5, default=0.0)
     duration: float = quantity("Duration D", "s", ge=0, le=1e5, default=0.0)
     neutral: ClassVar = {"duration": 0.0}
-    relatives: ClassVar = ("clipping",)
-    noun: ClassVar[str] = "a dropout of the sensor"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for part in (0.15, 0.35, 0.55, 0.75):
-            yield cls.sized(time=part * seen.time, duration=0.1 * seen.time)
-
-    def says(self) -> str:
-        return f"holds its reading from {said(self.time, 's')} for {said(self.duration, 's')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.time, self.time + self.duration]), np.zeros(1)
@@ -58,3 +48,15 @@ class ForceDropout(OfForce, Dropout):
     """f_meas(t) = f(t_0) for t_0 < t <= t_0 + D"""
 
     title: ClassVar[str] = "Dropout of the load cell"
+
+
+class DropoutSearch(ReadingSearch[Dropout]):
+    relatives = ("clipping",)
+    noun = "a dropout of the sensor"
+
+    def guesses(self, seen: Seen) -> Iterator[Dropout]:
+        for part in (0.15, 0.35, 0.55, 0.75):
+            yield self.sized(time=part * seen.time, duration=0.1 * seen.time)
+
+    def says(self, effect: Dropout) -> str:
+        return f"holds its reading from {said(effect.time, 's')} for {said(effect.duration, 's')}"

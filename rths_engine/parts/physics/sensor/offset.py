@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading, ReadingSearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -24,15 +24,6 @@ class Offset(Reading):
     kind: Literal["offset"] = "offset"
     error: float
     neutral: ClassVar = {"error": 0.0}
-    relatives: ClassVar = ("drift",)
-    noun: ClassVar[str] = "an offset of the sensor"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(error=0.02 * cls.largest(seen))
-
-    def says(self) -> str:
-        return f"reads {said(abs(self.error), self.shown)} too {'much' if self.error >= 0 else 'little'}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.error]), np.zeros(1)
@@ -54,3 +45,14 @@ class ForceOffset(OfForce, Offset):
 
     error: float = quantity("Offset o", "N", "kN", ge=-1e9, le=1e9, default=0.0)
     title: ClassVar[str] = "Offset of the load cell"
+
+
+class OffsetSearch(ReadingSearch[Offset]):
+    relatives = ("drift",)
+    noun = "an offset of the sensor"
+
+    def guesses(self, seen: Seen) -> Iterator[Offset]:
+        yield self.sized(error=0.02 * self.largest(seen))
+
+    def says(self, effect: Offset) -> str:
+        return f"reads {said(abs(effect.error), self.shown)} too {'much' if effect.error >= 0 else 'little'}"

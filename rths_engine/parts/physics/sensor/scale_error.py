@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading, ReadingSearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -24,15 +24,6 @@ class ScaleError(Reading):
     kind: Literal["scale_error"] = "scale_error"
     share: float = quantity("Scale error e", "1", "%", ge=-0.9, le=9, default=0.0)
     neutral: ClassVar = {"share": 0.0}
-    relatives: ClassVar = ("gain_error",)
-    noun: ClassVar[str] = "a scale error of the sensor"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(share=0.03)
-
-    def says(self) -> str:
-        return f"reads {said(abs(self.share), '%')} too {'much' if self.share >= 0 else 'little'}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.share]), np.zeros(1)
@@ -52,3 +43,14 @@ class ForceScaleError(OfForce, ScaleError):
     """f_meas = (1 + e) f"""
 
     title: ClassVar[str] = "Scale error of the load cell"
+
+
+class ScaleErrorSearch(ReadingSearch[ScaleError]):
+    relatives = ("gain_error",)
+    noun = "a scale error of the sensor"
+
+    def guesses(self, seen: Seen) -> Iterator[ScaleError]:
+        yield self.effect(share=0.03)
+
+    def says(self, effect: ScaleError) -> str:
+        return f"reads {said(abs(effect.share), '%')} too {'much' if effect.share >= 0 else 'little'}"

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.delay import HEAD, delayed, ring
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce, Reading, ReadingSearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,15 +26,6 @@ class TimeSkew(Reading):
     kind: Literal["time_skew"] = "time_skew"
     delay: float = quantity("Time skew T, positive where late", "s", "ms", ge=-0.1, le=0.2, default=0.0)
     neutral: ClassVar = {"delay": 0.0}
-    relatives: ClassVar = ("delay_error", "second_order_lag")
-    noun: ClassVar[str] = "a time skew of the sensor"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(delay=0.005)
-
-    def says(self) -> str:
-        return f"reads {said(abs(self.delay), 'ms')} {'late' if self.delay >= 0 else 'early'}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         state = ring(self.delay, dt)
@@ -55,3 +46,14 @@ class ForceTimeSkew(OfForce, TimeSkew):
     """f_meas(t) = f(t - T)"""
 
     title: ClassVar[str] = "Time skew of the load cell"
+
+
+class TimeSkewSearch(ReadingSearch[TimeSkew]):
+    relatives = ("delay_error", "second_order_lag")
+    noun = "a time skew of the sensor"
+
+    def guesses(self, seen: Seen) -> Iterator[TimeSkew]:
+        yield self.effect(delay=0.005)
+
+    def says(self, effect: TimeSkew) -> str:
+        return f"reads {said(abs(effect.delay), 'ms')} {'late' if effect.delay >= 0 else 'early'}"

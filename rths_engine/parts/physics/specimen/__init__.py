@@ -1,54 +1,43 @@
 """Left-out effects of a specimen."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.registry import laws, union
+from rths_engine.parts.physics.search import Search
+from rths_engine.parts.physics.specimen.added_inertia import AddedInertia, AddedInertiaSearch
+from rths_engine.parts.physics.specimen.asymmetry import Asymmetry, AsymmetrySearch
+from rths_engine.parts.physics.specimen.backlash import Backlash, BacklashSearch
+from rths_engine.parts.physics.specimen.bouc_wen_hysteresis import BoucWenHysteresis, BoucWenHysteresisSearch
+from rths_engine.parts.physics.specimen.coulomb_friction import CoulombFriction, CoulombFrictionSearch
+from rths_engine.parts.physics.specimen.cubic_stiffness import CubicStiffness, CubicStiffnessSearch
+from rths_engine.parts.physics.specimen.current_lag import CurrentLag, CurrentLagSearch
+from rths_engine.parts.physics.specimen.parallel_stiffness import ParallelStiffness, ParallelStiffnessSearch
+from rths_engine.parts.physics.specimen.pinching import Pinching, PinchingSearch
+from rths_engine.parts.physics.specimen.series_compliance import SeriesCompliance, SeriesComplianceSearch
+from rths_engine.parts.physics.specimen.strength_drop import StrengthDrop, StrengthDropSearch
+from rths_engine.parts.physics.specimen.stribeck_friction import StribeckFriction, StribeckFrictionSearch
+from rths_engine.parts.physics.specimen.velocity_exponent import VelocityExponent, VelocityExponentSearch
+from rths_engine.parts.physics.specimen.viscous_heating import ViscousHeating, ViscousHeatingSearch
 
-from rths_engine.parts.physics.specimen.added_inertia import AddedInertia
-from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
-from rths_engine.parts.physics.specimen.backlash import Backlash
-from rths_engine.parts.physics.specimen.bouc_wen_hysteresis import BoucWenHysteresis
-from rths_engine.parts.physics.specimen.coulomb_friction import CoulombFriction
-from rths_engine.parts.physics.specimen.cubic_stiffness import CubicStiffness
-from rths_engine.parts.physics.specimen.current_lag import CurrentLag
-from rths_engine.parts.physics.specimen.parallel_stiffness import ParallelStiffness
-from rths_engine.parts.physics.specimen.pinching import Pinching
-from rths_engine.parts.physics.specimen.series_compliance import SeriesCompliance
-from rths_engine.parts.physics.specimen.strength_drop import StrengthDrop
-from rths_engine.parts.physics.specimen.stribeck_friction import StribeckFriction
-from rths_engine.parts.physics.specimen.velocity_exponent import VelocityExponent
-from rths_engine.parts.physics.specimen.viscous_heating import ViscousHeating
-
-KINDS = (
-    CoulombFriction,
-    StribeckFriction,
-    Backlash,
-    ViscousHeating,
-    SeriesCompliance,
-    ParallelStiffness,
-    CubicStiffness,
-    AddedInertia,
-    Asymmetry,
-    VelocityExponent,
-    BoucWenHysteresis,
-    Pinching,
-    StrengthDrop,
-    CurrentLag,
+SEARCHES: tuple[Search[Any], ...] = (
+    CoulombFrictionSearch(CoulombFriction),
+    StribeckFrictionSearch(StribeckFriction),
+    BacklashSearch(Backlash),
+    ViscousHeatingSearch(ViscousHeating),
+    SeriesComplianceSearch(SeriesCompliance),
+    ParallelStiffnessSearch(ParallelStiffness),
+    CubicStiffnessSearch(CubicStiffness),
+    AddedInertiaSearch(AddedInertia),
+    AsymmetrySearch(Asymmetry),
+    VelocityExponentSearch(VelocityExponent),
+    BoucWenHysteresisSearch(BoucWenHysteresis),
+    PinchingSearch(Pinching),
+    StrengthDropSearch(StrengthDrop),
+    CurrentLagSearch(CurrentLag),
 )
-SpecimenEffect = Annotated[
-    CoulombFriction
-    | StribeckFriction
-    | Backlash
-    | ViscousHeating
-    | SeriesCompliance
-    | ParallelStiffness
-    | CubicStiffness
-    | AddedInertia
-    | Asymmetry
-    | VelocityExponent
-    | BoucWenHysteresis
-    | Pinching
-    | StrengthDrop
-    | CurrentLag,
-    Field(discriminator="kind"),
-]
+KINDS = laws(SEARCHES)
+if TYPE_CHECKING:
+    SpecimenEffect = Effect
+else:
+    SpecimenEffect = union(KINDS)

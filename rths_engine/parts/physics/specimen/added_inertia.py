@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,16 +27,6 @@ class AddedInertia(Effect):
     title: ClassVar[str] = "Added inertia"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"mass": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("parallel_stiffness",)
-    noun: ClassVar[str] = "the inertia of moving parts"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(mass=0.1 * seen.f / max(seen.acceleration, 1e-6))
-
-    def says(self) -> str:
-        return f"is measured together with {said(self.mass, 'kg')} of moving mass"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.mass]), np.zeros(3)
@@ -49,3 +40,15 @@ class AddedInertia(Effect):
         s[0] = x
         s[2] = min(s[2] + 1.0, 2.0)
         return y + p[0] * acceleration
+
+
+class AddedInertiaSearch(Search[AddedInertia]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("parallel_stiffness",)
+    noun = "the inertia of moving parts"
+
+    def guesses(self, seen: Seen) -> Iterator[AddedInertia]:
+        yield self.sized(mass=0.1 * seen.f / max(seen.acceleration, 1e-6))
+
+    def says(self, effect: AddedInertia) -> str:
+        return f"is measured together with {said(effect.mass, 'kg')} of moving mass"

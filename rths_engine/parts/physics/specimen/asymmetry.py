@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -24,17 +25,6 @@ class Asymmetry(Effect):
     title: ClassVar[str] = "Asymmetry"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"share": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("offset",)
-    noun: ClassVar[str] = "asymmetry of the strength"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(share=0.1)
-
-    def says(self) -> str:
-        way = "positive" if self.share > 0 else "negative"
-        return f"is {said(abs(self.share), '%')} stronger than on average in {way} force, and as much weaker in the other"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.share]), np.zeros(1)
@@ -42,3 +32,16 @@ class Asymmetry(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y * (1.0 + p[0]) if y > 0.0 else y * (1.0 - p[0])
+
+
+class AsymmetrySearch(Search[Asymmetry]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("offset",)
+    noun = "asymmetry of the strength"
+
+    def guesses(self, seen: Seen) -> Iterator[Asymmetry]:
+        yield self.effect(share=0.1)
+
+    def says(self, effect: Asymmetry) -> str:
+        way = "positive" if effect.share > 0 else "negative"
+        return f"is {said(abs(effect.share), '%')} stronger than on average in {way} force, and as much weaker in the other"

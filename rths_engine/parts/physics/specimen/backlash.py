@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import INPUT, Effect, Seen
+from rths_engine.parts.physics.effect import INPUT, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -29,17 +30,6 @@ class Backlash(Effect):
     title: ClassVar[str] = "Backlash"
     hook: ClassVar[int] = INPUT
     neutral: ClassVar = {"gap": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("series_compliance", "pinching")
-    noun: ClassVar[str] = "backlash"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.01, 0.05, 0.2):
-            yield cls.sized(gap=share * seen.x)
-
-    def says(self) -> str:
-        return f"moves freely over {said(self.gap, 'mm')} after each reversal"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.gap]), np.zeros(3)
@@ -60,3 +50,16 @@ class Backlash(Effect):
         else:
             s[1] = 0.0
         return s[0]
+
+
+class BacklashSearch(Search[Backlash]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("series_compliance", "pinching")
+    noun = "backlash"
+
+    def guesses(self, seen: Seen) -> Iterator[Backlash]:
+        for share in (0.01, 0.05, 0.2):
+            yield self.sized(gap=share * seen.x)
+
+    def says(self, effect: Backlash) -> str:
+        return f"moves freely over {said(effect.gap, 'mm')} after each reversal"

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal, TypeVar
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen, beyond
-from rths_engine.parts.physics.friction import PRESLIDING
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import PRESLIDING, Search, Seen, beyond
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.specimens.bouc_wen import moved
 
@@ -31,22 +31,6 @@ class BoucWenHysteresis(Effect):
     title: ClassVar[str] = "Bouc-Wen hysteresis"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"strength": 0.0}
-    held: ClassVar = ("exponent", "fullness")
-    otherwise: ClassVar = {"exponent": 2.0, "fullness": 0.75}
-    needs: ClassVar[tuple[str, ...]] = ("x_meas", "f_meas")
-    relatives: ClassVar[tuple[str, ...]] = ("coulomb_friction", "stribeck_friction")
-    noun: ClassVar[str] = "hysteresis"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.05, 0.3):
-            yield cls.sized(strength=0.1 * seen.f, yield_displacement=share * seen.x)
-
-    def doubt(self, seen: Seen) -> float:
-        return beyond(PRESLIDING * seen.x, self.yield_displacement)
-
-    def says(self) -> str:
-        return f"has a hysteretic force of {said(self.strength, 'kN')} that yields at {said(self.yield_displacement, 'mm')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.strength, self.yield_displacement, self.exponent, self.fullness]), np.zeros(3)
@@ -58,3 +42,24 @@ class BoucWenHysteresis(Effect):
         s[0] = x
         s[2] = 1.0
         return y + p[0] * s[1]
+
+
+E = TypeVar("E", bound=BoucWenHysteresis)
+
+
+class BoucWenHysteresisSearch(Search[E]):
+    needs: tuple[str, ...] = ("x_meas", "f_meas")
+    relatives: tuple[str, ...] = ("coulomb_friction", "stribeck_friction")
+    held = ("exponent", "fullness")
+    otherwise: ClassVar = {"exponent": 2.0, "fullness": 0.75}
+    noun = "hysteresis"
+
+    def guesses(self, seen: Seen) -> Iterator[E]:
+        for share in (0.05, 0.3):
+            yield self.sized(strength=0.1 * seen.f, yield_displacement=share * seen.x)
+
+    def doubt(self, effect: E, seen: Seen) -> float:
+        return beyond(PRESLIDING * seen.x, effect.yield_displacement)
+
+    def says(self, effect: E) -> str:
+        return f"has a hysteretic force of {said(effect.strength, 'kN')} that yields at {said(effect.yield_displacement, 'mm')}"

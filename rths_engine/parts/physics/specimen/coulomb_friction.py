@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal, TypeVar
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen, beyond
-from rths_engine.parts.physics.friction import PRESLIDING, bristle
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.friction import bristle
+from rths_engine.parts.physics.search import PRESLIDING, Search, Seen, beyond
 from rths_engine.parts.physics.wording import said
 
 
@@ -29,19 +30,6 @@ class CoulombFriction(Effect):
     title: ClassVar[str] = "Coulomb friction"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"friction": 0.0}
-    needs: ClassVar[tuple[str, ...]] = ("x_meas", "f_meas")
-    relatives: ClassVar[tuple[str, ...]] = ("stribeck_friction", "bouc_wen_hysteresis")
-    noun: ClassVar[str] = "Coulomb friction"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(friction=0.1 * seen.f, presliding=0.01 * seen.x)
-
-    def doubt(self, seen: Seen) -> float:
-        return beyond(self.presliding, PRESLIDING * seen.x)
-
-    def says(self) -> str:
-        return f"resists every motion with {said(self.friction, 'kN')} of friction"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.friction, self.presliding]), np.zeros(3)
@@ -53,3 +41,21 @@ class CoulombFriction(Effect):
         s[0] = x
         s[2] = 1.0
         return y + p[0] * s[1]
+
+
+E = TypeVar("E", bound=CoulombFriction)
+
+
+class CoulombFrictionSearch(Search[E]):
+    needs: tuple[str, ...] = ("x_meas", "f_meas")
+    relatives: tuple[str, ...] = ("stribeck_friction", "bouc_wen_hysteresis")
+    noun = "Coulomb friction"
+
+    def guesses(self, seen: Seen) -> Iterator[E]:
+        yield self.sized(friction=0.1 * seen.f, presliding=0.01 * seen.x)
+
+    def doubt(self, effect: E, seen: Seen) -> float:
+        return beyond(effect.presliding, PRESLIDING * seen.x)
+
+    def says(self, effect: E) -> str:
+        return f"resists every motion with {said(effect.friction, 'kN')} of friction"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal, TypeVar
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, TINY, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,17 +27,6 @@ class CubicStiffness(Effect):
     title: ClassVar[str] = "Cubic stiffness"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"stiffness": 0.0}
-    needs: ClassVar[tuple[str, ...]] = ("x_meas", "f_meas")
-    relatives: ClassVar[tuple[str, ...]] = ("parallel_stiffness", "pinching")
-    noun: ClassVar[str] = "cubic stiffness"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(stiffness=0.1 * seen.stiffness / max(seen.x * seen.x, TINY))
-
-    def says(self) -> str:
-        way = "hardens" if self.stiffness >= 0 else "softens"
-        return f"{way} with its stroke by {said(abs(self.stiffness), 'kN/m^3')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.stiffness]), np.zeros(1)
@@ -44,3 +34,19 @@ class CubicStiffness(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y + p[0] * x * x * x
+
+
+E = TypeVar("E", bound=CubicStiffness)
+
+
+class CubicStiffnessSearch(Search[E]):
+    needs: tuple[str, ...] = ("x_meas", "f_meas")
+    relatives: tuple[str, ...] = ("parallel_stiffness", "pinching")
+    noun = "cubic stiffness"
+
+    def guesses(self, seen: Seen) -> Iterator[E]:
+        yield self.sized(stiffness=0.1 * seen.stiffness / max(seen.x * seen.x, TINY))
+
+    def says(self, effect: E) -> str:
+        way = "hardens" if effect.stiffness >= 0 else "softens"
+        return f"{way} with its stroke by {said(abs(effect.stiffness), 'kN/m^3')}"

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -30,17 +31,6 @@ class CurrentLag(Effect):
     title: ClassVar[str] = "Current lag"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"lag": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas", "current")
-    relatives: ClassVar = ("strength_drop",)
-    noun: ClassVar[str] = "the lag of the current"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for lag in (0.02, 0.2):
-            yield cls(lag=lag)
-
-    def says(self) -> str:
-        return f"follows its current {said(self.lag, 'ms')} late"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         decay = math.exp(-dt / self.lag) if self.lag > 0 else 0.0
@@ -54,3 +44,16 @@ class CurrentLag(Effect):
             s[1] = 1.0
         s[0] = current + p[0] * (s[0] - current)
         return y * (p[1] + s[0]) / (p[1] + current)
+
+
+class CurrentLagSearch(Search[CurrentLag]):
+    needs = ("x_meas", "f_meas", "current")
+    relatives = ("strength_drop",)
+    noun = "the lag of the current"
+
+    def guesses(self, seen: Seen) -> Iterator[CurrentLag]:
+        for lag in (0.02, 0.2):
+            yield self.effect(lag=lag)
+
+    def says(self, effect: CurrentLag) -> str:
+        return f"follows its current {said(effect.lag, 'ms')} late"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -25,17 +26,6 @@ class ParallelStiffness(Effect):
     title: ClassVar[str] = "Parallel stiffness"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"stiffness": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("cubic_stiffness", "added_inertia")
-    noun: ClassVar[str] = "a stiffness in parallel"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(stiffness=0.1 * seen.stiffness)
-
-    def says(self) -> str:
-        way = "more" if self.stiffness >= 0 else "less"
-        return f"has {said(abs(self.stiffness), 'kN/m')} {way} stiffness than its model"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.stiffness]), np.zeros(1)
@@ -43,3 +33,16 @@ class ParallelStiffness(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y + p[0] * x
+
+
+class ParallelStiffnessSearch(Search[ParallelStiffness]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("cubic_stiffness", "added_inertia")
+    noun = "a stiffness in parallel"
+
+    def guesses(self, seen: Seen) -> Iterator[ParallelStiffness]:
+        yield self.sized(stiffness=0.1 * seen.stiffness)
+
+    def says(self, effect: ParallelStiffness) -> str:
+        way = "more" if effect.stiffness >= 0 else "less"
+        return f"has {said(abs(effect.stiffness), 'kN/m')} {way} stiffness than its model"

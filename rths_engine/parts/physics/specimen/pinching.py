@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -28,17 +29,6 @@ class Pinching(Effect):
     title: ClassVar[str] = "Pinching"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"depth": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("backlash", "cubic_stiffness")
-    noun: ClassVar[str] = "pinching"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.1, 0.4):
-            yield cls.sized(depth=0.3, width=share * seen.x)
-
-    def says(self) -> str:
-        return f"loses {said(self.depth, '%')} of its force within {said(self.width, 'mm')} of the middle of its stroke"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.depth, self.width]), np.zeros(1)
@@ -47,3 +37,16 @@ class Pinching(Effect):
     def step(p, s, y, x, v, w, t, dt):
         ratio = x / p[1]
         return y * (1.0 - p[0] * math.exp(-ratio * ratio))
+
+
+class PinchingSearch(Search[Pinching]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("backlash", "cubic_stiffness")
+    noun = "pinching"
+
+    def guesses(self, seen: Seen) -> Iterator[Pinching]:
+        for share in (0.1, 0.4):
+            yield self.sized(depth=0.3, width=share * seen.x)
+
+    def says(self, effect: Pinching) -> str:
+        return f"loses {said(effect.depth, '%')} of its force within {said(effect.width, 'mm')} of the middle of its stroke"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import SERIES, TINY, Effect, Seen
+from rths_engine.parts.physics.effect import SERIES, Effect
+from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,17 +27,6 @@ class SeriesCompliance(Effect):
     title: ClassVar[str] = "Series compliance"
     hook: ClassVar[int] = SERIES
     neutral: ClassVar = {"flexibility": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("backlash",)
-    noun: ClassVar[str] = "compliance in series"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.005, 0.03, 0.15):
-            yield cls.sized(flexibility=share / max(seen.stiffness, TINY))
-
-    def says(self) -> str:
-        return f"gives way by {said(self.flexibility, 'mm/kN')} before the specimen"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.flexibility]), np.zeros(1)
@@ -44,3 +34,16 @@ class SeriesCompliance(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y + p[0]
+
+
+class SeriesComplianceSearch(Search[SeriesCompliance]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("backlash",)
+    noun = "compliance in series"
+
+    def guesses(self, seen: Seen) -> Iterator[SeriesCompliance]:
+        for share in (0.005, 0.03, 0.15):
+            yield self.sized(flexibility=share / max(seen.stiffness, TINY))
+
+    def says(self, effect: SeriesCompliance) -> str:
+        return f"gives way by {said(effect.flexibility, 'mm/kN')} before the specimen"

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.gate import past
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -27,17 +28,6 @@ class StrengthDrop(Effect):
     title: ClassVar[str] = "Strength drop"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"share": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("viscous_heating",)
-    noun: ClassVar[str] = "a drop of the strength"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):
-            yield cls.sized(share=0.1, time=part * seen.time)
-
-    def says(self) -> str:
-        return f"loses {said(self.share, '%')} of its force at {said(self.time, 's')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.share, self.time]), np.zeros(1)
@@ -45,3 +35,16 @@ class StrengthDrop(Effect):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y * (1.0 - p[0] * past(t, p[1], dt))
+
+
+class StrengthDropSearch(Search[StrengthDrop]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("viscous_heating",)
+    noun = "a drop of the strength"
+
+    def guesses(self, seen: Seen) -> Iterator[StrengthDrop]:
+        for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):
+            yield self.sized(share=0.1, time=part * seen.time)
+
+    def says(self, effect: StrengthDrop) -> str:
+        return f"loses {said(effect.share, '%')} of its force at {said(effect.time, 's')}"

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen, beyond
-from rths_engine.parts.physics.friction import PRESLIDING, bristle
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.friction import bristle
+from rths_engine.parts.physics.search import PRESLIDING, Search, Seen, beyond
 from rths_engine.parts.physics.wording import said
 
 
@@ -32,24 +33,6 @@ class StribeckFriction(Effect):
     title: ClassVar[str] = "Stribeck friction"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"friction": 0.0, "breakaway": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("coulomb_friction", "bouc_wen_hysteresis")
-    noun: ClassVar[str] = "Stribeck friction"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.03, 0.15):
-            friction = 0.1 * seen.f
-            yield cls.sized(friction=friction, breakaway=friction, stribeck_velocity=share * seen.v, presliding=0.01 * seen.x)
-
-    def doubt(self, seen: Seen) -> float:
-        return beyond(self.presliding, PRESLIDING * seen.x)
-
-    def says(self) -> str:
-        most, least = said(self.friction + self.breakaway, "kN"), said(self.friction, "kN")
-        return (
-            f"resists motion with {most} of friction at low speed and {least} well above {said(self.stribeck_velocity, 'mm/s')}"
-        )
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.friction, self.breakaway, self.stribeck_velocity, self.presliding]), np.zeros(3)
@@ -62,3 +45,22 @@ class StribeckFriction(Effect):
         s[2] = 1.0
         ratio = v / p[2]
         return y + (p[0] + p[1] * math.exp(-ratio * ratio)) * s[1]
+
+
+class StribeckFrictionSearch(Search[StribeckFriction]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("coulomb_friction", "bouc_wen_hysteresis")
+    noun = "Stribeck friction"
+
+    def guesses(self, seen: Seen) -> Iterator[StribeckFriction]:
+        for share in (0.03, 0.15):
+            friction = 0.1 * seen.f
+            yield self.sized(friction=friction, breakaway=friction, stribeck_velocity=share * seen.v, presliding=0.01 * seen.x)
+
+    def doubt(self, effect: StribeckFriction, seen: Seen) -> float:
+        return beyond(effect.presliding, PRESLIDING * seen.x)
+
+    def says(self, effect: StribeckFriction) -> str:
+        most, least = said(effect.friction + effect.breakaway, "kN"), said(effect.friction, "kN")
+        velocity = said(effect.stribeck_velocity, "mm/s")
+        return f"resists motion with {most} of friction at low speed and {least} well above {velocity}"

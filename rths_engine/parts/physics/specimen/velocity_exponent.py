@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 SLOW = 0.05  # of the reference velocity: slower motion counts as this fast
@@ -32,21 +33,6 @@ class VelocityExponent(Effect):
     title: ClassVar[str] = "Velocity exponent"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"exponent": 0.0}
-    held: ClassVar = ("reference_velocity",)
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("stribeck_friction", "coulomb_friction")
-    noun: ClassVar[str] = "another velocity exponent"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(exponent=0.2, reference_velocity=0.5 * seen.v)
-
-    def says(self) -> str:
-        way = "faster" if self.exponent >= 0 else "slower"
-        power = said(abs(self.exponent), "1")
-        return (
-            f"grows {way} with velocity than its model, by the power {power} (equal at {said(self.reference_velocity, 'mm/s')})"
-        )
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([0.5 * self.exponent, self.reference_velocity]), np.zeros(1)
@@ -55,3 +41,18 @@ class VelocityExponent(Effect):
     def step(p, s, y, x, v, w, t, dt):
         ratio = min(abs(v / p[1]), FAST)
         return y * ((ratio * ratio + SLOW * SLOW) / (1.0 + SLOW * SLOW)) ** p[0]
+
+
+class VelocityExponentSearch(Search[VelocityExponent]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("stribeck_friction", "coulomb_friction")
+    held = ("reference_velocity",)
+    noun = "another velocity exponent"
+
+    def guesses(self, seen: Seen) -> Iterator[VelocityExponent]:
+        yield self.sized(exponent=0.2, reference_velocity=0.5 * seen.v)
+
+    def says(self, effect: VelocityExponent) -> str:
+        way = "faster" if effect.exponent >= 0 else "slower"
+        power, velocity = said(abs(effect.exponent), "1"), said(effect.reference_velocity, "mm/s")
+        return f"grows {way} with velocity than its model, by the power {power} (equal at {velocity})"

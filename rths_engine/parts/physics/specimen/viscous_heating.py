@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import FORCE, Effect, Seen
+from rths_engine.parts.physics.effect import FORCE, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 LEAST = 0.05  # of the cold force
@@ -31,17 +32,6 @@ class ViscousHeating(Effect):
     title: ClassVar[str] = "Viscous heating"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"fade": 0.0}
-    needs: ClassVar = ("x_meas", "f_meas")
-    relatives: ClassVar = ("strength_drop",)
-    noun: ClassVar[str] = "viscous heating"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for loss in (0.1, 0.4):
-            yield cls.sized(fade=loss / max(seen.energy, 1.0))
-
-    def says(self) -> str:
-        return f"loses {said(self.fade * 1e6, '%')} of its force for every MJ it dissipates"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.fade]), np.zeros(4)
@@ -55,3 +45,16 @@ class ViscousHeating(Effect):
         s[2] = force
         s[3] = 1.0
         return force
+
+
+class ViscousHeatingSearch(Search[ViscousHeating]):
+    needs = ("x_meas", "f_meas")
+    relatives = ("strength_drop",)
+    noun = "viscous heating"
+
+    def guesses(self, seen: Seen) -> Iterator[ViscousHeating]:
+        for loss in (0.1, 0.4):
+            yield self.sized(fade=loss / max(seen.energy, 1.0))
+
+    def says(self, effect: ViscousHeating) -> str:
+        return f"loses {said(effect.fade * 1e6, '%')} of its force for every MJ it dissipates"

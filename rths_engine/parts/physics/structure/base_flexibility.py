@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import MATRICES, TINY, Effect, Seen
+from rths_engine.parts.physics.effect import MATRICES, Effect
+from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled, Members
 
@@ -30,16 +31,6 @@ class BaseFlexibility(Effect):
     title: ClassVar[str] = "Base flexibility"
     hook: ClassVar[int] = MATRICES
     neutral: ClassVar = {"flexibility": 0.0}
-    needs: ClassVar = ("x_floor",)
-    relatives: ClassVar = ("stiffness_error", "p_delta")
-    noun: ClassVar[str] = "the flexibility of the base"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls.sized(flexibility=0.05 / max(seen.stiffness, TINY))
-
-    def says(self) -> str:
-        return f"gives way at its base by {said(self.flexibility, 'mm/kN')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -70,3 +61,15 @@ def _standing(members: Members, base: int) -> Members:
     for end in HORIZONTAL:
         dofs[dofs[:, end] < 0, end] = base
     return members._replace(dofs=dofs)
+
+
+class BaseFlexibilitySearch(Search[BaseFlexibility]):
+    needs = ("x_floor",)
+    relatives = ("stiffness_error", "p_delta")
+    noun = "the flexibility of the base"
+
+    def guesses(self, seen: Seen) -> Iterator[BaseFlexibility]:
+        yield self.sized(flexibility=0.05 / max(seen.stiffness, TINY))
+
+    def says(self, effect: BaseFlexibility) -> str:
+        return f"gives way at its base by {said(effect.flexibility, 'mm/kN')}"

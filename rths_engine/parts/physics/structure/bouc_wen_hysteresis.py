@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from rths_engine.parts.physics.effect import STOREY
 from rths_engine.parts.physics.specimen import bouc_wen_hysteresis as specimen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 
 
 class BoucWenHysteresis(OfStorey, specimen.BoucWenHysteresis):
@@ -17,6 +17,8 @@ class BoucWenHysteresis(OfStorey, specimen.BoucWenHysteresis):
 
     title: ClassVar[str] = "Bouc-Wen hysteresis of a storey"
     hook: ClassVar[int] = STOREY
-    needs: ClassVar = ("x_floor",)
-    relatives: ClassVar = ("coulomb_friction", "yielding")
-    noun: ClassVar[str] = "hysteresis"
+
+
+class BoucWenHysteresisSearch(StoreySearch[BoucWenHysteresis], specimen.BoucWenHysteresisSearch[BoucWenHysteresis]):
+    relatives = ("coulomb_friction", "yielding")
+    noun = "hysteresis"

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Self
+from typing import ClassVar
 
-from rths_engine.parts.physics.effect import STOREY, Seen
+from rths_engine.parts.physics.effect import STOREY
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.specimen import coulomb_friction as specimen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 
 
 class CoulombFriction(OfStorey, specimen.CoulombFriction):
@@ -18,13 +19,14 @@ class CoulombFriction(OfStorey, specimen.CoulombFriction):
 
     title: ClassVar[str] = "Coulomb friction of a storey"
     hook: ClassVar[int] = STOREY
-    needs: ClassVar = ("x_floor",)
-    relatives: ClassVar = ("bouc_wen_hysteresis", "damping_error", "quadratic_damping")
-    noun: ClassVar[str] = "Coulomb friction"
 
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
+
+class CoulombFrictionSearch(StoreySearch[CoulombFriction], specimen.CoulombFrictionSearch[CoulombFriction]):
+    relatives = ("bouc_wen_hysteresis", "damping_error", "quadratic_damping")
+    noun = "Coulomb friction"
+
+    def guesses(self, seen: Seen) -> Iterator[CoulombFriction]:
         """A free vibration stops at f / F_c quarters of a cycle: more friction does not look like less."""
         for share in (0.01, 0.1):
-            guess = cls.sized(friction=share * seen.f, presliding=0.01 * seen.x)
+            guess = self.sized(friction=share * seen.f, presliding=0.01 * seen.x)
             yield guess.model_copy(update={"storey": seen.storey})

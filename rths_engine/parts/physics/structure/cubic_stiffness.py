@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from rths_engine.parts.physics.effect import STOREY
 from rths_engine.parts.physics.specimen import cubic_stiffness as specimen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -18,9 +18,11 @@ class CubicStiffness(OfStorey, specimen.CubicStiffness):
 
     title: ClassVar[str] = "Cubic stiffness of a storey"
     hook: ClassVar[int] = STOREY
-    needs: ClassVar = ("x_floor",)
-    relatives: ClassVar = ("yielding", "gap_contact", "pinching")
-    noun: ClassVar[str] = "cubic stiffness"
 
-    def says(self) -> str:
-        return f"{'hardens' if self.stiffness >= 0 else 'softens'} with its drift by {said(abs(self.stiffness), 'kN/m^3')}"
+
+class CubicStiffnessSearch(StoreySearch[CubicStiffness], specimen.CubicStiffnessSearch[CubicStiffness]):
+    relatives = ("yielding", "gap_contact", "pinching")
+    noun = "cubic stiffness"
+
+    def says(self, effect: CubicStiffness) -> str:
+        return f"{'hardens' if effect.stiffness >= 0 else 'softens'} with its drift by {said(abs(effect.stiffness), 'kN/m^3')}"

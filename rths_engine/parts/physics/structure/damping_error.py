@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import MATRICES, Effect, Seen
+from rths_engine.parts.physics.effect import MATRICES, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled
 
@@ -26,19 +27,21 @@ class DampingError(Effect):
     title: ClassVar[str] = "Damping error"
     hook: ClassVar[int] = MATRICES
     neutral: ClassVar = {"share": 0.0}
-    needs: ClassVar = ("x_floor",)
-    relatives: ClassVar = ("coulomb_friction", "quadratic_damping")
-    noun: ClassVar[str] = "a damping error"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(share=0.2)
-
-    def says(self) -> str:
-        return f"has {said(abs(self.share), '%')} {'more' if self.share >= 0 else 'less'} damping than its model"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
 
     def assembled(self, built: Assembled) -> Assembled:
         return built._replace(damping=(1 + self.share) * built.damping)
+
+
+class DampingErrorSearch(Search[DampingError]):
+    needs = ("x_floor",)
+    relatives = ("coulomb_friction", "quadratic_damping")
+    noun = "a damping error"
+
+    def guesses(self, seen: Seen) -> Iterator[DampingError]:
+        yield self.effect(share=0.2)
+
+    def says(self, effect: DampingError) -> str:
+        return f"has {said(abs(effect.share), '%')} {'more' if effect.share >= 0 else 'less'} damping than its model"

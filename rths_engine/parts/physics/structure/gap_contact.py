@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -30,18 +30,6 @@ class GapContact(OfStorey):
     side: Literal["both", "positive", "negative"] = Field("both", title="Side")
     title: ClassVar[str] = "Gap and contact"
     neutral: ClassVar = {"stiffness": 0.0}
-    relatives: ClassVar = ("cubic_stiffness", "pinching")
-    noun: ClassVar[str] = "contact after a gap"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        guess = cls.sized(gap=0.7 * seen.x, stiffness=0.5 * seen.stiffness)
-        for side in ("both", "positive", "negative"):
-            yield guess.model_copy(update={"storey": seen.storey, "side": side})
-
-    def says(self) -> str:
-        where = {"both": "both sides", "positive": "the positive side", "negative": "the negative side"}[self.side]
-        return f"strikes a stop of {said(self.stiffness, 'kN/m')} after {said(self.gap, 'mm')} on {where}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.gap, self.stiffness, self.side != "negative", self.side != "positive"]), np.zeros(1)
@@ -49,3 +37,17 @@ class GapContact(OfStorey):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y + p[1] * (p[2] * max(x - p[0], 0.0) + p[3] * min(x + p[0], 0.0))
+
+
+class GapContactSearch(StoreySearch[GapContact]):
+    relatives = ("cubic_stiffness", "pinching")
+    noun = "contact after a gap"
+
+    def guesses(self, seen: Seen) -> Iterator[GapContact]:
+        guess = self.sized(gap=0.7 * seen.x, stiffness=0.5 * seen.stiffness)
+        for side in ("both", "positive", "negative"):
+            yield guess.model_copy(update={"storey": seen.storey, "side": side})
+
+    def says(self, effect: GapContact) -> str:
+        where = {"both": "both sides", "positive": "the positive side", "negative": "the negative side"}[effect.side]
+        return f"strikes a stop of {said(effect.stiffness, 'kN/m')} after {said(effect.gap, 'mm')} on {where}"

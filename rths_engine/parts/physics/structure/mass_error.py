@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import MATRICES, Seen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.effect import MATRICES
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled
 
@@ -29,15 +30,6 @@ class MassError(OfStorey):
     title: ClassVar[str] = "Mass error"
     hook: ClassVar[int] = MATRICES
     neutral: ClassVar = {"share": 0.0}
-    relatives: ClassVar = ("stiffness_error",)
-    noun: ClassVar[str] = "a mass error"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(storey=seen.storey, share=0.05)
-
-    def says(self) -> str:
-        return f"carries a floor {said(abs(self.share), '%')} {'heavier' if self.share >= 0 else 'lighter'} than its model"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -47,3 +39,14 @@ class MassError(OfStorey):
         scale = np.ones(len(built.mass))
         scale[built.floors[self.storey - 1]] = math.sqrt(1 + self.share)
         return built._replace(mass=built.mass * np.outer(scale, scale))
+
+
+class MassErrorSearch(StoreySearch[MassError]):
+    relatives = ("stiffness_error",)
+    noun = "a mass error"
+
+    def guesses(self, seen: Seen) -> Iterator[MassError]:
+        yield self.effect(storey=seen.storey, share=0.05)
+
+    def says(self, effect: MassError) -> str:
+        return f"carries a floor {said(abs(effect.share), '%')} {'heavier' if effect.share >= 0 else 'lighter'} than its model"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import MATRICES, Effect, Seen
+from rths_engine.parts.physics.effect import MATRICES, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.structure.storey import drift, stiffened
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled
@@ -30,16 +31,6 @@ class PDelta(Effect):
     title: ClassVar[str] = "P-delta"
     hook: ClassVar[int] = MATRICES
     neutral: ClassVar = {"load": 0.0}
-    needs: ClassVar = ("x_floor",)
-    relatives: ClassVar = ("stiffness_error", "base_flexibility")
-    noun: ClassVar[str] = "the P-delta effect"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(load=0.05)
-
-    def says(self) -> str:
-        return f"is softened by gravity, at {said(self.load, '%')} of the load at which it buckles sideways"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -51,3 +42,15 @@ class PDelta(Effect):
         geometric = rows.T @ (above[:, None] * rows)
         largest = np.linalg.eigvals(np.linalg.solve(built.stiffness, geometric)).real.max(initial=0.0)
         return stiffened(built, -self.load / largest * geometric) if largest > 0 else built
+
+
+class PDeltaSearch(Search[PDelta]):
+    needs = ("x_floor",)
+    relatives = ("stiffness_error", "base_flexibility")
+    noun = "the P-delta effect"
+
+    def guesses(self, seen: Seen) -> Iterator[PDelta]:
+        yield self.effect(load=0.05)
+
+    def says(self, effect: PDelta) -> str:
+        return f"is softened by gravity, at {said(effect.load, '%')} of the load at which it buckles sideways"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -29,16 +29,6 @@ class Pinching(OfStorey):
     width: float = quantity("Half width of the pinch x_p", "m", "mm", gt=0, le=1, default=5e-3)
     title: ClassVar[str] = "Pinching of a storey"
     neutral: ClassVar = {"depth": 0.0}
-    relatives: ClassVar = ("cubic_stiffness", "gap_contact")
-    noun: ClassVar[str] = "pinching"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.15, 0.5):
-            yield cls.sized(depth=0.3, width=share * seen.x).model_copy(update={"storey": seen.storey})
-
-    def says(self) -> str:
-        return f"loses {said(self.depth, '%')} of its force within {said(self.width, 'mm')} of the middle of its drift"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.depth, self.width]), np.zeros(1)
@@ -47,3 +37,15 @@ class Pinching(OfStorey):
     def step(p, s, y, x, v, w, t, dt):
         ratio = x / p[1]
         return y - p[0] * w * math.exp(-ratio * ratio)
+
+
+class PinchingSearch(StoreySearch[Pinching]):
+    relatives = ("cubic_stiffness", "gap_contact")
+    noun = "pinching"
+
+    def guesses(self, seen: Seen) -> Iterator[Pinching]:
+        for share in (0.15, 0.5):
+            yield self.sized(depth=0.3, width=share * seen.x).model_copy(update={"storey": seen.storey})
+
+    def says(self, effect: Pinching) -> str:
+        return f"loses {said(effect.depth, '%')} of its force within {said(effect.width, 'mm')} of the middle of its drift"

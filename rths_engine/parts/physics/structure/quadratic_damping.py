@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import TINY, Seen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.search import TINY, Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -26,16 +26,6 @@ class QuadraticDamping(OfStorey):
     coefficient: float = quantity("Quadratic damping c₂", "N*(s/m)^2", "kN*(s/m)^2", ge=0, le=1e12, default=0.0)
     title: ClassVar[str] = "Quadratic damping"
     neutral: ClassVar = {"coefficient": 0.0}
-    relatives: ClassVar = ("damping_error", "coulomb_friction")
-    noun: ClassVar[str] = "quadratic damping"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        coefficient = 0.02 * seen.f / max(seen.v * seen.v, TINY)
-        yield cls.sized(coefficient=coefficient).model_copy(update={"storey": seen.storey})
-
-    def says(self) -> str:
-        return f"is damped by {said(self.coefficient, 'kN*(s/m)^2')} with the square of its velocity"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.coefficient]), np.zeros(1)
@@ -43,3 +33,15 @@ class QuadraticDamping(OfStorey):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y + p[0] * abs(v) * v
+
+
+class QuadraticDampingSearch(StoreySearch[QuadraticDamping]):
+    relatives = ("damping_error", "coulomb_friction")
+    noun = "quadratic damping"
+
+    def guesses(self, seen: Seen) -> Iterator[QuadraticDamping]:
+        coefficient = 0.02 * seen.f / max(seen.v * seen.v, TINY)
+        yield self.sized(coefficient=coefficient).model_copy(update={"storey": seen.storey})
+
+    def says(self, effect: QuadraticDamping) -> str:
+        return f"is damped by {said(effect.coefficient, 'kN*(s/m)^2')} with the square of its velocity"

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
 from rths_engine.parts.physics.gate import past
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -27,16 +27,6 @@ class StiffnessDrop(OfStorey):
     time: float = quantity("Moment t_d", "s", ge=0, le=1e5, default=0.0)
     title: ClassVar[str] = "Stiffness drop"
     neutral: ClassVar = {"share": 0.0}
-    relatives: ClassVar = ("stiffness_error", "yielding")
-    noun: ClassVar[str] = "a drop of the stiffness"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):
-            yield cls.sized(share=0.1, time=part * seen.time).model_copy(update={"storey": seen.storey})
-
-    def says(self) -> str:
-        return f"loses {said(self.share, '%')} of its stiffness at {said(self.time, 's')}"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.share, self.time]), np.zeros(1)
@@ -44,3 +34,15 @@ class StiffnessDrop(OfStorey):
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):
         return y - p[0] * w * past(t, p[1], dt)
+
+
+class StiffnessDropSearch(StoreySearch[StiffnessDrop]):
+    relatives = ("stiffness_error", "yielding")
+    noun = "a drop of the stiffness"
+
+    def guesses(self, seen: Seen) -> Iterator[StiffnessDrop]:
+        for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):
+            yield self.sized(share=0.1, time=part * seen.time).model_copy(update={"storey": seen.storey})
+
+    def says(self, effect: StiffnessDrop) -> str:
+        return f"loses {said(effect.share, '%')} of its stiffness at {said(effect.time, 's')}"

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import MATRICES, Seen
-from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffened, stiffness
+from rths_engine.parts.physics.effect import MATRICES
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch, drift, stiffened, stiffness
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled
 
@@ -29,15 +30,6 @@ class StiffnessError(OfStorey):
     title: ClassVar[str] = "Stiffness error"
     hook: ClassVar[int] = MATRICES
     neutral: ClassVar = {"share": 0.0}
-    relatives: ClassVar = ("mass_error", "p_delta", "base_flexibility")
-    noun: ClassVar[str] = "a stiffness error"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        yield cls(storey=seen.storey, share=-0.05)
-
-    def says(self) -> str:
-        return f"is {said(abs(self.share), '%')} {'stiffer' if self.share >= 0 else 'softer'} than its model"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
@@ -46,3 +38,14 @@ class StiffnessError(OfStorey):
         self.check(built)
         row = drift(built, self.storey)
         return stiffened(built, self.share * stiffness(built, row) * np.outer(row, row))
+
+
+class StiffnessErrorSearch(StoreySearch[StiffnessError]):
+    relatives = ("mass_error", "p_delta", "base_flexibility")
+    noun = "a stiffness error"
+
+    def guesses(self, seen: Seen) -> Iterator[StiffnessError]:
+        yield self.effect(storey=seen.storey, share=-0.05)
+
+    def says(self, effect: StiffnessError) -> str:
+        return f"is {said(abs(effect.share), '%')} {'stiffer' if effect.share >= 0 else 'softer'} than its model"

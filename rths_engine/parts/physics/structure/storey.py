@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Self
+from typing import ClassVar, TypeVar
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import STOREY, Effect, Seen
+from rths_engine.parts.physics.effect import STOREY, Effect
+from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.structures.assembled import Assembled
 
 
@@ -19,18 +20,25 @@ class OfStorey(Effect):
 
     storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground")
     hook: ClassVar[int] = STOREY
-    needs: ClassVar = ("x_floor",)
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for guess in super().guesses(seen):
-            yield guess.model_copy(update={"storey": seen.storey})
 
     def check(self, built: Assembled) -> None:
         """Raises PlanError where the structure has no such storey."""
         count = len(built.floors)
         if self.storey > count:
             raise PlanError(Issue("storey", f"the structure has {count} storeys", self.storey, "give one of them"))
+
+
+S = TypeVar("S", bound=OfStorey)
+
+
+class StoreySearch(Search[S]):
+    """In each storey on its own."""
+
+    needs: tuple[str, ...] = ("x_floor",)
+
+    def guesses(self, seen: Seen) -> Iterator[S]:
+        for guess in super().guesses(seen):
+            yield guess.model_copy(update={"storey": seen.storey})
 
 
 def drift(built: Assembled, storey: int) -> Array:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
-from rths_engine.parts.physics.effect import Seen
-from rths_engine.parts.physics.structure.storey import OfStorey
+from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
 
@@ -28,17 +28,6 @@ class Yielding(OfStorey):
     post_yield_ratio: float = quantity("Post-yield stiffness ratio r", "1", "%", ge=0, le=1, default=1.0)
     title: ClassVar[str] = "Yielding"
     neutral: ClassVar = {"post_yield_ratio": 1.0}
-    relatives: ClassVar = ("bouc_wen_hysteresis", "coulomb_friction")
-    noun: ClassVar[str] = "yielding"
-
-    @classmethod
-    def guesses(cls, seen: Seen) -> Iterator[Self]:
-        for share in (0.5, 0.8):
-            guess = cls.sized(yield_force=share * seen.f, post_yield_ratio=0.3)
-            yield guess.model_copy(update={"storey": seen.storey})
-
-    def says(self) -> str:
-        return f"yields at {said(self.yield_force, 'kN')} and keeps {said(self.post_yield_ratio, '%')} of its stiffness"
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.yield_force, 1 - self.post_yield_ratio]), np.zeros(3)
@@ -50,3 +39,16 @@ class Yielding(OfStorey):
         s[0] = min(max(s[0] + (w - s[1]), -p[0]), p[0])
         s[1] = w
         return y + p[1] * (s[0] - w)
+
+
+class YieldingSearch(StoreySearch[Yielding]):
+    relatives = ("bouc_wen_hysteresis", "coulomb_friction")
+    noun = "yielding"
+
+    def guesses(self, seen: Seen) -> Iterator[Yielding]:
+        for share in (0.5, 0.8):
+            guess = self.sized(yield_force=share * seen.f, post_yield_ratio=0.3)
+            yield guess.model_copy(update={"storey": seen.storey})
+
+    def says(self, effect: Yielding) -> str:
+        return f"yields at {said(effect.yield_force, 'kN')} and keeps {said(effect.post_yield_ratio, '%')} of its stiffness"
