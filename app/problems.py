@@ -14,6 +14,7 @@ from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
+from rths_engine.foundation import location
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 
 log = logging.getLogger(__name__)
@@ -74,19 +75,25 @@ def _request_error(request: Request, error: Exception) -> Response:
     if expected:
         given = request.headers.get("content-type") or "no Content-Type"
         return problem(415, f"The body has {given}; send it as {expected}.")
-    issues = [_issue(detail) for detail in error.errors()]
+    issues = [_issue(detail, request) for detail in error.errors()]
     unread = any(detail["type"] == "json_invalid" for detail in error.errors())
     return problem(400 if unread else 422, "; ".join(str(issue) for issue in issues), [issue.as_dict() for issue in issues])
 
 
-def _issue(detail: Any) -> Issue:
-    where = ".".join(str(step) for step in detail["loc"][1:])
+def _issue(detail: Any, request: Request) -> Issue:
+    where = location.dotted(detail["loc"][1:], _kind_of_body(request) if detail["loc"][0] == "body" else Any)
     if detail["type"] == "json_invalid":
         return Issue("", f"the body is no JSON: {detail['ctx']['error']} at character {detail['loc'][-1]}")
     given = detail["input"]
     value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
     message = str(detail["msg"]).removeprefix("Value error, ")
     return Issue(where, message[:1].lower() + message[1:], value)
+
+
+def _kind_of_body(request: Request) -> Any:
+    """The declared type of the JSON that the route takes."""
+    field = getattr(request.scope.get("route"), "body_field", None)
+    return field.field_info.annotation if field else Any
 
 
 def _expected_kind(request: Request, body: Any) -> str | None:

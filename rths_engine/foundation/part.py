@@ -14,7 +14,7 @@ from annotated_types import MaxLen
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 
-from rths_engine.foundation import units
+from rths_engine.foundation import location, units
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 
@@ -84,7 +84,7 @@ def validated(model: type[T], data: Any) -> T:
         return model.model_validate(data)
     except ValidationError as error:
         details = error.errors(include_url=False)
-        raise PlanError(_issue(detail, data) for detail in details if not _follows(detail, details)) from None
+        raise PlanError(_issue(detail, model) for detail in details if not _follows(detail, details)) from None
 
 
 def _follows(detail: Any, details: list[Any]) -> bool:
@@ -120,29 +120,14 @@ def _in_si(value: Any, unit: str) -> Any:
     return value
 
 
-def _issue(detail: Any, data: Any) -> Issue:
-    where = ".".join(str(step) for step in _path(detail["loc"], data))
+def _issue(detail: Any, model: type[BaseModel]) -> Issue:
+    where = location.dotted(detail["loc"], model)
     problem = str(detail["msg"]).removeprefix("Value error, ")
     given = detail["input"]
     if isinstance(given, _Unread):
         return Issue(where, given.problem, given.text if len(given.text) <= LONGEST_TEXT else given.text[:LONGEST_TEXT] + "…")
     value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
     return Issue(where, _plain(detail, problem), value)
-
-
-def _path(loc: tuple[int | str, ...], data: Any) -> list[int | str]:
-    """The path into `data`: pydantic's location without the tags it adds for the chosen kind and channel."""
-    path: list[int | str] = []
-    for position, step in enumerate(loc):
-        inside = (isinstance(data, Mapping) and step in data) or (
-            isinstance(data, list | tuple) and isinstance(step, int) and step < len(data)
-        )
-        if inside:
-            data = data[step]
-        elif step in (data.get("kind"), data.get("channel")) if isinstance(data, Mapping) else position < len(loc) - 1:
-            continue
-        path.append(step)
-    return path
 
 
 _PLAIN = {
@@ -156,6 +141,8 @@ _PLAIN = {
     "too_long": "takes at most {max_length} item(s)",
     "string_too_short": "needs at least {min_length} character(s)",
     "string_too_long": "takes at most {max_length} characters",
+    "union_tag_invalid": "{discriminator} needs to be one of {expected_tags}, not '{tag}'",
+    "union_tag_not_found": "needs the field {discriminator}",
     "extra_forbidden": "is not a field of this part",
     "float_type": "needs a number",
     "float_parsing": "needs a number",

@@ -80,6 +80,14 @@ def test_what_cant_be_diagnosed_is_refused_and_nothing_stored(
     assert client.get(URL).json() == {"diagnoses": [], "total": 0}
 
 
+@pytest.mark.parametrize(("changes", "where"), [({"plan": 4}, "plan"), ({"recording": {"run": [1]}}, "recording.run")])
+def test_a_field_that_can_be_of_two_types_is_named_without_them(
+    client: TestClient, recording: str, changes: dict[str, Any], where: str
+) -> None:
+    errors = client.post(URL, json={**asked(recording), **changes}).json()["errors"]
+    assert {one["where"] for one in errors} == {where}
+
+
 def test_a_run_without_recording_cant_be_diagnosed(client: TestClient) -> None:
     run = client.post("/api/v1/runs", json={"plan": hybrid()}).json()["runs"][0]["id"]
     answer = client.post(URL, json={"recording": {"run": run}})

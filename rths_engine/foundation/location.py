@@ -1,0 +1,67 @@
+"""Where in the input a pydantic error lies: its location without the labels that pydantic adds for the choice of a union."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+
+
+def path(location: Sequence[int | str], kind: Any) -> list[int | str]:
+    """The keys and indices that lead into the input, from pydantic's `location` of an error in a value of the type `kind`.
+
+    At a union pydantic names its choice between the key and what lies inside: `motion, record, scale, pga, pga` for
+    `motion.scale.pga`. A label can equal a key, so the type says which is which, not the input. Where the type says
+    nothing (`Any`), the rest of the location is taken as keys.
+    """
+    found: list[int | str] = []
+    kinds = _choices(kind)
+    for step in location:
+        if len(kinds) > 1:
+            kinds = _chosen(kinds, step)
+            continue
+        found.append(step)
+        kinds = _choices(_inside(kinds[0], step))
+    return found
+
+
+def dotted(location: Sequence[int | str], kind: Any) -> str:
+    """The same as one text, `motion.scale.pga`, as errors name a field."""
+    return ".".join(str(step) for step in path(location, kind))
+
+
+def _choices(kind: Any) -> list[Any]:
+    """What the type can be, apart from None; a type alone is its only choice."""
+    while get_origin(kind) is Annotated:
+        kind = get_args(kind)[0]
+    if get_origin(kind) in (Union, UnionType):
+        return [one for one in get_args(kind) if one is not NoneType]
+    return [kind]
+
+
+def _chosen(kinds: list[Any], label: int | str) -> list[Any]:
+    """What the label of a choice leaves: of unions told apart by a field, the kinds with this value in it."""
+    return next((_choices(one) for one in kinds if any(label in values for values in _constants(one))), [Any])
+
+
+def _constants(kind: Any) -> Iterator[tuple[Any, ...]]:
+    """The values of each field that holds one constant, such as a part's `kind`."""
+    for one in _choices(kind):
+        if isinstance(one, type) and issubclass(one, BaseModel):
+            for field in one.model_fields.values():
+                if get_origin(field.annotation) is Literal and len(get_args(field.annotation)) == 1:
+                    yield get_args(field.annotation)
+        elif one is not kind:
+            yield from _constants(one)
+
+
+def _inside(kind: Any, step: int | str) -> Any:
+    """The type of a model's field or of a sequence's item."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        fields = kind.model_fields.items()
+        return next((field.annotation for name, field in fields if step in (name, field.alias)), Any)
+    if isinstance(step, int):
+        return next(iter(get_args(kind)), Any)
+    return Any
