@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from rths_engine.foundation import unit_text
 from rths_engine.foundation.errors import Issue, RthsError
 
 STANDARD_GRAVITY = 9.80665  # m/s^2, ISO 80000-3
@@ -95,34 +96,23 @@ UNITS: dict[str, tuple[str, float]] = {
     "kN*(s/m)^n": ("power-law damping", 1e3),
 }
 
-# how a unit is written for people
-PRETTY = {
-    "1": "",
-    "N*s/m": "N·s/m",
-    "kN*s/m": "kN·s/m",
-    "m/s^2": "m/s²",
-    "mm^2": "mm²",
-    "kN*m": "kN·m",
-    "1/(mm^2)": "1/mm²",
-    "1/(mm^2*s)": "1/(mm²·s)",
-    "kN*(s/m)^n": "kN·(s/m)ⁿ",
-    "N/m^3": "N/m³",
-    "kN/m^3": "kN/m³",
-    "m/(s*V)": "m/(s·V)",
-    "mm/(s*V)": "mm/(s·V)",
-    "m/s^3": "m/s³",
-    "mm/s^2": "mm/s²",
-    "mm/s^3": "mm/s³",
-    "N*(s/m)^2": "N·(s/m)²",
-    "kN*(s/m)^2": "kN·(s/m)²",
-}
-
-_QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*$")
+LONGEST = 40  # characters of a unit; longer text is not looked into
+_BY_POWERS = {frozenset((unit_text.powers(unit) or {}).items()): unit for unit in reversed(UNITS)}
+_QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:[^\d\s.,]|1\s*/|1\s*$).*)?$")
 
 
 def pretty(unit: str) -> str:
     """The unit as shown to people: `kN*s/m` -> `kN·s/m`, `1` -> empty."""
-    return PRETTY.get(unit, unit)
+    return unit_text.shown(unit)
+
+
+def named(text: str) -> str | None:
+    """The unit of UNITS that is written so, as shown or with the signs of a keyboard: `1/mm²`, `1/mm^2`, `mm^-2`; or None."""
+    typed = text.strip()
+    if typed in UNITS or len(typed) > LONGEST:
+        return typed if typed in UNITS else None
+    found = unit_text.powers(typed)
+    return None if found is None else _BY_POWERS.get(frozenset(found.items()))
 
 
 def factor(unit: str) -> float:
@@ -141,18 +131,21 @@ def from_si(value: float, unit: str) -> float:
 def parse(text: str, unit: str) -> float:
     """Read `"36007 kN/m"` as SI where `unit` (here `N/m`) gives the dimension; a bare number is SI already.
 
-    Raises RthsError if the text is no number, or its unit is unknown or of another dimension.
+    Numbers and units are read as they are shown, `−0.4 1/mm²`, and as they are typed, `-0.4 1/mm^2`. Raises RthsError if
+    the text is not a number, or if its unit is unknown or of another dimension.
     """
-    found = _QUANTITY.match(text)
+    found = _QUANTITY.match(unit_text.ascii_signs(text))
     if not found:
-        raise RthsError(Issue("", f"needs a number, optionally with a unit such as '{unit}'", text))
-    number, given = float(found[1]), found[2].replace("·", "*").replace("²", "^2")
-    if not given:
+        example = f", optionally with a unit such as '{pretty(unit)}'" if pretty(unit) else ""
+        raise RthsError(Issue("", f"needs a number{example}", text))
+    number, written = float(found[1]), (found[2] or "").strip()
+    if not written:
         return number
+    given = named(written)
     dimension = _lookup(unit)[0]
-    if _lookup(given)[0] != dimension:
-        allowed = ", ".join(name for name, (kind, _) in UNITS.items() if kind == dimension)
-        raise RthsError(Issue("", f"is no {dimension}: give it in one of {allowed}", text))
+    if given is None or UNITS[given][0] != dimension:
+        allowed = ", ".join(pretty(name) or "no unit" for name, (kind, _) in UNITS.items() if kind == dimension)
+        raise RthsError(Issue("", f"needs a unit of {dimension}: {allowed}", text))
     return to_si(number, given)
 
 

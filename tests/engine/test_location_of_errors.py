@@ -15,7 +15,7 @@ from rths_engine.planning.plan import Plan
 from rths_engine.recordings.measured import Mapping
 
 SCHEMA = Plan.model_json_schema()
-WRONG = ("three parsecs", math.nan, [])
+WRONG: tuple[Any, ...] = ("three parsecs", math.nan, [])
 Path = tuple[int | str, ...]
 
 

@@ -178,7 +178,7 @@ def test_mr_damper_dissipates_energy_in_every_closed_cycle() -> None:
         (InverseCompensation, "alpha_es", 0, "alpha_es = 0: needs a value >= 1"),
         (MrDamper, "rate_exponent", 2, "needs a value <= 1"),
         (LinearSpecimen, "damping", -1, "needs a value >= 0"),
-        (LinearSpecimen, "damping", "5 kN", "is no damping"),
+        (LinearSpecimen, "damping", "5 kN", "needs a unit of damping"),
         (LinearSpecimen, "colour", 1, "is not a field"),
     ],
 )

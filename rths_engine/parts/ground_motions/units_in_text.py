@@ -27,7 +27,7 @@ def unit_in(text: str) -> str | None:
 
 def checked_unit(unit: str) -> str:
     """`unit` when it is one of acceleration. Raises MotionError listing those there are."""
-    plain = unit.strip().replace("²", "^2")
-    if plain not in ACCELERATION_UNITS:
+    plain = units.named(unit)
+    if plain is None or plain not in ACCELERATION_UNITS:
         raise MotionError(Issue("unit", "is no unit of acceleration", unit, "choose one of " + ", ".join(ACCELERATION_UNITS)))
     return plain

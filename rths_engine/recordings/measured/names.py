@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from rths_engine.foundation import units
 from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension
 
 _SPELLED = {
@@ -63,9 +64,10 @@ class Named:
 
 def written_unit(text: str) -> str:
     """The unit of UNITS that is written so; empty where none is."""
-    plain = text.strip().strip("()[]{}").strip().replace("²", "^2").replace("**", "^").replace("·", "*")
-    if plain in UNITS:
-        return plain
+    plain = text.strip().strip("()[]{}").strip()
+    known = plain if plain in UNITS else units.named(plain)
+    if known in UNITS:
+        return known
     lower = re.sub(r"\s+", " ", plain.lower())
     if lower in _SPELLED or lower in _BY_CASE:
         return _SPELLED.get(lower) or _BY_CASE[lower]

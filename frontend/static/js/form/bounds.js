@@ -14,7 +14,7 @@ export function shown(si, node) {
 
 /** Text in the unit shown as an SI value; text that is no number is left for the service, which reads `12 kip` too. @param {string} text @param {Node} node */
 export function toSi(text, node) {
-  const trimmed = text.trim();
+  const trimmed = text.trim().replaceAll("−", "-");
   if (!trimmed) return null;
   const value = Number(trimmed);
   return Number.isFinite(value) ? clean(value * (node.factor ?? 1)) : trimmed;
