@@ -37,8 +37,10 @@ prove: setup
 
 check: setup
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python -m app.npm_parts check
 
 clean:
 	rm -rf $(VENV) $(VENDOR) frontend/node_modules *.egg-info build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

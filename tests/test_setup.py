@@ -22,7 +22,8 @@ ROOT = Path(__file__).parent.parent
 LOCK = [line for line in (ROOT / "requirements.lock").read_text().splitlines() if not line.startswith("#")]
 PINS = {canonicalize_name(line.partition("==")[0]): line.partition("==")[2] for line in LOCK}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-NPM = json.loads((ROOT / "frontend" / "package.json").read_text())["dependencies"]
+PACKAGE = json.loads((ROOT / "frontend" / "package.json").read_text())
+NPM = PACKAGE["dependencies"]
 NPM_LOCK = json.loads((ROOT / "frontend" / "package-lock.json").read_text())["packages"]
 MADE_FROM = ["Makefile", "requirements.lock", "pyproject.toml", "app/npm_parts.py", "rths_engine/foundation/kernel.py"]
 MADE_FROM += [f"frontend/{name}" for name in ("package.json", "package-lock.json", ".npmrc")]
@@ -53,11 +54,12 @@ def test_the_tests_run_on_the_pinned_versions(name: str) -> None:
 
 
 def test_every_browser_part_is_pinned_and_checked_without_an_address() -> None:
-    assert all(re.fullmatch(r"[\d.]+", pin) for pin in NPM.values())
+    pinned = {**NPM, **PACKAGE["devDependencies"]}
+    assert all(re.fullmatch(r"[\d.]+", pin) for pin in pinned.values())
     for path, package in NPM_LOCK.items():
         if path:
             assert package["integrity"].startswith("sha512-") and "resolved" not in package
-    for name, pin in NPM.items():
+    for name, pin in pinned.items():
         assert NPM_LOCK[f"node_modules/{name}"]["version"] == pin
 
 
@@ -97,6 +99,29 @@ def test_npm_is_the_machines_or_else_of_the_pinned_wheel(
     assert npm_parts.npm() == ("/usr/bin/npm" if answer == "machine" else str(tmp_path / "npm"))
     installed = [command[-1] for command in asked if "install" in command]
     assert installed == ([] if answer == "machine" else [npm_parts.NODE_WHEEL])
+
+
+@pytest.mark.parametrize(
+    ("there", "installs"), [(None, True), ("0.0.1", True), (PACKAGE["devDependencies"]["typescript"], False)]
+)
+def test_the_checker_of_the_scripts_is_installed_where_its_pinned_version_is_missing(
+    there: str | None, installs: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copy(ROOT / "frontend" / "package.json", tmp_path)
+    if there:
+        (tmp_path / "node_modules" / "typescript").mkdir(parents=True)
+        (tmp_path / "node_modules" / "typescript" / "package.json").write_text(json.dumps({"version": there}))
+    asked: list[str] = []
+
+    def run(command: list[str], **_: object) -> subprocess.CompletedProcess[str]:
+        asked.append(command[1])
+        return subprocess.CompletedProcess(command, 2 if command[1] == "run" else 0)
+
+    monkeypatch.setattr(npm_parts, "FRONTEND", tmp_path)
+    monkeypatch.setattr(npm_parts, "npm", lambda: "npm")
+    monkeypatch.setattr(subprocess, "run", run)
+    assert npm_parts.main(["check"]) == 2  # as the checker answers where types are wrong
+    assert asked == (["ci", "run"] if installs else ["run"])
 
 
 @pytest.fixture

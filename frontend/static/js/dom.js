@@ -34,3 +34,6 @@ export function colour(name) {
   probe.remove();
   return found;
 }
+
+/** The HTML elements among some, as an array. @param {Iterable<Element>} some */
+export const htmlElements = (some) => [...some].filter((one) => one instanceof HTMLElement);

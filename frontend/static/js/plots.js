@@ -1,3 +1,4 @@
+// @ts-check
 // Draws every `.plot` by the specification in the script element after it: in a report that is one file, and on a page.
 (() => {
   "use strict";
@@ -8,8 +9,12 @@
   const NARROW = 480;
   const preferred = matchMedia("(prefers-color-scheme: dark)");
   const touch = matchMedia("(pointer: coarse)");
-  const plots = [...document.querySelectorAll(".plot")].map((box) => ({ box, spec: JSON.parse(box.nextElementSibling.textContent) }));
+  const plots = [...document.querySelectorAll(".plot")].map((found) => {
+    const box = /** @type {HTMLElement} */ (found);
+    return { box, spec: /** @type {PlotSpec} */ (JSON.parse(box.nextElementSibling?.textContent ?? "")) };
+  });
 
+  /** @param {PlotSpec} spec @param {PlotTheme} theme @returns {object[]} */
   function traces(spec, theme) {
     if (spec.rows) return spec.rows.map((row, i) => heat(row, i, spec, theme));
     const lines = spec.traces.map((trace) => (trace.bars ? bars(trace, theme) : line(trace, theme)));
@@ -21,18 +26,21 @@
     }];
   }
 
+  /** @param {PlotTrace} trace @param {PlotTheme} theme */
   const colour = (trace, theme) => theme.lines[trace.colour % theme.lines.length];
 
+  /** @param {PlotTrace} trace @param {PlotTheme} theme */
   const line = (trace, theme) => ({
     type: "scatter", mode: "lines", name: trace.name, x: trace.x, y: trace.y, hoverinfo: "x+y+name",
     line: { color: colour(trace, theme), width: trace.width ?? (trace.thin ? 0.8 : 1.2), dash: trace.dash ? "dash" : "solid" },
   });
 
+  /** @param {PlotTrace} trace @param {PlotTheme} theme */
   const bars = (trace, theme) => ({
     type: "bar", name: trace.name, x: trace.x, y: trace.y, hoverinfo: "x+y+name", marker: { color: colour(trace, theme) },
   });
 
-  // one row of a map; a third of the way up its scale noise ends
+  /** One row of a map; a third of the way up its scale noise ends. @param {PlotRow} row @param {number} i @param {PlotSpec} spec @param {PlotTheme} theme */
   const heat = (row, i, spec, theme) => ({
     type: "heatmap", x: row.x, y: [i], z: [row.z], customdata: [row.said], zmin: spec.scale.from, zmax: spec.scale.to, xgap: 1, ygap: 6,
     colorscale: theme.scale.map((one, k) => [k / (theme.scale.length - 1), one]), showscale: i === 0,
@@ -40,21 +48,26 @@
     hovertemplate: `%{x:.1f} s: %{customdata:.3g}<extra>${row.name}</extra>`,
   });
 
+  /** @param {string} title @param {PlotTheme} theme @param {object} more */
   function axis(title, theme, more) {
     return { title: { text: title, standoff: 8, font: { size: 12 } }, gridcolor: theme.grid, zerolinecolor: theme.zero, zerolinewidth: 1,
       linecolor: theme.zero, showline: true, ticks: "outside", ticklen: 4, tickcolor: theme.zero, automargin: true, nticks: 8, exponentformat: "power", ...more };
   }
 
+  /** @param {PlotSpec} spec @param {string} name */
   const kind = (spec, name) => ({ ...((spec.log ?? "").includes(name) ? { type: "log", nticks: 5, minor: { showgrid: false } } : {}), ...(spec.from_zero.includes(name) ? { rangemode: "tozero" } : {}) });
 
+  /** @param {PlotSpan[]} spans @param {PlotTheme} theme */
   const shaded = (spans, theme) => spans.map(({ from, to }) => ({
     type: "rect", xref: "x", yref: "paper", x0: from, x1: to, y0: 0, y1: 1, line: { width: 0 }, fillcolor: theme.shade, opacity: 0.14, layer: "below",
   }));
 
+  /** @param {PlotSpan[]} spans @param {PlotTheme} theme */
   const notes = (spans, theme) => spans.map(({ from, to, text }) => ({
     text, x: (from + to) / 2, xref: "x", y: 1, yref: "paper", yanchor: "top", showarrow: false, font: { size: 10, color: theme.muted },
   }));
 
+  /** @param {PlotSpec} spec @param {PlotTheme} theme @param {PlotSize} size */
   function layout(spec, theme, size) {
     const named = !spec.rows && spec.traces.length > 1;
     return {
@@ -68,12 +81,12 @@
     };
   }
 
+  /** @param {PlotTheme} theme @param {(box: HTMLElement) => number} [width] of a print; on a screen plots fill their boxes */
   function draw(theme, width) {
     for (const { box, spec } of plots) {
       if (spec.height) box.style.height = `${spec.height}px`;
-      const narrow = !width && spec.spans && box.clientWidth < NARROW;
-      const shown = narrow ? { ...spec, spans: spec.spans.map((span) => ({ ...span, text: "" })) } : spec;
-      const size = width ? { width: width(box), height: spec.height ?? (box.parentElement.classList.contains("tall") ? 400 : 200) } : {};
+      const shown = !width && spec.spans && box.clientWidth < NARROW ? { ...spec, spans: spec.spans.map((span) => ({ ...span, text: "" })) } : spec;
+      const size = width ? { width: width(box), height: spec.height ?? (box.parentElement?.classList.contains("tall") ? 400 : 200) } : {};
       Plotly.react(box, traces(shown, theme), layout(shown, theme, size), { displayModeBar: false, responsive: true });
     }
   }
@@ -81,7 +94,7 @@
   const chosen = () => document.documentElement.dataset.theme ?? (preferred.matches ? "dark" : "light");
   const onScreen = () => draw(chosen() === "dark" ? DARK : LIGHT);
   const half = (PRINT_WIDTH - PRINT_GAP) / 2;
-  addEventListener("beforeprint", () => draw(LIGHT, (box) => (box.parentElement.classList.contains("wide") ? PRINT_WIDTH : half)));
+  addEventListener("beforeprint", () => draw(LIGHT, (box) => (box.parentElement?.classList.contains("wide") ? PRINT_WIDTH : half)));
   addEventListener("afterprint", onScreen);
   preferred.addEventListener("change", onScreen);
   document.addEventListener("themechange", onScreen);

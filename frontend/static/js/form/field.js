@@ -64,12 +64,12 @@ export function numbersField(node, path, values = []) {
   const many = node.maxItems > MANY;
   const text = values.length > MANY ? "" : values.map((value) => shown(value, node)).join(many ? " " : ", ");
   const control = many ? el("textarea", { rows: 3, spellcheck: "false" }, text) : el("input", { type: "text", autocomplete: "off", value: text });
-  const read = () => (control.value === text ? values : control.value.split(/[,;\s]+/).filter(Boolean).map((one) => toSi(one, node)));
+  const read = () => (control.value === text ? values : control.value.split(/[,;\s]+/).filter(Boolean).map((/** @type {string} */ one) => toSi(one, node)));
   const problems = () => {
     const found = read();
     const bounds = { ...node.items, factor: node.factor, shown_label: node.shown_label };
     if (found.length < (node.minItems ?? 0)) return [{ where: path, problem: `needs at least ${node.minItems} ${node.minItems === 1 ? "number" : "numbers"}` }];
-    const wrong = found.findIndex((one) => typeof one !== "number" || outOfBounds(one, bounds));
+    const wrong = found.findIndex((/** @type {unknown} */ one) => typeof one !== "number" || outOfBounds(one, bounds));
     if (wrong < 0) return [];
     const problem = typeof found[wrong] === "number" ? outOfBounds(found[wrong], bounds) : `is no number: ${found[wrong]}`;
     return [{ where: path, problem: `number ${wrong + 1} ${problem}` }];

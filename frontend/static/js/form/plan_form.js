@@ -1,5 +1,5 @@
 // @ts-check
-import { el } from "../dom.js";
+import { el, htmlElements } from "../dom.js";
 import { drivePart } from "./drive.js";
 import { motionPart } from "./motion.js";
 import { part, usedIn } from "./parts.js";
@@ -52,10 +52,10 @@ export class PlanForm {
   /** Show what the kind of test chosen uses. */
   #refresh() {
     this.schema.test = this.parts.get("test")?.read();
-    for (const one of this.host.querySelectorAll("[data-tests]")) one.hidden = !one.dataset.tests.split(" ").includes(this.schema.test);
+    for (const one of htmlElements(this.host.querySelectorAll("[data-tests]"))) one.hidden = !one.dataset.tests?.split(" ").includes(this.schema.test);
     for (const one of this.parts.values()) one.refresh?.();
-    for (const section of this.host.children) {
-      section.hidden = [...section.querySelector(".fields").children].every((one) => one.hidden);
+    for (const section of htmlElements(this.host.children)) {
+      section.hidden = htmlElements(section.querySelectorAll(":scope > .fields > *")).every((one) => one.hidden);
     }
   }
 

@@ -62,9 +62,9 @@ function loopFigure({ station, x, y, x_unit, y_unit }) {
         cursor: { show: false },
         scales: { x: { time: false, range: () => range(x) }, y: { range: () => range(y) } },
         axes: [axis(`Displacement, ${x_unit}`, 34), axis(undefined, 52)],
-        series: [null, { stroke: () => themed("--line-2"), width: 1, facets, paths: loopPath }],
+        series: /** @type {any[]} */ ([null, { stroke: () => themed("--line-2"), width: 1, facets, paths: loopPath }]),
       },
-      [null, [x, y]],
+      /** @type {any} */ ([null, [x, y]]),
       box,
     );
     const follow = () => (box.isConnected ? drawn.redraw(false) : document.removeEventListener("themechange", follow));

@@ -17,6 +17,7 @@ export class LoopChart {
     this.y = y;
     this.figure = new Figure(x.unit === y.unit ? `${title}, ${x.unit}` : `${title}, ${y.unit} and ${x.unit}`, "", [x, y], false);
     this.box = this.figure.plot;
+    /** @type {uPlot | null} */
     this.plot = null;
     view.add(this.figure.element, this);
   }
@@ -33,6 +34,7 @@ export class LoopChart {
     this.figure.show(k < 0 ? null : store.time(k), values, false);
   }
 
+  /** The data of a plot in uPlot's mode 2: nothing for x, then x and y of each series. @returns {any} */
   #points() {
     const { store } = this.view;
     const [from, to] = this.view.range();
@@ -61,7 +63,7 @@ export class LoopChart {
         cursor: { show: false },
         scales: { x: { time: false, range: around(this.x.index) }, y: { range: around(this.y.index) } },
         axes: [axis(named(this.x), 34), axis(undefined, 52)],
-        series: [null, ...(this.alike ? [line("equal", "--line-wide", 2)] : []), line(this.y.label, this.y.colour, 1)],
+        series: /** @type {any[]} */ ([null, ...(this.alike ? [line("equal", "--line-wide", 2)] : []), line(this.y.label, this.y.colour, 1)]),
       },
       this.#points(),
       this.box,

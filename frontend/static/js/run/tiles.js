@@ -9,6 +9,7 @@ import { BEYOND, INPUT_ENERGY, PAPERS, telling } from "./measures.js";
 export class Tiles {
   /** @param {any} plan */
   constructor(plan) {
+    /** @type {List[]} */
     this.stations = plan.stations.map(() => new List(telling([...PAPERS, ...BEYOND], plan.test)));
     this.structure = new List([INPUT_ENERGY]);
   }

@@ -18,6 +18,7 @@ export class TimeChart {
     this.figure = new Figure(title, unit, series, true);
     this.envelope = new Envelope(series.length);
     this.box = this.figure.plot;
+    /** @type {uPlot | null} */
     this.plot = null;
     this.box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.#key(event));
     view.add(this.figure.element, this);
@@ -33,8 +34,9 @@ export class TimeChart {
 
   readout() {
     const { store } = this.view;
-    const left = this.plot?.cursor.left ?? -1;
-    const at = left >= 0 ? Math.max(0, Math.round(this.plot.posToVal(left, "x") / store.step) - 1) : -1;
+    const plot = this.plot;
+    const left = plot?.cursor.left ?? -1;
+    const at = plot && left >= 0 ? Math.max(0, Math.round(plot.posToVal(left, "x") / store.step) - 1) : -1;
     const k = at >= 0 && at < store.count ? at : store.count - 1;
     const values = this.channels.map((channel) => (k < 0 ? NaN : store.last[channel][k]));
     this.figure.show(k < 0 ? null : store.time(k), values, k === at && at >= 0);
@@ -83,18 +85,20 @@ export class TimeChart {
 
   /** @param {KeyboardEvent} event */
   #key(event) {
-    if (!this.plot || event.ctrlKey || event.metaKey || event.altKey) return;
+    const plot = this.plot;
+    if (!plot || event.ctrlKey || event.metaKey || event.altKey) return;
     const [from, to] = this.view.range();
     const width = this.box.querySelector(".u-over").clientWidth;
-    const left = this.plot.cursor.left >= 0 ? this.plot.cursor.left : width / 2;
+    const { left: cursor = -1 } = plot.cursor;
+    const left = cursor >= 0 ? cursor : width / 2;
     const zoom = (/** @type {number} */ factor) => {
-      const centre = this.plot.posToVal(left, "x");
+      const centre = plot.posToVal(left, "x");
       this.view.zoomTo([Math.max(0, centre - (centre - from) * factor), Math.min(this.view.store.end, centre + (to - centre) * factor)]);
     };
     const step = event.shiftKey ? 20 : 2;
     if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
       const next = Math.min(width, Math.max(0, left + (event.key === "ArrowLeft" ? -step : step)));
-      this.plot.setCursor({ left: next, top: 10 });
+      plot.setCursor({ left: next, top: 10 });
     } else if (event.key === "+" || event.key === "=") zoom(0.5);
     else if (event.key === "-") zoom(2);
     else if (event.key === "Escape") this.view.zoomTo(null);
