@@ -7,7 +7,7 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
-from rths_engine.diagnosis import diagnose
+from rths_engine.diagnosis.verdict import diagnose
 from rths_engine.parts.physics.specimen.coulomb_friction import CoulombFriction
 from rths_engine.planning import templates
 from rths_engine.planning.plan import Plan
@@ -41,5 +41,5 @@ def _timed(plan: Plan) -> float:
         start = perf_counter()
         found = diagnose(plan, recorded).verdict
         seconds.append(perf_counter() - start)
-    assert [one["component"] for one in found["effects"]] == ["specimen:1"], found["effects"]
+    assert [one.component for one in found.effects] == ["specimen:1"], found.effects
     return median(seconds)

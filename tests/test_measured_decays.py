@@ -6,10 +6,9 @@ import math
 
 import pytest
 
-from rths_engine.diagnosis import diagnose
-from rths_engine.diagnosis.verdict import Diagnosis
+from rths_engine.diagnosis.verdict import Diagnosis, diagnose
 from rths_engine.planning.reading import read_plan
-from tests.measured_sets import measured, plan
+from tests.measured_sets import heldout, measured, plan
 
 # mass kg, period s, damping ratio as published; displacement m and time s of the largest displacement, at which it is let go
 DECAYS = {
@@ -31,5 +30,5 @@ def diagnosed(name: str) -> Diagnosis:
 @pytest.mark.parametrize("name", DECAYS)
 def test_the_guides_of_a_carriage_rub_as_its_free_vibration_decays(name: str) -> None:
     found = diagnosed(name).verdict
-    assert found["effects"][0]["id"] == "coulomb_friction"
-    assert found["fit"]["extended"]["heldout_nrmse"] < 0.5 * found["fit"]["baseline"]["heldout_nrmse"]
+    assert found.effects[0].id == "coulomb_friction"
+    assert heldout(found, "extended") < 0.5 * heldout(found, "baseline")

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 from argparse import Namespace
-from typing import Any
 
 from app.cli.run_input import plan_at
 from app.reports.diagnosis import report_html
 from app.shown import VERDICTS
-from rths_engine.diagnosis import diagnose as engine
 from rths_engine.diagnosis.pictures import pictures
+from rths_engine.diagnosis.schema import ComponentVerdict, Verdict
+from rths_engine.diagnosis.verdict import diagnose as engine
 from rths_engine.foundation import files
-from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.foundation.errors import Issue, PlanError, RecordingError, renamed
 from rths_engine.recordings import opening
 
 
@@ -25,13 +25,23 @@ def diagnose(given: Namespace) -> None:
     plan = plan_at(given.plan)
     heldout = [opening.load(path) for path in given.holdout]
     more = [opening.load(path) for path in given.more]
-    diagnosis = engine(plan, opening.load(given.recording), heldout, given.level, more=more)
+    try:
+        diagnosis = engine(plan, opening.load(given.recording), heldout, given.level, more=more)
+    except RecordingError as error:
+        raise renamed(error, _names(given)) from None
     found = diagnosis.verdict
     if given.json:
-        files.write(given.json, json.dumps(found, indent=2, allow_nan=False) + "\n")
+        files.write(given.json, json.dumps(found.as_dict(), indent=2, allow_nan=False) + "\n")
     if given.report:
         files.write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis)))
     print(_text(found))
+
+
+def _names(given: Namespace) -> dict[str, str]:
+    """What the engine calls its recordings -> the argument that gave each."""
+    heldout = {f"heldout.{number}": f"--holdout {path}" for number, path in enumerate(given.holdout)}
+    more = {f"more.{number}": f"--with {path}" for number, path in enumerate(given.more)}
+    return {"recording": str(given.recording), **heldout, **more}
 
 
 def _facts(given: Namespace) -> list[tuple[str, str]]:
@@ -40,14 +50,26 @@ def _facts(given: Namespace) -> list[tuple[str, str]]:
     return [("Recording", given.recording.name), *more, *heldout, ("Rate of false alarms", f"{given.level:g}")]
 
 
-def _text(found: dict[str, Any]) -> str:
-    lines = [VERDICTS[found["verdict"]]]
-    for one in found["components"]:
-        off, noise = 100 * one["residual_nrmse"], 100 * one["noise_nrmse"]
-        lines.append(f"{one['component']}: off by {off:.3g} % as planned, noise {noise:.2g} %, p = {one['p_value']:.2g}")
-    for effect in found["effects"]:
-        lines.append(f"{effect['sentence']} Probability {effect['probability']:.2f}.")
-    if found["effects"]:
-        before, after = (found["fit"][key]["heldout_nrmse"] for key in ("baseline", "extended"))
-        lines.append(f"On what was not fitted, the error goes from {100 * before:.3g} % to {100 * after:.3g} %.")
+def _text(found: Verdict) -> str:
+    lines = [VERDICTS[found.verdict], *(_component(one) for one in found.components)]
+    for effect in found.effects:
+        lines.append(
+            effect.sentence if effect.probability is None else f"{effect.sentence} Probability {effect.probability:.2f}."
+        )
+    if found.effects:
+        before, after = (_percent(one.heldout_nrmse) for one in (found.fit.baseline, found.fit.extended))
+        lines.append(f"On what was not fitted, the error goes from {before} to {after}.")
     return "\n".join(lines)
+
+
+def _component(one: ComponentVerdict) -> str:
+    said = [f"{one.component}: off by {_percent(one.residual_nrmse)} as planned"]
+    if one.noise_nrmse is not None:
+        said.append(f"noise {100 * one.noise_nrmse:.2g} %")
+    if one.p_value is not None:
+        said.append(f"p = {one.p_value:.2g}")
+    return ", ".join(said)
+
+
+def _percent(share: float | None) -> str:
+    return "more than can be computed" if share is None else f"{100 * share:.3g} %"

@@ -11,6 +11,7 @@ from app.diagnoses import exports
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.schemas import Asked, DiagnosisDetail, DiagnosisList, DiagnosisOut, Simulations
 from app.runs.schemas import Person, RunOut
+from rths_engine.diagnosis.schema import Pictures, Verdict
 
 router = APIRouter(prefix="/api/v1/diagnoses", tags=["diagnoses"])
 NOBODY = Person()
@@ -33,6 +34,18 @@ def listed(
     return DiagnosisList(diagnoses=[DiagnosisOut.model_validate(one) for one in found], total=total)
 
 
+@router.get("/schema")
+def schema() -> dict[str, Any]:
+    """JSON Schema of a verdict, `rths-diagnosis/1`: every field with its meaning and its unit."""
+    return Verdict.json_schema()
+
+
+@router.get("/pictures-schema")
+def pictures_schema() -> dict[str, Any]:
+    """JSON Schema of the plots of a diagnosis, `rths-diagnosis-pictures/1`, likewise."""
+    return Pictures.json_schema()
+
+
 @router.get("/{diagnosis_id}")
 def one(diagnosis_id: str, diagnoses: Diagnoses) -> DiagnosisDetail:
     """State, progress (`doing`, `share` of the whole) and, once it is done, the verdict."""
@@ -40,13 +53,13 @@ def one(diagnosis_id: str, diagnoses: Diagnoses) -> DiagnosisDetail:
 
 
 @router.get("/{diagnosis_id}/verdict.json")
-def verdict(diagnosis_id: str, diagnoses: Diagnoses) -> dict[str, Any]:
+def verdict(diagnosis_id: str, diagnoses: Diagnoses) -> Verdict:
     """`rths-diagnosis/1`."""
     return diagnoses.result(diagnosis_id)[1]
 
 
 @router.get("/{diagnosis_id}/pictures.json")
-def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> dict[str, Any]:
+def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> Pictures:
     """`rths-diagnosis-pictures/1`: recording, simulation before and after, and what is left, decimated, SI."""
     return diagnoses.result(diagnosis_id)[2]
 

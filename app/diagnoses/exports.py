@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from app.models import Diagnosis
 from app.reports.diagnosis import Facts, report_html
+from rths_engine.diagnosis.schema import Pictures, Verdict
 
 
 def facts(diagnosis: Diagnosis) -> Facts:
@@ -23,7 +22,7 @@ def facts(diagnosis: Diagnosis) -> Facts:
     return [(name, text) for name, text in found if text]
 
 
-def report(diagnosis: Diagnosis, verdict: dict[str, Any], pictures: dict[str, Any]) -> str:
+def report(diagnosis: Diagnosis, verdict: Verdict, pictures: Pictures) -> str:
     """Self-contained HTML."""
     return report_html(diagnosis.name, [*facts(diagnosis), ("Identifier", diagnosis.id)], verdict, pictures)
 

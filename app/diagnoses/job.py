@@ -23,8 +23,8 @@ class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
         return DiagnosisOrder(job.id, job.attempt, job.plan, first, tuple(others), job.level)
 
     def store(self, job: Diagnosis, result: Diagnosed) -> Ending:
-        job.verdict, job.pictures = result.verdict, result.pictures
-        job.found, job.sentence = result.verdict["verdict"], tables(result.verdict).sentence
+        job.verdict, job.pictures = result.verdict.as_dict(), result.pictures.as_dict()
+        job.found, job.sentence = result.verdict.verdict, tables(result.verdict).sentence
         return Ending(State.COMPLETED, "Done.")
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from app.jobs.order import Order
+from rths_engine.diagnosis.schema import Pictures, Verdict
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,5 +24,5 @@ class DiagnosisOrder(Order):
 class Diagnosed:
     """The verdict (`rths-diagnosis/1`) and its pictures (`rths-diagnosis-pictures/1`)."""
 
-    verdict: dict[str, Any]
-    pictures: dict[str, Any]
+    verdict: Verdict
+    pictures: Pictures

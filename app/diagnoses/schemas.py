@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.jobs.states import State
 from app.runs.schemas import RunOut
 from app.text import Storable
+from rths_engine.diagnosis.schema import Verdict
 
 MOST_HELD_OUT = 20
 
@@ -77,7 +78,7 @@ class DiagnosisDetail(DiagnosisOut):
     """A diagnosis with its plan and, once it is done, its verdict (`rths-diagnosis/1`)."""
 
     plan: dict[str, Any]
-    verdict: dict[str, Any] | None
+    verdict: Verdict | None
 
 
 class DiagnosisList(BaseModel):

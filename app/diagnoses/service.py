@@ -19,6 +19,7 @@ from app.models import Diagnosis, Run
 from app.problems import Conflict
 from app.runs.service import RunService
 from rths_engine import __version__
+from rths_engine.diagnosis.schema import Pictures, Verdict
 from rths_engine.recordings.measured import Measured
 from rths_engine.recordings.opening import load
 
@@ -59,12 +60,12 @@ class DiagnosisService:
     def listed(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
         return self.rows.listed(limit, offset)
 
-    def result(self, diagnosis_id: str) -> tuple[Diagnosis, dict[str, Any], dict[str, Any]]:
+    def result(self, diagnosis_id: str) -> tuple[Diagnosis, Verdict, Pictures]:
         """The diagnosis, its verdict and its pictures. Raises Conflict while there are none."""
         diagnosis = self.get(diagnosis_id)
         if diagnosis.verdict is None or diagnosis.pictures is None:
             raise Conflict(f"The diagnosis is {diagnosis.state} and has no result.")
-        return diagnosis, diagnosis.verdict, diagnosis.pictures
+        return diagnosis, Verdict.read(diagnosis.verdict), Pictures.read(diagnosis.pictures)
 
     def cancel(self, diagnosis_id: str, by: str) -> Diagnosis:
         """End a queued one now; ask the worker to end a running one. Raises IllegalTransition for an ended one."""
@@ -77,7 +78,7 @@ class DiagnosisService:
     def simulate(self, diagnosis_id: str, by: str) -> tuple[Run, Run]:
         """Queue the plan and the extended plan as ordinary runs, once unless one of them came to nothing."""
         diagnosis = self.jobs.locked(diagnosis_id)
-        extended = (diagnosis.verdict or {}).get("extended_plan")
+        extended = Verdict.read(diagnosis.verdict).extended_plan if diagnosis.verdict else None
         if extended is None:
             raise Conflict("There is no extended plan to run: the diagnosis names no effect that the plan has a place for.")
         if any(not run.state.ended or run.recording_sha256 for run in self.simulations(diagnosis)):

@@ -59,9 +59,10 @@ def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: C
     diagnosis = diagnoses.get(diagnosis_id)
     result: dict[str, Any] = {}
     if diagnosis.verdict is not None and diagnosis.pictures is not None:
+        _, verdict, pictures = diagnoses.result(diagnosis_id)
         result = {
-            **shown(diagnosis.verdict, diagnosis.pictures),
-            "extended": diagnosis.verdict["extended_plan"] is not None,
+            **shown(verdict, pictures),
+            "extended": verdict.extended_plan is not None,
             "simulations": diagnoses.simulations(diagnosis),
             **_overlaid(diagnosis, diagnoses, configured),
         }

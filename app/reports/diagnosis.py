@@ -7,14 +7,15 @@ from typing import Any
 from app.reports import page
 from app.reports.diagnosis_figures import details, over_time
 from app.reports.diagnosis_tables import tables
+from rths_engine.diagnosis.schema import Pictures, Verdict
 
 Facts = list[tuple[str, str]]
 
 
-def shown(verdict: dict[str, Any], pictures: dict[str, Any]) -> dict[str, Any]:
+def shown(verdict: Verdict, pictures: Pictures) -> dict[str, Any]:
     """What the templates of the page and of the report show."""
     return {"told": tables(verdict), "over_time": over_time(pictures), "details": details(pictures)}
 
 
-def report_html(title: str, facts: Facts, verdict: dict[str, Any], pictures: dict[str, Any]) -> str:
+def report_html(title: str, facts: Facts, verdict: Verdict, pictures: Pictures) -> str:
     return page.render("diagnosis_report.html", title=title, facts=facts, **shown(verdict, pictures))

@@ -9,6 +9,8 @@ import numpy as np
 
 from app.reports.figures import Panel
 from app.reports.packed import Samples, packed
+from rths_engine.diagnosis.schema import Pictures
+from rths_engine.diagnosis.schema.pictures import Axis, Channel, Detail, Numbers, OverTime, Residuals, Signals, Spectra, State
 
 ROW, MARGIN, LOWEST = 44, 84, 170  # pixels of the map
 SCALE = {  # decades of standard deviations; a third of the way noise ends, about 3
@@ -19,7 +21,8 @@ SCALE = {  # decades of standard deviations; a third of the way noise ends, abou
     "title": "Residual over noise",
 }
 MEASURED, BEFORE, AFTER, NOISE = 0, 1, 2, 3
-MODELS = ("before", "after", "simulated")
+Models = dict[str, str]  # name of a simulation that is shown -> where it stands
+Lines = Sequence[tuple[str, Numbers]]
 NAMES = {"measured": "Recording", "before": "Before", "after": "After", "simulated": "Simulation", "noise": "Noise"}
 COLOURS = {"measured": MEASURED, "before": BEFORE, "after": AFTER, "simulated": BEFORE, "noise": NOISE}
 
@@ -29,22 +32,22 @@ class Section(NamedTuple):
     panels: list[Panel]
 
 
-def over_time(pictures: dict[str, Any]) -> Panel:
+def over_time(pictures: Pictures) -> Panel:
     """Components against time: the residual of the planned model in standard deviations of the noise."""
-    components = pictures["components"]
+    components = pictures.components
     rows = []
     for one in components:
-        level = _array(one["over_time"]["level"])
+        level = _array(one.over_time.level)
         decades = np.log10(np.clip(np.nan_to_num(level, nan=1e9), 0.5, 1e9))
         rows.append(
             {
-                "name": one["component"],
-                "x": one["over_time"]["time_s"],
+                "name": one.component,
+                "x": one.over_time.time_s,
                 "z": decades.round(3).tolist(),
-                "said": one["over_time"]["level"],
+                "said": one.over_time.level,
             }
         )
-    said = "; ".join(f"{one['title']} ({one['component']}) {_beyond(one)}" for one in components)
+    said = "; ".join(f"{one.title} ({one.component}) {_beyond(one.over_time)}" for one in components)
     spec = {
         "rows": rows,
         "scale": SCALE,
@@ -56,103 +59,95 @@ def over_time(pictures: dict[str, Any]) -> Panel:
     return Panel("Residual of each component over time", f"Residual of each component over time: {said}.", spec, wide=True)
 
 
-def details(pictures: dict[str, Any]) -> list[Section]:
+def details(pictures: Pictures) -> list[Section]:
     """One section for each component that is shown in detail."""
-    return [_section(_capital(one["title"]), one["detail"]) for one in pictures["components"] if one["detail"]]
+    return [_section(_capital(one.title), one.detail) for one in pictures.components if one.detail]
 
 
-def _section(title: str, detail: dict[str, Any]) -> Section:
-    return Section(title, _panels(_as_one(detail))) if _alike(detail) else Section(f"{title} before and after", _panels(detail))
+def _section(title: str, detail: Detail) -> Section:
+    """Where nothing was selected, after is before: one simulation is shown instead of two that are alike."""
+    if all(channel.signals.before == channel.signals.after for channel in detail.channels):
+        return Section(title, _panels(detail, {"simulated": "before"}))
+    return Section(f"{title} before and after", _panels(detail, {"before": "before", "after": "after"}))
 
 
-def _panels(detail: dict[str, Any]) -> list[Panel]:
-    spans = [{"from": one["from_s"], "to": one["to_s"], "text": "held out"} for one in detail["blocks"] if one["held_out"]]
+def _panels(detail: Detail, models: Models) -> list[Panel]:
+    spans = [{"from": one.from_s, "to": one.to_s, "text": "held out"} for one in detail.blocks if one.held_out]
     found = []
-    for channel in detail["channels"]:
-        label, unit = channel["label"], channel["shown"]
-        name = _capital(label)
-        found.append(_lines(f"{name}: recording and simulation", channel, "signals", f"{name}, {unit}", spans))
-        found.append(_lines(f"Residual of the {label}", channel, "residuals", f"Residual, {unit}", spans))
-        found.append(_spectrum(channel))
-    return [*found, *_planes(detail["state"]), _blocks(detail, spans)]
+    for channel in detail.channels:
+        name = _capital(channel.label)
+        signals = [("measured", channel.signals.measured), *_of(channel.signals, models)]
+        left = _of(channel.residuals, models)
+        axes = (f"{name}, {channel.shown}", f"Residual, {channel.shown}")
+        found.append(_lines(f"{name}: recording and simulation", channel, channel.signals.time_s, signals, axes[0], spans))
+        found.append(_lines(f"Residual of the {channel.label}", channel, channel.residuals.time_s, left, axes[1], spans))
+        found.append(_spectrum(channel, models))
+    return [*found, *_planes(detail.state, models), _blocks(detail, models, spans)]
 
 
-def _alike(detail: dict[str, Any]) -> bool:
-    """Where nothing was selected, after is before."""
-    return all(channel["signals"]["before"] == channel["signals"]["after"] for channel in detail["channels"])
+def _of(signals: Signals | Residuals | Spectra | State, models: Models, group: str = "") -> list[tuple[str, Numbers]]:
+    """What each model that is shown has in the group, by its name."""
+    return [(name, getattr(signals, f"{group}{place}")) for name, place in models.items()]
 
 
-def _as_one(detail: dict[str, Any]) -> dict[str, Any]:
-    """With one simulation instead of two that are alike."""
-
-    def one(given: dict[str, Any]) -> dict[str, Any]:
-        return {name.replace("before", "simulated"): value for name, value in given.items() if "after" not in name}
-
-    groups = ("signals", "residuals", "spectra")
-    channels = [{**channel, **{group: one(channel[group]) for group in groups}} for channel in detail["channels"]]
-    blocks = [one(block) for block in detail["blocks"]]
-    return {**detail, "channels": channels, "state": one(detail["state"]), "blocks": blocks}
-
-
-def _lines(title: str, channel: dict[str, Any], group: str, axis: str, spans: list[dict[str, Any]]) -> Panel:
-    given = channel[group]
-    time = _array(given["time_s"])
-    values = {name: _array(row) / channel["factor"] for name, row in given.items() if name != "time_s"}
-    traces = [trace(name, time, row) for name, row in values.items()]
-    said = ", ".join(f"{NAMES[name].lower()} {_range(row, channel['shown'])}" for name, row in values.items())
+def _lines(title: str, channel: Channel, time: Numbers, lines: Lines, axis: str, spans: list[dict[str, Any]]) -> Panel:
+    values = [(name, _array(row) / channel.factor) for name, row in lines]
+    traces = [trace(name, _array(time), row) for name, row in values]
+    said = ", ".join(f"{NAMES[name].lower()} {_range(row, channel.shown)}" for name, row in values)
     spec = {"traces": traces, "x": "Time, s", "y": axis, "from_zero": "", "spans": spans}
     return Panel(title, f"{title}: {said}. Shaded spans were held out of the fit.", spec, wide=True)
 
 
-def _spectrum(channel: dict[str, Any]) -> Panel:
-    given, unit = channel["spectra"], channel["shown"]
-    frequency = _array(given["frequency_hz"])
-    lines = {name: _array(given[name]) / channel["factor"] ** 2 for name in (*MODELS, "noise") if name in given}
+def _spectrum(channel: Channel, models: Models) -> Panel:
+    unit, frequency = channel.shown, _array(channel.spectra.frequency_hz)
+    given = [*_of(channel.spectra, models), ("noise", channel.spectra.noise)]
+    lines = {name: _array(row) / channel.factor**2 for name, row in given}
     traces = [trace(name, frequency, np.where(row > 0, row, np.nan), name == "noise") for name, row in lines.items()]
-    title = f"Spectrum of the residual of the {channel['label']}"
-    top = {name: frequency[int(np.argmax(np.nan_to_num(row)))] for name, row in lines.items()}
-    peaks = ", ".join(f"{NAMES[name].lower()} at {top[name]:.3g} Hz" for name in MODELS if name in top)
+    title = f"Spectrum of the residual of the {channel.label}"
+    top = {name: frequency[int(np.argmax(np.nan_to_num(lines[name])))] for name in models}
+    peaks = ", ".join(f"{NAMES[name].lower()} at {at:.3g} Hz" for name, at in top.items())
     said = f"largest {peaks}; the noise is dashed"
     density = f"Density, {unit}²/Hz" if unit.isalpha() else f"Density, ({unit})²/Hz"
     spec = {"traces": traces, "x": "Frequency, Hz", "y": density, "from_zero": "", "log": "xy"}
     return Panel(title, f"{title}: {said}.", spec)
 
 
-def _planes(state: dict[str, Any]) -> list[Panel]:
+def _planes(state: State, models: Models) -> list[Panel]:
     """Output against displacement, then the residual against displacement and velocity."""
-    output = state["output"]
-    name, unit, factor = output["label"], output["shown"], output["factor"]
-    moved, speed = state["axes"]
-    whole = [(key, _array(state[key]) / factor) for key in ("measured", *MODELS) if key in state]
-    left = [(key, _array(state[f"residual_{key}"]) / factor) for key in MODELS if key in state]
+    name, unit, factor = state.output.label, state.output.shown, state.output.factor
+    moved, speed = state.axes
+    given = [("measured", state.measured), *_of(state, models)]
+    whole = [(key, _array(row) / factor) for key, row in given]
+    left = [(key, _array(row) / factor) for key, row in _of(state, models, "residual_")]
     return [
-        _plane(f"{_capital(name)} against {moved['label']}", moved, whole, f"{_capital(name)}, {unit}", unit),
-        _plane(f"Residual against {moved['label']}", moved, left, f"Residual, {unit}", unit),
-        _plane(f"Residual against {speed['label']}", speed, left, f"Residual, {unit}", unit),
+        _plane(f"{_capital(name)} against {moved.label}", moved, whole, f"{_capital(name)}, {unit}", unit),
+        _plane(f"Residual against {moved.label}", moved, left, f"Residual, {unit}", unit),
+        _plane(f"Residual against {speed.label}", speed, left, f"Residual, {unit}", unit),
     ]
 
 
-def _plane(title: str, axis: dict[str, Any], lines: Sequence[tuple[str, Samples]], y: str, unit: str) -> Panel:
-    x = _array(axis["values"]) / axis["factor"]
+def _plane(title: str, axis: Axis, lines: Sequence[tuple[str, Samples]], y: str, unit: str) -> Panel:
+    x = _array(axis.values) / axis.factor
     traces = [{**trace(name, x, row), "thin": True} for name, row in lines]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row, unit)}" for name, row in lines)
-    spec = {"traces": traces, "x": f"{_capital(axis['label'])}, {axis['shown']}", "y": y, "from_zero": ""}
-    return Panel(title, f"{title}, over {_range(x, axis['shown'])}: {said}.", spec)
+    spec = {"traces": traces, "x": f"{_capital(axis.label)}, {axis.shown}", "y": y, "from_zero": ""}
+    return Panel(title, f"{title}, over {_range(x, axis.shown)}: {said}.", spec)
 
 
-def _blocks(detail: dict[str, Any], spans: list[dict[str, Any]]) -> Panel:
-    blocks = detail["blocks"]
-    middle = np.array([0.5 * (one["from_s"] + one["to_s"]) for one in blocks])
-    errors = {name: 100 * _array([one[name] for one in blocks]) for name in MODELS if name in blocks[0]}
-    floor = 100 * (detail["noise_nrmse"] or 0.0)
+def _blocks(detail: Detail, models: Models, spans: list[dict[str, Any]]) -> Panel:
+    blocks = detail.blocks
+    middle = np.array([0.5 * (one.from_s + one.to_s) for one in blocks])
+    errors = {name: 100 * _array([getattr(one, place) for one in blocks]) for name, place in models.items()}
+    floor = np.nan if detail.noise_nrmse is None else 100 * detail.noise_nrmse
     traces = [{**trace(name, middle, row), "bars": True} for name, row in errors.items()]
-    ends = np.array([blocks[0]["from_s"], blocks[-1]["to_s"]])
+    ends = np.array([blocks[0].from_s, blocks[-1].to_s])
     traces.append(trace("noise", ends, np.full(2, floor), True))
     spec = {"traces": traces, "x": "Time, s", "y": "Error, %", "from_zero": "", "spans": spans}
-    kept = [place for place, one in enumerate(blocks) if one["held_out"]]
+    kept = [place for place, one in enumerate(blocks) if one.held_out]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row[kept], '%')}" for name, row in errors.items())
     title = "Error block by block"
-    return Panel(title, f"{title}; on the blocks held out of the fit {said}; noise floor {floor:.3g} %.", spec)
+    noise = "unknown" if detail.noise_nrmse is None else f"{floor:.3g} %"
+    return Panel(title, f"{title}; on the blocks held out of the fit {said}; noise floor {noise}.", spec)
 
 
 def trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, Any]:
@@ -160,9 +155,9 @@ def trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, An
     return {**known, "width": 2.4} if name == "measured" else known
 
 
-def _beyond(one: dict[str, Any]) -> str:
-    level = _array(one["over_time"]["level"])
-    above = int(np.sum(level > one["over_time"]["beyond"]))
+def _beyond(one: OverTime) -> str:
+    level = _array(one.level)
+    above = int(np.sum(np.nan_to_num(level, nan=np.inf) > one.beyond))
     return f"beyond the noise in {above} of {len(level)} spans" if above else "within the noise throughout"
 
 

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from app.shown import VERDICTS
+from rths_engine.diagnosis.schema import (
+    Candidate,
+    ComponentVerdict,
+    Errors,
+    Fit,
+    NamedEffect,
+    NextTest,
+    Parameter,
+    Unexplained,
+    Verdict,
+    Where,
+)
 
-LEAST_P = 1e-12  # smaller chances are all nil
+LEAST_P = 1e-12  # smaller p-values are not told apart
+SPANS = 6  # time spans that are listed
+NONE = "–"  # a number that was not computed, or has no unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,27 +42,26 @@ class Tables:
     next_test: str
 
 
-def tables(verdict: dict[str, Any]) -> Tables:
-    told = [one["sentence"] for one in verdict["effects"]]
-    sentence, *further = told or [VERDICTS[verdict["verdict"]]]
-    fit = verdict["fit"]
+def tables(verdict: Verdict) -> Tables:
+    told = [one.sentence for one in verdict.effects]
+    sentence, *further = told or [VERDICTS[verdict.verdict]]
     return Tables(
-        kind=verdict["verdict"],
+        kind=verdict.verdict,
         sentence=sentence,
         further=further,
-        components=[_component(one) for one in verdict["components"]],
-        where=_where(verdict["where"]),
-        ranking=[_candidate(one) for one in verdict["candidates"]],
-        alike=[" or ".join(_named(one) for one in group) for group in verdict["indistinguishable"]],
-        parameters=[_parameter(one, number) for one in verdict["effects"] for number in one["parameters"]],
-        fit=_fit(fit),
-        noise_floor=_percent(fit["noise_floor_nrmse"]),
-        unexplained=_unexplained(verdict["unexplained"]),
-        next_test=_next_test(verdict["next_test"]),
+        components=[_component(one) for one in verdict.components],
+        where=_where(verdict.where),
+        ranking=[_candidate(one) for one in verdict.candidates],
+        alike=[" or ".join(_named(one) for one in group) for group in verdict.indistinguishable],
+        parameters=[_parameter(one, number) for one in verdict.effects for number in one.parameters],
+        fit=_fit(verdict.fit),
+        noise_floor=_percent(verdict.fit.noise_floor_nrmse),
+        unexplained=_unexplained(verdict.unexplained),
+        next_test=_next_test(verdict.next_test),
     )
 
 
-def named(effects: list[str]) -> str:
+def named(effects: Sequence[str]) -> str:
     """`specimen:1/backlash` for people: backlash of specimen 1."""
     return " and ".join(_one(effect) for effect in effects) or "no effect of the library"
 
@@ -63,39 +76,43 @@ def _named(group: str) -> str:
     return named(group.split(", ") if group else [])
 
 
-def _component(one: dict[str, Any]) -> list[str]:
-    chance = "< 1e-12" if one["p_value"] < LEAST_P else f"{one['p_value']:.2g}"
-    verdict = str(one["verdict"]).replace("_", " ")
-    return [one["component"], verdict, _percent(one["residual_nrmse"]), _percent(one["noise_nrmse"]), chance]
+def _component(one: ComponentVerdict) -> list[str]:
+    verdict = one.verdict.replace("_", " ")
+    return [one.component, verdict, _percent(one.residual_nrmse), _percent(one.noise_nrmse), _chance(one.p_value)]
 
 
-def _where(place: dict[str, Any] | None) -> list[tuple[str, str]]:
+def _chance(p_value: float | None) -> str:
+    if p_value is None:
+        return NONE
+    return "< 1e-12" if p_value < LEAST_P else f"{p_value:.2g}"
+
+
+def _where(place: Where | None) -> list[tuple[str, str]]:
     if not place:
         return []
-    times = ", ".join(f"{start:.1f} to {end:.1f} s" for start, end in place["times_s"][:6])
-    if len(place["times_s"]) > 6:
-        times += f" and {len(place['times_s']) - 6} more spans"
-    bands = ", ".join(f"{low:.3g} to {high:.3g} Hz" for low, high in place["bands_hz"])
-    found = [("Component", place["component"]), ("Time", times), ("Frequency", bands), ("State", place["state"])]
+    times = ", ".join(f"{start:.1f} to {end:.1f} s" for start, end in place.times_s[:SPANS])
+    if len(place.times_s) > SPANS:
+        times += f" and {len(place.times_s) - SPANS} more spans"
+    bands = ", ".join(f"{low:.3g} to {high:.3g} Hz" for low, high in place.bands_hz)
+    found = [("Component", place.component), ("Time", times), ("Frequency", bands), ("State", place.state)]
     return [(name, text) for name, text in found if text]
 
 
-def _candidate(one: dict[str, Any]) -> tuple[str, float, list[str]]:
-    chance = one["probability"]
+def _candidate(one: Candidate) -> tuple[str, float, list[str]]:
+    chance = one.probability
     shown = f"{chance:.3f}" if chance >= 0.0005 or chance == 0 else "< 0.001"
-    return named(one["effects"]), chance, [shown, f"{one['delta_bic']:.0f}", _percent(one["heldout_nrmse"])]
+    return named(one.effects), chance, [shown, f"{one.delta_bic:.0f}", _percent(one.heldout_nrmse)]
 
 
-def _parameter(effect: dict[str, Any], number: dict[str, Any]) -> list[str]:
-    low, high = number["ci90"]
-    known = number.get("factor", 1.0)
-    unit = number.get("shown", number["unit"])
-    shown = [_digits(value / known, (high - low) / known) for value in (number["value"], low, high)]
+def _parameter(effect: NamedEffect, number: Parameter) -> list[str]:
+    low, high = number.ci90
+    unit = number.unit if number.shown is None else number.shown
+    shown = [_digits(value / number.factor, (high - low) / number.factor) for value in (number.value, low, high)]
     return [
-        _one(f"{effect['component']}/{effect['id']}"),
-        number.get("label", number["name"]),
+        _one(f"{effect.component}/{effect.id}"),
+        number.label or number.name,
         *shown,
-        "–" if unit == "1" else unit,
+        NONE if unit in ("", "1") else unit,
     ]
 
 
@@ -107,30 +124,30 @@ def _digits(value: float, width: float) -> str:
     return f"{value:.{digits}g}"
 
 
-def _fit(fit: dict[str, Any]) -> list[list[str]]:
-    planned = ["Planned model, its numbers refitted", *_errors(fit["baseline"])]
-    return [planned] if fit["baseline"] == fit["extended"] else [planned, ["Extended model", *_errors(fit["extended"])]]
+def _fit(fit: Fit) -> list[list[str]]:
+    planned = ["Planned model, its numbers refitted", *_errors(fit.baseline)]
+    return [planned] if fit.baseline == fit.extended else [planned, ["Extended model", *_errors(fit.extended)]]
 
 
-def _errors(model: dict[str, float]) -> list[str]:
-    return [_percent(model["fit_nrmse"]), _percent(model["heldout_nrmse"])]
+def _errors(model: Errors) -> list[str]:
+    return [_percent(model.fit_nrmse), _percent(model.heldout_nrmse)]
 
 
-def _unexplained(left: dict[str, Any]) -> list[tuple[str, str]]:
-    found = [("In words", left["words"]), ("Share", f"{_percent(left['fraction'])} % of the deviation of what was measured")]
-    return [*found, ("Formula", left["formula"])] if left["formula"] else found
+def _unexplained(left: Unexplained) -> list[tuple[str, str]]:
+    found = [("In words", left.words), ("Share", f"{_percent(left.fraction)} % of the deviation of what was measured")]
+    return [*found, ("Formula", left.formula)] if left.formula else found
 
 
-def _next_test(found: dict[str, Any] | None) -> str:
+def _next_test(found: NextTest | None) -> str:
     if not found:
         return ""
-    names = " from ".join(_named(one) for one in found["separates"])
-    expected = f"expected λ = {found['expected_lambda']:.3g}; from about 10 on they are told apart"
-    return f"{_capital(found['signal'])}: it separates {names} ({expected})."
+    names = " from ".join(_named(one) for one in found.separates)
+    expected = f"expected λ = {found.expected_lambda:.3g}; from about 10 on they are told apart"
+    return f"{_capital(found.signal)}: it separates {names} ({expected})."
 
 
 def _percent(share: float | None) -> str:
-    return "–" if share is None else f"{100 * share:.3g}"
+    return NONE if share is None else f"{100 * share:.3g}"
 
 
 def _capital(text: str) -> str:

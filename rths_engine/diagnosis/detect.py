@@ -90,7 +90,7 @@ def _relative(powers: Array) -> Array:
 def p_planned(fitted: Fitted) -> float:
     """That the planned numbers are as far off their plan by their spread alone."""
     off = fitted.misfit[fitted.samples :]
-    return max(float(chi2.sf(float(off @ off), len(off))), TINIEST) if len(off) else 1.0
+    return float(chi2.sf(float(off @ off), len(off))) if len(off) else 1.0
 
 
 def fitted_residual(fitted: Fitted) -> Array:
@@ -105,13 +105,13 @@ def p_value(largest: float, null: Array) -> float:
     if beyond >= 5:
         return (1 + beyond) / (1 + len(null))
     location, scale = gumbel_r.fit(null)
-    return max(float(gumbel_r.sf(largest, location, scale)), TINIEST)
+    return float(gumbel_r.sf(largest, location, scale))
 
 
 def _upper_tail(length: float, null: Array) -> float:
     """Of the gamma law with the mean and variance of the replicates, which squared lengths follow nearly."""
     mean, variance = float(null.mean()), float(null.var())
-    return max(float(gamma.sf(length, mean * mean / variance, scale=variance / mean)), TINIEST)
+    return float(gamma.sf(length, mean * mean / variance, scale=variance / mean))
 
 
 def null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Array:

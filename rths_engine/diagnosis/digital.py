@@ -17,7 +17,8 @@ ROUNDING = 1e-5  # of the largest value: files of text keep five digits and more
 
 @dataclass(frozen=True)
 class Replayed:
-    """A digital part, replayed: its error over the largest value, and the same beside the RMS about the mean."""
+    """A computed part, replayed: its largest error over the largest value, and its RMS error over the RMS about the mean; both
+    infinite where the replay runs away."""
 
     component: str
     error: float
@@ -77,5 +78,5 @@ def _compared(component: str, real: Array, ours: Array, what: str) -> Replayed:
     spread = max(float(np.std(real)), 1e-300)
     worst, nrmse = float(np.max(np.abs(error))) / largest, float(np.sqrt(np.mean(error**2))) / spread
     if not np.isfinite([worst, nrmse]).all():
-        worst, nrmse = 1e6, 1e6
+        worst, nrmse = np.inf, np.inf
     return Replayed(component, worst, nrmse, what)

@@ -13,6 +13,7 @@ from scipy.stats import chi2
 from rths_engine.diagnosis.components import Component
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.noise import Noise
+from rths_engine.diagnosis.schema import Kind
 from rths_engine.diagnosis.select import Selection, select
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
@@ -32,7 +33,7 @@ class Judged:
     component: Component
     name: str
     selection: Selection
-    verdict: str
+    verdict: Kind
     unknown: bool
     heldout: tuple[Any, ...]
 
@@ -70,7 +71,8 @@ class Judged:
         )
 
     def nrmse(self, parts: Sequence[Part], fitted: bool | None) -> float:
-        """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike."""
+        """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike.
+        Infinity where the simulation runs away."""
         rows: list[tuple[Array, Array]] = []
         if fitted is False and self.heldout:
             for other in self.heldout:
@@ -83,7 +85,7 @@ class Judged:
                 rows.append((one.measured[:, used], self.component.predicted(parts, one)[:, used]))
         real, ours = (np.concatenate(one, axis=1) for one in zip(*rows, strict=True))
         spread = np.maximum(np.var(real, axis=1), 1e-300)
-        return finite(float(np.sqrt(np.mean(np.mean((real - ours) ** 2, axis=1) / spread))))
+        return unbounded(float(np.sqrt(np.mean(np.mean((real - ours) ** 2, axis=1) / spread))))
 
     @property
     def noise(self) -> float:
@@ -93,7 +95,7 @@ class Judged:
             noise.deviation**2 / max(float(np.var(row)), 1e-300)
             for noise, row in zip(self.recordings.noises, real, strict=True)
         ]
-        return finite(float(np.sqrt(np.mean(shares))))
+        return unbounded(float(np.sqrt(np.mean(shares))))
 
 
 def judged(
@@ -132,11 +134,12 @@ def inner(count: int, step: float) -> Any:
     return (place >= ENDS) & (place < count * step - ENDS)
 
 
-def finite(value: float) -> float:
-    return value if np.isfinite(value) else 1e9
+def unbounded(error: float) -> float:
+    """Infinity for an error that is not a number: the simulation ran away."""
+    return error if np.isfinite(error) else np.inf
 
 
-def _calibration(selection: Selection, level: float) -> str:
+def _calibration(selection: Selection, level: float) -> Kind:
     planned = selection.recordings.misfit(selection.recordings.component.base)
     chosen: Fitted = selection.chosen
     gain = float(planned @ planned) - chosen.squared

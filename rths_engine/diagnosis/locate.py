@@ -16,7 +16,8 @@ BEYOND = 3.0  # standard deviations of the noise
 
 @dataclass(frozen=True)
 class Place:
-    """Windows (s), bands (Hz), a word on the state, and the level of the residual over time in standard deviations of noise."""
+    """Windows (s), bands (Hz), a word on the state, and the level of the residual over time in standard deviations of noise,
+    infinite where the simulation runs away."""
 
     times: list[tuple[float, float]]
     bands: list[tuple[float, float]]
@@ -32,7 +33,7 @@ def place(one: Judged) -> Place:
     width = max(1, min(round(WINDOW / data.step), scaled.shape[1] // 8))
     count = scaled.shape[1] // width
     level = np.sqrt(np.mean(scaled[:, : count * width].reshape(len(noise), count, width) ** 2, axis=(0, 2)))
-    level = np.nan_to_num(level, nan=1e9, posinf=1e9)
+    level = np.where(np.isfinite(level), level, np.inf)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], (level > BEYOND).astype(int), [0]])))
     at = data.start + np.arange(count + 1) * width * data.step
     times = [(float(at[a]), float(at[b])) for a, b in edges.reshape(-1, 2)]

@@ -30,7 +30,8 @@ class NextTest:
 def next_test(
     recordings: Recordings, one: Sequence[Part], other: Sequence[Part], stroke: float, speed: float
 ) -> NextTest | None:
-    """Of sines and ramps within the stroke (m) and speed (m/s) of the rig; None where the component has no drive."""
+    """Of sines and ramps within the stroke (m) and speed (m/s) of the rig; None where the component has no drive
+    or none of them separates the two."""
     data = recordings.data[0]
     if not isinstance(data, ActuatorData | SpecimenData):
         return None
@@ -62,6 +63,8 @@ def next_test(
         return None
     reached = each(expected, offers)
     best = int(np.argmax(reached))
+    if not reached[best] > 0:
+        return None
     return NextTest(offers[best][0], reached[best])
 
 

@@ -1,7 +1,6 @@
-"""What there is to see of a diagnosis as `rths-diagnosis-pictures/1`: recording, simulation before and after, what is left.
+"""What there is to plot of a diagnosis, as `rths-diagnosis-pictures/1`.
 
-SI throughout; `factor` and `shown` beside a unit tell how people read it (SI = factor * shown). Numbers that are not finite are
-null. "Before" is the planned model with its own numbers refitted, "after" the model chosen.
+"Before" is the planned model with its own numbers refitted, "after" the model chosen.
 """
 
 from __future__ import annotations
@@ -13,16 +12,16 @@ import numpy as np
 from scipy.signal import welch
 
 from rths_engine.diagnosis.components.structure import StructureData
-from rths_engine.diagnosis.judge import BLOCKS, ENDS, HELD_OUT, Judged
+from rths_engine.diagnosis.judge import BLOCKS, HELD_OUT, Judged, inner
 from rths_engine.diagnosis.locate import BEYOND, place
 from rths_engine.diagnosis.noise import FREQUENCY, Noise
 from rths_engine.diagnosis.result import ORDER
+from rths_engine.diagnosis.schema import pictures as form
 from rths_engine.diagnosis.verdict import Diagnosis
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.roles import SHOWN, dimension, to_si
 from rths_engine.results.decimate import extremes
 
-SCHEMA = "rths-diagnosis-pictures/1"
 POINTS = 3000  # of a plot
 MOST_CHANNELS = 4  # of a component
 SEGMENTS = 8  # of a spectrum
@@ -31,34 +30,34 @@ WELL = ("consistent", "recalibrate")
 MOTIONS = {"x": ("displacement", "m"), "v": ("velocity", "m/s"), "a": ("acceleration", "m/s^2")}
 
 
-def pictures(diagnosis: Diagnosis) -> dict[str, Any]:
+def pictures(diagnosis: Diagnosis) -> form.Pictures:
     """Every component over time; those whose models leave something out, at least the worst, in detail."""
     worst = max(diagnosis.judged, key=lambda one: (ORDER.index(one.verdict), one.gain))
-    found = [_component(one, one is worst or one.verdict not in WELL) for one in diagnosis.judged]
-    return {"schema": SCHEMA, "components": found}
+    found = (_component(one, one is worst or one.verdict not in WELL) for one in diagnosis.judged)
+    return form.Pictures(components=tuple(found))
 
 
-def _component(one: Judged, detailed: bool) -> dict[str, Any]:
+def _component(one: Judged, detailed: bool) -> form.PicturedComponent:
     found = place(one)
-    return {
-        "component": one.component.name,
-        "title": one.name,
-        "output": one.component.output,
-        "verdict": one.verdict,
-        "mismatch": one.verdict not in WELL,
-        "over_time": {"time_s": _numbers(found.middle), "level": _numbers(found.level), "beyond": BEYOND},
-        "detail": _detail(one) if detailed else None,
-    }
+    return form.PicturedComponent(
+        component=one.component.name,
+        title=one.name,
+        output=one.component.output,
+        verdict=one.verdict,
+        mismatch=one.verdict not in WELL,
+        over_time=form.OverTime(time_s=_numbers(found.middle), level=_numbers(found.level), beyond=BEYOND),
+        detail=_detail(one) if detailed else None,
+    )
 
 
-def _detail(one: Judged) -> dict[str, Any]:
+def _detail(one: Judged) -> form.Detail:
     data = one.recordings.data[0]
     before, after = (one.recordings.predicted(model.parts)[0] for model in (one.selection.baseline, one.selection.chosen))
     left = np.mean((data.measured - before) ** 2, axis=1) / np.maximum(np.var(data.measured, axis=1), 1e-300)
     shown = sorted(np.argsort(-left)[:MOST_CHANNELS])
     weights = one.recordings.weights[0]
-    return {
-        "channels": [
+    return form.Detail(
+        channels=tuple(
             _channel(
                 _named(one, row),
                 data,
@@ -66,15 +65,16 @@ def _detail(one: Judged) -> dict[str, Any]:
                 (one.recordings.noises[row], weights[row]),
             )
             for row in shown
-        ],
-        "state": _state(one, data, shown[0], before[shown[0]], after[shown[0]]),
-        "blocks": _blocks(data, before, after, not one.heldout),
-        "held_out_recordings": [_whole(one, other) for other in one.heldout],
-        "noise_nrmse": _number(one.noise),
-    }
+        ),
+        state=_state(one, data, shown[0], before[shown[0]], after[shown[0]]),
+        blocks=_blocks(data, before, after, not one.heldout),
+        held_out_recordings=tuple(_whole(one, other) for other in one.heldout),
+        noise_nrmse=_number(one.noise),
+    )
 
 
 def _named(one: Judged, row: int) -> dict[str, Any]:
+    """Label and unit of a row of the output."""
     data = one.recordings.data[0]
     if isinstance(data, StructureData):
         kind, floor, _ = data.floors[row]
@@ -88,79 +88,78 @@ def _unit(unit: str) -> dict[str, Any]:
     return {"unit": unit, "shown": shown, "factor": to_si(shown)[0]}
 
 
-def _channel(
-    named: dict[str, Any], data: Any, signals: tuple[Array, Array, Array], noise: tuple[Noise, Array]
-) -> dict[str, Any]:
+def _channel(named: dict[str, Any], data: Any, signals: tuple[Array, Array, Array], noise: tuple[Noise, Array]) -> form.Channel:
     measured, before, after = signals
     residuals = np.array([measured - before, measured - after])
-    return {
+    return form.Channel(
         **named,
-        "signals": _over_time(data.time, ("measured", "before", "after"), np.array(signals)),
-        "residuals": _over_time(data.time, ("before", "after"), residuals),
-        "spectra": _spectra(residuals, *noise, data.step),
-    }
+        signals=form.Signals(**_over_time(data.time, ("measured", "before", "after"), np.array(signals))),
+        residuals=form.Residuals(**_over_time(data.time, ("before", "after"), residuals)),
+        spectra=_spectra(residuals, *noise, data.step),
+    )
 
 
-def _over_time(time: Array, names: Sequence[str], signals: Array) -> dict[str, Any]:
+def _over_time(time: Array, names: Sequence[str], signals: Array) -> dict[str, form.Numbers]:
     kept = extremes(signals.T, POINTS // (2 * len(names)))
     return {"time_s": _numbers(time[kept]), **{name: _numbers(row[kept]) for name, row in zip(names, signals, strict=True)}}
 
 
-def _spectra(residuals: Array, noise: Noise, weights: Array, step: float) -> dict[str, Any]:
+def _spectra(residuals: Array, noise: Noise, weights: Array, step: float) -> form.Spectra:
     """Power spectral densities (unit^2/Hz) by Welch, and that of the noise model, larger where it reaches further."""
     length = max(16, residuals.shape[1] // SEGMENTS)
     frequency, power = welch(np.nan_to_num(residuals), 1 / step, nperseg=min(length, residuals.shape[1]))
     modelled = 2 * step * np.interp(step * frequency, FREQUENCY, noise.spectrum) * np.mean(weights**-2.0)
-    lines = {"before": power[0], "after": power[1], "noise": modelled}
-    return {"frequency_hz": _numbers(frequency[1:]), **{name: _numbers(line[1:]) for name, line in lines.items()}}
+    before, after, known = (_numbers(line[1:]) for line in (*power, modelled))
+    return form.Spectra(frequency_hz=_numbers(frequency[1:]), before=before, after=after, noise=known)
 
 
-def _state(one: Judged, data: Any, row: int, before: Array, after: Array) -> dict[str, Any]:
+def _state(one: Judged, data: Any, row: int, before: Array, after: Array) -> form.State:
     """Output and residuals against displacement and velocity, every n-th sample."""
     every = slice(None, None, -(-data.measured.shape[1] // POINTS))
-    axes = [{"label": signal.label, **_unit(signal.unit), "values": signal.values} for signal in one.component.signals(data)]
+    displacement, velocity = (
+        form.Axis(label=signal.label, **_unit(signal.unit), values=_numbers(signal.values[every]))
+        for signal in one.component.signals(data)
+    )
     measured = data.measured[row]
-    lines = {
-        "measured": measured,
-        "before": before,
-        "after": after,
-        "residual_before": measured - before,
-        "residual_after": measured - after,
-    }
-    return {
-        "axes": [{**axis, "values": _numbers(axis["values"][every])} for axis in axes],
-        "output": _named(one, row),
-        **{name: _numbers(line[every]) for name, line in lines.items()},
-    }
+    return form.State(
+        axes=(displacement, velocity),
+        output=form.Named(**_named(one, row)),
+        measured=_numbers(measured[every]),
+        before=_numbers(before[every]),
+        after=_numbers(after[every]),
+        residual_before=_numbers((measured - before)[every]),
+        residual_after=_numbers((measured - after)[every]),
+    )
 
 
-def _blocks(data: Any, before: Array, after: Array, reserved: bool) -> list[dict[str, Any]]:
+def _blocks(data: Any, before: Array, after: Array, reserved: bool) -> tuple[form.Block, ...]:
     """NRMSE of each block in a row, over the RMS about the mean of the whole; some are `reserved`, not fitted."""
     count = data.measured.shape[1]
-    number, used = np.arange(count) * BLOCKS // count, _inner(count, data.step)
+    number, used = np.arange(count) * BLOCKS // count, inner(count, data.step)
     found = []
     for block in range(BLOCKS):
         rows = np.flatnonzero(number == block)
         here = rows[used[rows]]
-        ends = {"from_s": _number(data.time[rows[0]]), "to_s": _number(data.time[rows[-1]] + data.step)}
-        errors = {
-            name: _nrmse(data.measured, model, here) if len(here) else None
-            for name, model in (("before", before), ("after", after))
-        }
-        found.append({**ends, "held_out": reserved and block in HELD_OUT, **errors})
-    return found
+        off, left = (_nrmse(data.measured, model, here) if len(here) else None for model in (before, after))
+        found.append(
+            form.Block(
+                from_s=_rounded(data.time[rows[0]]),
+                to_s=_rounded(data.time[rows[-1]] + data.step),
+                held_out=reserved and block in HELD_OUT,
+                before=off,
+                after=left,
+            )
+        )
+    return tuple(found)
 
 
-def _whole(one: Judged, other: Any) -> dict[str, Any]:
-    rows = np.flatnonzero(_inner(other.measured.shape[1], other.step))
-    models = {"before": one.selection.baseline, "after": one.selection.chosen}
-    return {name: _nrmse(other.measured, one.component.predicted(model.parts, other), rows) for name, model in models.items()}
-
-
-def _inner(count: int, step: float) -> Any:
-    """True but at the ends, which the filters blur."""
-    place = np.arange(count) * step
-    return (place >= ENDS) & (place < count * step - ENDS)
+def _whole(one: Judged, other: Any) -> form.HeldOut:
+    rows = np.flatnonzero(inner(other.measured.shape[1], other.step))
+    before, after = (
+        _nrmse(other.measured, one.component.predicted(model.parts, other), rows)
+        for model in (one.selection.baseline, one.selection.chosen)
+    )
+    return form.HeldOut(before=before, after=after)
 
 
 def _nrmse(measured: Array, simulated: Array, rows: Any) -> float | None:
@@ -168,9 +167,14 @@ def _nrmse(measured: Array, simulated: Array, rows: Any) -> float | None:
     return _number(float(np.sqrt(np.mean(np.mean((measured - simulated)[:, rows] ** 2, axis=1) / spread))))
 
 
-def _numbers(values: Array) -> list[float | None]:
-    return [_number(float(value)) for value in values]
+def _numbers(values: Array) -> form.Numbers:
+    return tuple(_number(float(value)) for value in values)
 
 
 def _number(value: float) -> float | None:
-    return float(f"{value:.{DIGITS}g}") if np.isfinite(value) else None
+    """Rounded; None where it is not finite."""
+    return _rounded(value) if np.isfinite(value) else None
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")

@@ -1,4 +1,4 @@
-"""What a recording says of a plan's models, as `rths-diagnosis/1`."""
+"""Diagnose a plan's models by a recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from rths_engine.diagnosis.components import Actuator, Specimen
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.extend import extended
 from rths_engine.diagnosis.judge import Judged, judged
-from rths_engine.diagnosis.result import as_dict
+from rths_engine.diagnosis.result import verdict_of
+from rths_engine.diagnosis.schema import Verdict
 from rths_engine.foundation.errors import Issue, RecordingError
 from rths_engine.planning.plan import Plan
 from rths_engine.recordings.measured import Measured
@@ -23,12 +24,12 @@ Told = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """Every component judged, digital parts replayed; `verdict` is the JSON by contract."""
+    """Every component judged, every computed part replayed, and the verdict on the plan."""
 
     plan: Plan
     judged: tuple[Judged, ...]
     digital: tuple[Replayed, ...]
-    verdict: dict[str, Any]
+    verdict: Verdict
 
 
 def diagnose(
@@ -44,14 +45,17 @@ def diagnose(
 
     The replays run over the whole recording; the `heldout` recordings are never fitted, or, without one, three of ten blocks.
     `level` is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is
-    done and the share of the whole; it may raise to stop. Raises RecordingError for a recording that is not of this plan.
+    done and the share of the whole; it may raise to stop.
+
+    Raises RecordingError for a recording that is not of this plan. Its issues name the input by its argument: `recording`,
+    `heldout.0`, `more.0`.
     """
-    pairs = recorded.components(plan, recording, "REC.h5")
+    pairs = recorded.components(plan, recording, "recording")
     doubts = recorded.suspicious(pairs)
     if doubts:
-        raise RecordingError([Issue("REC.h5", doubt) for doubt in doubts])
-    beside = [_by_name(plan, one, "--with") for one in more]
-    others = [_by_name(plan, one, "--holdout") for one in heldout]
+        raise RecordingError([Issue("recording", doubt) for doubt in doubts])
+    beside = [_by_name(plan, one, f"more.{number}") for number, one in enumerate(more)]
+    others = [_by_name(plan, one, f"heldout.{number}") for number, one in enumerate(heldout)]
     replayed = digital.replayed(plan, recording)
     random = np.random.default_rng(seed)
     found = []
@@ -74,7 +78,7 @@ def diagnose(
                 recorded.foreseen(component, found[-1].selection.chosen.parts, pressed, one)
     told("", 1.0)
     plan_after = extended(plan, found)
-    return Diagnosis(plan, tuple(found), tuple(replayed), as_dict(plan, found, replayed, each, plan_after))
+    return Diagnosis(plan, tuple(found), tuple(replayed), verdict_of(plan, found, replayed, each, plan_after))
 
 
 def _by_name(plan: Plan, recording: Measured, where: str) -> dict[str, Any]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 
@@ -37,6 +37,19 @@ class RthsError(Exception):
             issues = Issue("", issues)
         self.issues: tuple[Issue, ...] = (issues,) if isinstance(issues, Issue) else tuple(issues)
         super().__init__("\n".join(str(issue) for issue in self.issues))
+
+
+def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:
+    """The error with its inputs under other names: with `heldout.0` -> `--holdout other.h5`, what is wrong at `heldout.0` and
+    below is told of `--holdout other.h5`. The command line and the service each have their own names for what they were given.
+    """
+
+    def name(where: str) -> str:
+        known = [path for path in names if where == path or where.startswith(f"{path}.")]
+        path = max(known, key=len, default="")
+        return names[path] + where[len(path) :] if path else where
+
+    return type(error)(replace(issue, where=name(issue.where)) for issue in error.issues)
 
 
 class PlanError(RthsError):

@@ -21,7 +21,7 @@ def parse(text: str) -> Any:
     from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent
 
     if len(text) > LARGEST:
-        raise PlanError(Issue("", f"the plan has more than {LARGEST:,} characters", fix="give a plan as `rths plan` prints it"))
+        raise PlanError(Issue("", f"the plan has more than {LARGEST:,} characters", fix="shorten it"))
     try:
         depth = 0
         for event in YAML(typ="safe", pure=True).parse(text):

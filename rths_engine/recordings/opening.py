@@ -21,7 +21,7 @@ def load(path: Path) -> Measured:
     if schema == run_file.SCHEMA:
         return of_run(run_file.load(path), path.name)
     problem = f"{path.name} is not a recording: its schema is {schema!r}, not {store.SCHEMA} or {run_file.SCHEMA}"
-    raise RecordingError(Issue("", problem, fix="import the measurements with `rths import`, or run the plan again"))
+    raise RecordingError(Issue("", problem, fix="import the measurements, or run the plan again"))
 
 
 def _schema(path: Path) -> object:

@@ -14,6 +14,7 @@ from app.config import Settings
 from app.diagnoses.job import DIAGNOSES
 from app.diagnoses.order import Diagnosed
 from app.jobs.service import MOST_ATTEMPTS, JobService
+from rths_engine.diagnosis.schema import Pictures, Verdict
 from tests.app import test_recordings_api as recordings
 from tests.app.conftest import app_of
 from tests.app.conftest import plan as hybrid
@@ -27,6 +28,7 @@ VERDICT: dict[str, Any] = {
     "unexplained": {"fraction": 0.0, "formula": None, "words": "Noise."}, "next_test": None, "extended_plan": None,
 }  # fmt: skip
 PICTURES: dict[str, Any] = {"schema": "rths-diagnosis-pictures/1", "components": []}
+RESULT = Diagnosed(Verdict.read(VERDICT), Pictures.read(PICTURES))
 
 
 @pytest.fixture
@@ -149,9 +151,9 @@ def test_a_result_is_stored_once_whatever_attempt_comes_late(bench: Bench) -> No
     bench.do("start", "first")
     bench.do("start", "second")
     bench.do("progress", 1, "too late", 0.9)
-    bench.do("finish", 1, Diagnosed(VERDICT, PICTURES))
+    bench.do("finish", 1, RESULT)
     assert (bench.seen["state"], bench.seen["attempt"], bench.seen["share"]) == ("running", 2, 0.0)
-    bench.do("finish", 2, Diagnosed(VERDICT, PICTURES))
+    bench.do("finish", 2, RESULT)
     bench.do("fail", 2, "too late")
     assert (bench.seen["state"], bench.seen["verdict"]) == ("completed", VERDICT)
     assert bench.seen["sentence"] == "The recording is what the plan's models simulate, up to noise."
@@ -162,7 +164,7 @@ def test_a_result_that_comes_after_its_cancel_is_not_kept(bench: Bench) -> None:
     bench.do("start", "here")
     bench.client.post(f"{URL}/{bench.diagnosis}/cancel", json={"by": "Bo"})
     assert bench.do("cancel_requested") and bench.seen["state"] == "running"
-    bench.do("finish", 1, Diagnosed(VERDICT, PICTURES))
+    bench.do("finish", 1, RESULT)
     assert (bench.seen["state"], bench.seen["verdict"]) == ("cancelled", None)
 
 
@@ -182,7 +184,7 @@ def test_a_diagnosis_that_kills_its_workers_is_given_up(bench: Bench) -> None:
 
 def test_a_diagnosis_without_an_extended_plan_queues_no_simulation(bench: Bench) -> None:
     bench.do("start", "here")
-    bench.do("finish", 1, Diagnosed(VERDICT, PICTURES))
+    bench.do("finish", 1, RESULT)
     answer = bench.client.post(f"{URL}/{bench.diagnosis}/simulations")
     assert answer.status_code == 409 and "no extended plan" in answer.json()["detail"]
     assert bench.client.get("/api/v1/runs").json()["total"] == 0

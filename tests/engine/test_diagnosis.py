@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from rths_engine.diagnosis import diagnose
 from rths_engine.diagnosis.noise import FREQUENCY, coloured
+from rths_engine.diagnosis.verdict import diagnose
 from rths_engine.foundation.errors import RecordingError
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
@@ -23,8 +23,8 @@ from tests.engine.recorded_specimens import BASELINE, plan, recording
 
 def test_a_clean_recording_is_not_accused_of_anything() -> None:
     found = diagnose(plan(), recording(1))
-    assert found.verdict["verdict"] == "recalibrate"  # 4 % off its plan
-    assert found.verdict["effects"] == [] and found.verdict["extended_plan"] is None
+    assert found.verdict.verdict == "recalibrate"  # 4 % off its plan
+    assert found.verdict.effects == () and found.verdict.extended_plan is None
     fitted: Any = found.judged[0].selection.chosen.parts[0]
     assert fitted.stiffness == pytest.approx(1.04 * BASELINE.stiffness, rel=0.02)  # 1 % noise over 12 s
     assert fitted.damping == pytest.approx(0.96 * BASELINE.damping, rel=0.02)
@@ -41,17 +41,18 @@ def test_a_clean_recording_is_not_accused_of_anything() -> None:
 )
 def test_what_was_left_out_is_named_sized_and_shown_on_another_recording(effect: Effect, size: str, rel: float) -> None:
     found = diagnose(plan(), recording(2, effect), [recording(3, effect, amplitude=0.03)]).verdict
-    json.dumps(found, allow_nan=False)
-    assert found["verdict"] == "mismatch" and found["where"]["component"] == "specimen:1"
-    assert [(one["component"], one["id"]) for one in found["effects"]] == [("specimen:1", effect.id)]
-    number = next(one for one in found["effects"][0]["parameters"] if one["name"] == size)
-    assert number["value"] == pytest.approx(getattr(effect, size), rel=rel)
-    assert number["ci90"][0] < number["value"] < number["ci90"][1]
-    assert found["fit"]["extended"]["heldout_nrmse"] < 1.2 * found["fit"]["noise_floor_nrmse"]
-    assert found["fit"]["extended"]["heldout_nrmse"] < 0.5 * found["fit"]["baseline"]["heldout_nrmse"]
-    again = read_plan(found["extended_plan"])
-    assert getattr(again.stations[0].specimen_physics[0], size) == number["value"]
-    assert sum(one["probability"] for one in found["candidates"]) <= 1 + 1e-9
+    json.dumps(found.as_dict(), allow_nan=False)
+    assert found.verdict == "mismatch" and found.where and found.where.component == "specimen:1"
+    assert [(one.component, one.id) for one in found.effects] == [("specimen:1", effect.id)]
+    number = next(one for one in found.effects[0].parameters if one.name == size)
+    assert number.value == pytest.approx(getattr(effect, size), rel=rel)
+    assert number.ci90[0] < number.value < number.ci90[1]
+    before, after, noise = found.fit.baseline.heldout_nrmse, found.fit.extended.heldout_nrmse, found.fit.noise_floor_nrmse
+    assert before and after and noise
+    assert after < 1.2 * noise and after < 0.5 * before
+    again = read_plan(found.extended_plan)
+    assert getattr(again.stations[0].specimen_physics[0], size) == number.value
+    assert sum(one.probability for one in found.candidates) <= 1 + 1e-9
 
 
 def test_a_law_outside_the_library_is_called_unknown_and_described() -> None:
@@ -59,9 +60,9 @@ def test_a_law_outside_the_library_is_called_unknown_and_described() -> None:
     x = plain.get("x_meas")
     cogging = 0.05 * np.std(plain.get("f_meas")) * np.sin(2 * np.pi * x / 0.013)
     found = diagnose(plan(), _with(plain, f_meas=plain.get("f_meas") + cogging)).verdict
-    assert found["verdict"] == "mismatch"
-    assert [one["id"] for one in found["effects"]] == ["unknown"]
-    assert found["unexplained"]["formula"] and found["unexplained"]["words"]
+    assert found.verdict == "mismatch"
+    assert [(one.id, one.probability) for one in found.effects] == [("unknown", None)]
+    assert found.unexplained.formula and found.unexplained.words
 
 
 @pytest.mark.parametrize(

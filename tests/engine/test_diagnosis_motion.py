@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from rths_engine.diagnosis import diagnose
 from rths_engine.diagnosis.components import ClockSkew, Specimen, SpecimenData, StepError
 from rths_engine.diagnosis.smoother import Smoother
+from rths_engine.diagnosis.verdict import diagnose
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
@@ -79,7 +79,7 @@ def test_a_specimen_is_not_blamed_for_what_the_displacement_sensor_misreads() ->
     read = np.clip(x, -0.8 * np.max(np.abs(x)), 0.8 * np.max(np.abs(x))) + 1e-5 * random.standard_normal(len(x))
     noisy = force + 0.01 * np.std(force) * random.standard_normal(len(x))
     found = diagnose(plan(actuator), measured(x_comp=command, x_meas=read, f_meas=noisy)).verdict
-    assert [(one["component"], one["id"]) for one in found["effects"]] == [("sensor:x_meas.1", "clipping")]
+    assert [(one.component, one.id) for one in found.effects] == [("sensor:x_meas.1", "clipping")]
 
 
 def test_where_an_open_loop_drive_begins_and_how_it_creeps_says_nothing() -> None:
@@ -88,4 +88,4 @@ def test_where_an_open_loop_drive_begins_and_how_it_creeps_says_nothing() -> Non
     x = replay.actuator(drive, [], volts, np.zeros(len(TIME)), DT)
     read = 0.01 + 0.002 * TIME + x + 1e-5 * random.standard_normal(len(x))
     found = diagnose(plan(drive), measured(x_comp=volts, x_meas=read)).verdict
-    assert found["verdict"] in ("consistent", "recalibrate")
+    assert found.verdict in ("consistent", "recalibrate")

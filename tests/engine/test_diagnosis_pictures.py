@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine.diagnosis import Diagnosis, diagnose
 from rths_engine.diagnosis.pictures import POINTS, pictures
+from rths_engine.diagnosis.verdict import Diagnosis, diagnose
 from rths_engine.parts.physics.specimen.backlash import Backlash
 from tests.engine import recorded_specimens as made
 
@@ -21,7 +21,7 @@ def played() -> Diagnosis:
 
 @pytest.fixture(scope="module")
 def shown(played: Diagnosis) -> dict[str, Any]:
-    return pictures(played)
+    return pictures(played).as_dict()
 
 
 def test_every_component_is_shown_over_time_and_the_one_that_differs_in_detail(shown: dict[str, Any]) -> None:
@@ -35,15 +35,15 @@ def test_every_component_is_shown_over_time_and_the_one_that_differs_in_detail(s
 def test_the_blocks_held_out_are_the_engines_and_the_effect_explains_them(played: Diagnosis, shown: dict[str, Any]) -> None:
     detail = shown["components"][0]["detail"]
     assert not any(one["held_out"] for one in detail["blocks"])  # another recording is
-    alone = pictures(diagnose(made.plan(), made.recording(1, Backlash(gap=0.002))))["components"][0]["detail"]
+    alone = pictures(diagnose(made.plan(), made.recording(1, Backlash(gap=0.002)))).as_dict()["components"][0]["detail"]
     held = [place for place, one in enumerate(alone["blocks"]) if one["held_out"]]
     assert held == [2, 5, 8]
     assert all(alone["blocks"][place]["after"] < 0.5 * alone["blocks"][place]["before"] for place in held)
     (other,) = detail["held_out_recordings"]
-    fit = played.verdict["fit"]
-    found = {"before": fit["baseline"]["heldout_nrmse"], "after": fit["extended"]["heldout_nrmse"]}
+    fit = played.verdict.fit
+    found = {"before": fit.baseline.heldout_nrmse, "after": fit.extended.heldout_nrmse}
     assert other == pytest.approx(found, rel=0.05)  # of all samples or of those beyond the filters' ends
-    assert detail["noise_nrmse"] == pytest.approx(fit["noise_floor_nrmse"], rel=1e-5)  # six digits
+    assert detail["noise_nrmse"] == pytest.approx(fit.noise_floor_nrmse, rel=1e-5)  # six digits
 
 
 def test_residuals_are_what_the_simulations_leave_and_spectra_carry_their_power(shown: dict[str, Any]) -> None:
@@ -77,5 +77,5 @@ def test_pictures_are_light_and_hold_no_nan(shown: dict[str, Any]) -> None:
 
 def test_a_clean_recording_shows_its_worst_component_in_detail() -> None:
     found = pictures(diagnose(made.plan(), made.recording(3), level=1e-9))
-    (specimen,) = found["components"]
-    assert not specimen["mismatch"] and specimen["detail"] is not None
+    (specimen,) = found.components
+    assert not specimen.mismatch and specimen.detail is not None

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rths_engine.diagnosis.schema import Verdict
 from tests.proof import seals
 from tests.proof.generator.draw import Spec, specs
 from tests.proof.score import scored
@@ -87,7 +88,7 @@ def _made(spec: Spec, folders: Folders) -> None:
 
 def _scored(folders: Folders, name: str, run: dict[str, Any]) -> dict[str, Any]:
     out = folders.found / f"{name}.json"
-    found = json.loads(out.read_text(encoding="utf-8")) if out.exists() else None
+    found = Verdict.read(json.loads(out.read_text(encoding="utf-8"))) if out.exists() else None
     return scored(folders.shown / name, folders.sealed / name, found, run)
 
 

@@ -6,16 +6,17 @@ import json
 from pathlib import Path
 from typing import Any
 
+from rths_engine.diagnosis.schema import NamedEffect, Verdict
 from tests.proof import oracle, peer
 
 QUIET = ("consistent", "recalibrate")
 NOTHING = ("none", "unknown")
 
 
-def scored(shown: Path, sealed: Path, found: dict[str, Any] | None, run: dict[str, Any]) -> dict[str, Any]:
+def scored(shown: Path, sealed: Path, found: Verdict | None, run: dict[str, Any]) -> dict[str, Any]:
     """The row of a case. `found` is its diagnosis, None where there is none."""
     truth = json.loads((sealed / "truth.json").read_text(encoding="utf-8"))
-    row = judged(truth, found or {})
+    row = judged(truth, found)
     known = oracle.judged(shown, sealed, row["heldout"])
     strengths = [one for one in (truth["strength"], known["lambda_rival"]) if one is not None]
     return {
@@ -36,22 +37,22 @@ def scored(shown: Path, sealed: Path, found: dict[str, Any] | None, run: dict[st
     }
 
 
-def judged(truth: dict[str, Any], found: dict[str, Any]) -> dict[str, Any]:
-    """Scores that need only the truth and the diagnosis."""
-    verdict, true = found.get("verdict"), [named(one) for one in truth["effects"]]
-    effects = sorted(found.get("effects") or [], key=lambda one: -one["probability"])
-    claimed = [named(one) for one in effects if one["id"] not in NOTHING]
-    ranking = ranked(claimed, found)
+def judged(truth: dict[str, Any], found: Verdict | None) -> dict[str, Any]:
+    """Scores that need only the truth and the diagnosis, None where there is none."""
+    verdict, true = found.verdict if found else None, [named(one) for one in truth["effects"]]
+    effects = sorted(found.effects if found else (), key=lambda one: -(one.probability or 0.0))
+    claimed = [name(one) for one in effects if one.id not in NOTHING]
+    ranking = ranked(claimed, found) if found else []
     clean, outside = not true and not truth["outside"], truth["outside"] is not None
-    unknown = any(one["id"] == "unknown" for one in effects) or (verdict == "undetermined" and not claimed)
-    where = place(located_at(found))
+    unknown = any(one.id == "unknown" for one in effects) or (verdict == "undetermined" and not claimed)
+    where = place(located_at(found)) if found else None
     places = {place(one.partition("/")[0]) for one in true} or {place(truth["about"].get("component") or "specimen:1")}
     parameters = [errors(one, effects) for one in truth["effects"] if named(one) in claimed]
     return {
         "verdict": verdict,
         "claimed": claimed,
         "ranked": ranking,
-        "probabilities": {named(one): one["probability"] for one in effects},
+        "probabilities": {name(one): one.probability for one in effects},
         "false_alarm": verdict not in QUIET if clean else None,
         "falsely_named": bool(claimed) if clean else None,
         "located": where in places if not clean else None,
@@ -63,30 +64,40 @@ def judged(truth: dict[str, Any], found: dict[str, Any]) -> dict[str, Any]:
         "unknown": unknown and not claimed if outside else None,
         "misnamed": bool(claimed) if outside else None,
         "parameters": [row for rows in parameters for row in rows],
-        "heldout": {key: (found.get("fit") or {}).get(key, {}).get("heldout_nrmse") for key in ("baseline", "extended")},
+        "heldout": {
+            "baseline": found.fit.baseline.heldout_nrmse if found else None,
+            "extended": found.fit.extended.heldout_nrmse if found else None,
+        },
     }
 
 
 def named(effect: dict[str, Any]) -> str:
+    """Of a truth."""
     return f"{effect['component']}/{effect['id']}"
 
 
-def ranked(claimed: list[str], found: dict[str, Any]) -> list[str]:
+def name(effect: NamedEffect) -> str:
+    """Of a diagnosis."""
+    return f"{effect.component}/{effect.id}"
+
+
+def ranked(claimed: list[str], found: Verdict) -> list[str]:
     """Effects in the order in which they are believed: those claimed, then those of the candidates. Nothing is ranked where
     nothing is claimed, unless a group that can't be told apart is."""
     order = list(claimed)
-    if claimed or found.get("indistinguishable"):
-        for candidate in found.get("candidates") or []:
-            order += [one for one in candidate["effects"] if one not in order]
+    if claimed or found.indistinguishable:
+        for candidate in found.candidates:
+            order += [one for one in candidate.effects if one not in order]
     return order
 
 
-def located_at(found: dict[str, Any]) -> str | None:
-    """The component that is blamed: `where`, else the one whose mismatch is the least probable by chance."""
-    if found.get("where"):
-        return str(found["where"]["component"])
-    off = [one for one in found.get("components") or [] if one["mismatch"]]
-    return str(min(off, key=lambda one: one["p_value"])["component"]) if off else None
+def located_at(found: Verdict) -> str | None:
+    """The component that is blamed: `where`, else the one whose mismatch is the least probable by chance. A computed part that
+    does not replay comes first: chance has no part in it."""
+    if found.where:
+        return found.where.component
+    off = [one for one in found.components if one.mismatch]
+    return min(off, key=lambda one: -1.0 if one.p_value is None else one.p_value).component if off else None
 
 
 def place(component: str | None) -> str | None:
@@ -94,16 +105,14 @@ def place(component: str | None) -> str | None:
     return "structure" if component and component.startswith("structure") else component
 
 
-def errors(effect: dict[str, Any], claimed: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def errors(effect: dict[str, Any], claimed: list[NamedEffect]) -> list[dict[str, Any]]:
     """Of each true number that was told: its relative error and whether the 90 % interval holds it."""
-    told = next(one for one in claimed if named(one) == named(effect))
+    told = next(one for one in claimed if name(one) == named(effect))
     rows = []
-    for one in told["parameters"]:
-        true = effect["parameters"].get(one["name"])
-        if true is not None and one.get("ci90"):
-            low, high = one["ci90"]
-            error = abs(one["value"] - true) / max(abs(true), 1e-30)
-            rows.append(
-                {"name": one["name"], "true": true, "told": one["value"], "error": error, "covered": low <= true <= high}
-            )
+    for one in told.parameters:
+        true = effect["parameters"].get(one.name)
+        if true is not None:
+            low, high = one.ci90
+            error = abs(one.value - true) / max(abs(true), 1e-30)
+            rows.append({"name": one.name, "true": true, "told": one.value, "error": error, "covered": low <= true <= high})
     return rows

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 from app.cli.main import main
+from rths_engine.diagnosis.schema import Verdict
 from rths_engine.planning.reading import plan_from_yaml
 from rths_engine.recordings.measured.store import load
 from tests.proof import drawing, oracle, peer, score, seals, summary, table
@@ -24,13 +26,30 @@ FRICTION = {"component": "specimen:1", "id": "coulomb_friction", "form": "LuGre"
 
 def effect(name: str, probability: float = 0.9, **parameters: list[float]) -> dict[str, Any]:
     component, _, kind = name.partition("/")
-    told = [{"name": key, "value": value, "ci90": [low, high]} for key, (low, value, high) in parameters.items()]
-    return {"component": component, "id": kind, "probability": probability, "parameters": told}
+    told = [{"name": key, "value": value, "unit": "1", "ci90": [low, high]} for key, (low, value, high) in parameters.items()]
+    return {"component": component, "id": kind, "probability": probability, "sentence": "", "parameters": told}
 
 
-def diagnosis(verdict: str, *effects: dict[str, Any], **more: Any) -> dict[str, Any]:
-    where = {"component": effects[0]["component"]} if effects else None
-    return {"verdict": verdict, "effects": list(effects), "where": where, "candidates": [], **more}
+def diagnosis(verdict: str, *effects: dict[str, Any], candidates: Sequence[list[str]] = ()) -> Verdict:
+    place = {"component": effects[0]["component"], "times_s": [], "bands_hz": [], "state": ""} if effects else None
+    errors = {"fit_nrmse": None, "heldout_nrmse": None}
+    return Verdict.read(
+        {
+            "schema": "rths-diagnosis/1",
+            "verdict": verdict,
+            "components": [],
+            "where": place,
+            "effects": effects,
+            "candidates": [
+                {"effects": names, "probability": 0.5, "delta_bic": 0.0, "heldout_nrmse": None} for names in candidates
+            ],
+            "indistinguishable": [],
+            "fit": {"baseline": errors, "extended": errors, "noise_floor_nrmse": None},
+            "unexplained": {"fraction": None, "formula": None, "words": ""},
+            "next_test": None,
+            "extended_plan": None,
+        }
+    )
 
 
 def test_a_truth_that_was_changed_after_sealing_is_found(tmp_path: Path) -> None:
@@ -62,7 +81,7 @@ def test_a_right_name_scores_with_its_numbers() -> None:
 
 
 def test_a_wrong_name_in_the_right_place_is_only_located() -> None:
-    candidates = [{"effects": ["specimen:1/stribeck_friction"]}, {"effects": ["specimen:1/coulomb_friction"]}]
+    candidates = [["specimen:1/stribeck_friction"], ["specimen:1/coulomb_friction"]]
     said = diagnosis("mismatch", effect("specimen:1/stribeck_friction"), candidates=candidates)
     row = score.judged({**TRUTH, "effects": [FRICTION]}, said)
     assert row["located"] and not row["named_first"] and row["named_top3"] and row["parameters"] == []
@@ -148,12 +167,12 @@ def test_a_case_is_readable_diagnosed_and_its_truth_is_not_shown(tmp_path: Path)
     (tmp_path / "found").mkdir()
     run = diagnosed(shown, tmp_path / "found")
     assert run["exit"] == 0, run["said"]
-    found = json.loads((tmp_path / "found" / f"{spec.name}.json").read_text())
+    found = Verdict.read(json.loads((tmp_path / "found" / f"{spec.name}.json").read_text()))
     row = score.scored(shown, sealed, found, run)
     assert row["truth"] == [
         f"{one['component']}/{one['id']}" for one in json.loads((sealed / "truth.json").read_text())["effects"]
     ]
-    assert row["lambda"] > 0 and row["verdict"] == found["verdict"]
+    assert row["lambda"] > 0 and row["verdict"] == found.verdict
 
 
 def test_an_oracle_names_a_strong_effect_and_has_all_of_its_own_gain(tmp_path: Path) -> None:

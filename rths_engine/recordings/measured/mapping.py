@@ -153,7 +153,7 @@ class Mapping(Value):
         except PlanError as error:
             raise MeasuredError(_under(issue) for issue in error.issues) from None
         if not isinstance(data, dict):
-            raise MeasuredError(Issue("mapping", "is no mapping of fields", fix="`rths import FILE --guess` proposes one"))
+            raise MeasuredError(Issue("mapping", "is no mapping of fields", fix="start from a guessed mapping"))
         return cls.read(data)
 
     def as_dict(self) -> dict[str, Any]:

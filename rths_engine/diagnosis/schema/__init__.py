@@ -1,0 +1,24 @@
+"""The forms of a diagnosis's JSON: `rths-diagnosis/1` and `rths-diagnosis-pictures/1`. They import nothing that diagnoses."""
+
+from rths_engine.diagnosis.schema.components import ComponentVerdict, Kind, Where
+from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, Parameter
+from rths_engine.diagnosis.schema.fit import Errors, Fit, Unexplained
+from rths_engine.diagnosis.schema.form import Form
+from rths_engine.diagnosis.schema.pictures import Pictures
+from rths_engine.diagnosis.schema.verdict import Verdict
+
+__all__ = [
+    "Candidate",
+    "ComponentVerdict",
+    "Errors",
+    "Fit",
+    "Form",
+    "Kind",
+    "NamedEffect",
+    "NextTest",
+    "Parameter",
+    "Pictures",
+    "Unexplained",
+    "Verdict",
+    "Where",
+]
