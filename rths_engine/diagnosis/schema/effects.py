@@ -14,13 +14,13 @@ class Parameter(Form):
     label: str | None = field("Label for people, with the symbol", default=None)
     shown: str | None = field("Unit for people; empty where it has no dimension", default=None)
     factor: float = field("SI value of one unit for people: value = factor * value for people", AS_STATED, default=1.0)
-    ci90: tuple[float, float] = field("90 % confidence interval, [low, high]", AS_STATED)
+    ci90: tuple[float, float] = field("Confidence interval at 90 %, [low, high]", AS_STATED)
 
 
 class NamedEffect(Form):
     """An effect that the models leave out."""
 
-    component: str = field("Where it acts: specimen:1, sensor:x_meas.1, structure:2 (storey 2), ...")
+    component: str = field("Where it acts, such as specimen:1, sensor:x_meas.1 or structure:2, which is storey 2")
     id: str = field(
         "Name of the effect in the library; `unknown` where no effect of the library accounts for the mismatch; "
         "`configuration_error` where the controller computed something else than the plan"

@@ -14,7 +14,13 @@ AS_STATED = "stated in `unit`"  # of a number whose unit stands beside it
 class Form(BaseModel):
     """A frozen object. Numbers are SI and finite; null stands where a number was never computed or is not finite."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, serialize_by_alias=True)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        serialize_by_alias=True,
+        json_schema_serialization_defaults_required=True,
+    )
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
