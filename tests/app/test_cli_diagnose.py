@@ -76,7 +76,9 @@ def test_a_clean_recording_is_not_accused(folder: Path) -> None:
         (["plan.yaml", "none.h5"], "there is no recording none.h5"),
         (["plan.yaml", "plan.yaml"], "plan.yaml is not a complete recording"),
         (["two.yaml", "clean.h5"], "is of a test of kind 'specimen'; the plan's is 'hybrid'"),
-        (["slow.yaml", "clean.h5"], "512 samples a second; the plan's controller rate is 256 Hz"),
+        (["slow.yaml", "clean.h5"], "clean.h5: has 512 samples a second; the plan's controller rate is 256 Hz"),
+        (["plan.yaml", "clean.h5", "--holdout", "slow.h5"], "--holdout slow.h5: has 256 samples a second"),
+        (["plan.yaml", "clean.h5", "--with", "clean.h5", "slow.h5"], "--with slow.h5: has 256 samples a second"),
         (["plan.yaml", "clean.h5", "--level", "2"], "rate of false alarms between 0 and 1"),
         (["plan.yaml", "clean.h5", "--json", "missing/out.json"], "there is no such folder"),
     ],
@@ -87,6 +89,8 @@ def test_what_cant_be_diagnosed_is_refused_with_the_reason(
     monkeypatch.chdir(folder)
     slow = plan().model_copy(update={"controller_rate": 256.0})
     (folder / "slow.yaml").write_text(plan_to_yaml(slow), encoding="utf-8")
+    if not (folder / "slow.h5").exists():
+        recording.save(folder / "slow.h5", simulate(slow, MotionLibrary(None)))
     first = plan().stations[0].model_dump()
     building = {"kind": "shear_building", "storeys": [{"mass": 1e6, "stiffness": 1e8}]}
     two = {"structure": building, "duration": 1.0, "stations": [{**first, "name": name} for name in ("A", "B")]}

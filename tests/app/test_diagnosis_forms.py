@@ -1,0 +1,86 @@
+"""The verdict in the API: typed, its schema published, and verdicts stored by version 0.1.0 as they were stored."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from sqlalchemy import update
+
+from app import db
+from app.models import Diagnosis
+from app.reports.diagnosis_tables import NONE, tables
+from rths_engine.diagnosis.schema import Pictures, Verdict
+from tests.app.test_diagnoses_refusals import PICTURES, URL, queued, recording
+
+__all__ = ["recording"]
+# stored by version 0.1.0: computed parts with noise 0 and p 1 or 1e-300, and probabilities that nothing was computed for
+EARLIER: dict[str, Any] = {
+    "schema": "rths-diagnosis/1",
+    "verdict": "configuration_error",
+    "components": [
+        {"component": "compensator:1", "residual_nrmse": 0.02, "noise_nrmse": 0.0, "p_value": 1e-300, "mismatch": True,
+         "verdict": "configuration_error"},
+        {"component": "structure", "residual_nrmse": 9.3e-16, "noise_nrmse": 0.0, "p_value": 1.0, "mismatch": False,
+         "verdict": "consistent"},
+        {"component": "actuator:1", "residual_nrmse": 0.0037, "noise_nrmse": 0.00047, "p_value": 3e-300, "mismatch": True,
+         "verdict": "mismatch"},
+    ],
+    "where": {"component": "actuator:1", "times_s": [[8.0, 9.0]], "bands_hz": [[0.4, 45.2]], "state": "grows with command"},
+    "effects": [
+        {"component": "compensator:1", "id": "configuration_error", "probability": 1.0, "sentence": "Other settings.",
+         "parameters": []},
+        {"component": "actuator:1", "id": "gain_error", "probability": 0.75, "sentence": "It moves less.", "parameters": [
+            {"name": "share", "value": -0.000478, "unit": "1", "label": "Gain error e", "shown": "%", "factor": 0.01,
+             "ci90": [-0.00053, -0.00042]}]},
+        {"component": "actuator:1", "id": "unknown", "probability": 0.995, "sentence": "Something else.", "parameters": []},
+    ],
+    "candidates": [
+        {"effects": ["actuator:1/gain_error"], "probability": 0.75, "delta_bic": 0.0, "heldout_nrmse": 0.00084},
+        {"effects": [], "probability": 2.2e-64, "delta_bic": 3514.8, "heldout_nrmse": None},
+    ],
+    "indistinguishable": [["actuator:1/gain_error", "sensor:x_meas.1/scale_error"]],
+    "fit": {"baseline": {"fit_nrmse": 0.00067, "heldout_nrmse": 0.00097},
+            "extended": {"fit_nrmse": 0.00047, "heldout_nrmse": 0.00084}, "noise_floor_nrmse": 0.00047},
+    "unexplained": {"fraction": 0.0, "formula": None, "words": "Noise."},
+    "next_test": {"separates": ["actuator:1/gain_error", "sensor:x_meas.1/scale_error"], "signal": "a sine of 73.7 mm",
+                  "expected_lambda": 12.0},
+    "extended_plan": None,
+}  # fmt: skip
+
+
+@pytest.fixture
+def stored(client: TestClient, recording: str) -> str:
+    """The id of a diagnosis whose row holds EARLIER."""
+    name: str = queued(client, recording)["id"]
+    with db.unit_of_work(client.app.state.sessions) as session:  # type: ignore[attr-defined]
+        session.execute(update(Diagnosis).where(Diagnosis.id == name).values(verdict=EARLIER, pictures=PICTURES))
+    return name
+
+
+def test_a_verdict_of_version_0_1_0_opens_with_the_numbers_it_was_stored_with(client: TestClient, stored: str) -> None:
+    assert client.get(f"{URL}/{stored}/verdict.json").json() == EARLIER
+    assert client.get(f"{URL}/{stored}").json()["verdict"] == EARLIER
+    for path in (f"/diagnoses/{stored}", f"{URL}/{stored}/report.html"):
+        text = client.get(path).text
+        assert "Other settings." in text and "gain error of actuator 1" in text, path
+
+
+def test_a_number_that_was_not_computed_is_a_dash_for_people() -> None:
+    part = {**EARLIER["components"][0], "noise_nrmse": None, "p_value": None}
+    told = tables(Verdict.read({**EARLIER, "components": [part, EARLIER["components"][2]]}))
+    assert [row[3:] for row in told.components] == [[NONE, NONE], ["0.047", "< 1e-12"]]
+
+
+def test_the_schemas_are_published_and_the_responses_typed_by_them(client: TestClient) -> None:
+    described = client.get("/openapi.json").json()
+    for path, form, response in (
+        ("schema", Verdict, f"{URL}/{{diagnosis_id}}/verdict.json"),
+        ("pictures-schema", Pictures, f"{URL}/{{diagnosis_id}}/pictures.json"),
+    ):
+        published = client.get(f"{URL}/{path}").json()
+        assert published == form.json_schema()
+        typed = described["paths"][response]["get"]["responses"]["200"]["content"]["application/json"]["schema"]
+        assert typed == {"$ref": f"#/components/schemas/{form.__name__}"}
+        assert described["components"]["schemas"][form.__name__]["properties"].keys() == published["properties"].keys()
