@@ -13,6 +13,7 @@ from app.runs.repository import Filter, Page
 from rths_engine.foundation.errors import Issue, RthsError
 
 LIMIT = 50
+LAST_PAGE = 1_000_000
 
 
 class RunFilter(BaseModel):
@@ -30,7 +31,11 @@ class RunFilter(BaseModel):
 
     @property
     def number(self) -> int:
-        return int(self.page) if self.page.isdecimal() and 0 < int(self.page) <= 10**6 else 1
+        return int(self.page) if self._numbered else 1
+
+    @property
+    def _numbered(self) -> bool:
+        return self.page.isascii() and self.page.isdecimal() and 0 < int(self.page[:9]) <= LAST_PAGE
 
     @property
     def filters(self) -> bool:
@@ -45,6 +50,8 @@ class RunFilter(BaseModel):
         """Raises RthsError."""
         if self.state and self.state not in list(State):
             raise RthsError(Issue("state", "is no state of a run", self.state, "choose one of " + ", ".join(State)))
+        if not self._numbered:
+            raise RthsError(Issue("page", f"needs a number from 1 to {LAST_PAGE}", self.page))
         until = _day("until", self.until)
         return Filter(
             states=(State(self.state),) if self.state else (),

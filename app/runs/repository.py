@@ -61,6 +61,10 @@ class RunRepository(JobRepository[Run]):
         query = query.options(defer(Run.plan)).order_by(ordered, Run.number.desc())
         return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
 
+    def most_stations(self) -> int:
+        """Largest number of a station with measures; 0 before the first test has ended."""
+        return self.session.scalar(sa.select(sa.func.max(RunStation.number))) or 0
+
     def in_states(self, *states: State) -> list[Run]:
         query = sa.select(Run).where(Run.state.in_(states)).options(defer(Run.plan)).order_by(Run.number)
         return list(self.session.scalars(query))

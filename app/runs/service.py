@@ -21,7 +21,7 @@ from app.runs.schemas import QueueOut, RunOut
 from rths_engine import __version__
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.plan import MOST_STATIONS, Plan
 from rths_engine.planning.reading import read_plan
 
 
@@ -56,14 +56,21 @@ class RunService:
         return read_plan(run.plan)
 
     def listed(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
-        column, _, station = page.sort.partition(":")
-        numbered = station.isdecimal() and len(station) < 3
-        known = column in MEASURES if numbered else column in SORTS and page.sort == column
-        if not known:
-            names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
-            near = difflib.get_close_matches(page.sort, names, 1)
-            raise RthsError(Issue("sort", "is no column to sort by", page.sort, f"try {near[0]}" if near else ", ".join(names)))
+        self._check_sort(page.sort)
         return self.runs.listed(wanted, page)
+
+    def _check_sort(self, sort: str) -> None:
+        """Raises RthsError for a column that is not there, and for a station that no stored run has."""
+        column, colon, station = sort.partition(":")
+        if colon and column in MEASURES:
+            most = self.runs.most_stations() or MOST_STATIONS
+            if not (station.isascii() and station.isdecimal() and 1 <= int(station[:9]) <= most):
+                problem = f"needs a station from 1 to {most} after the measure: no run has another"
+                raise RthsError(Issue("sort", problem, sort, f"try {column}:1"))
+        elif sort not in SORTS:
+            names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
+            near = difflib.get_close_matches(sort, names, 1)
+            raise RthsError(Issue("sort", "is no column to sort by", sort, f"try {near[0]}" if near else ", ".join(names)))
 
     def queue_state(self) -> QueueOut:
         state, seen = self.hold.state, Workers(self.session).last_beat()

@@ -35,6 +35,7 @@ COMPUTED: dict[str, Any] = {"tests": ["hybrid", "structure"]}
 TESTED: dict[str, Any] = {"tests": ["hybrid", *DRIVEN], "one_in": [*DRIVEN]}
 ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}
 ONLY_HYBRID = ["hybrid"]
+MOST_STATIONS = 32
 
 
 class Noise(Value):
@@ -118,7 +119,7 @@ class Plan(Value):
     structure: Structure = Field(NoStructure(), title="Structure", json_schema_extra=COMPUTED)
     integrator: Integrator = Field(CrIntegrator(), title="Integration", json_schema_extra=COMPUTED)
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
-    stations: tuple[Station, ...] = Field((), title="Stations", max_length=32, json_schema_extra=TESTED)
+    stations: tuple[Station, ...] = Field((), title="Stations", max_length=MOST_STATIONS, json_schema_extra=TESTED)
     structure_physics: tuple[StructureEffect, ...] = Field(
         (), title="Physics the structure's model leaves out", max_length=8, json_schema_extra=COMPUTED
     )

@@ -139,6 +139,37 @@ def test_the_list_filters_sorts_and_pages(client: TestClient, settings: Settings
     assert client.get(RUNS, params={"limit": 0}).status_code == 422
 
 
+def test_a_measure_is_sorted_by_only_at_a_station_that_a_run_has(client: TestClient, settings: Settings) -> None:
+    def status(station: int) -> Any:
+        return client.get(RUNS, params={"sort": f"mte_mm:{station}"}).status_code
+
+    assert [status(station) for station in (1, 32, 33)] == [200, 200, 422]  # no run yet: what a plan can have
+    execute(client, settings, submit(client))
+    assert [status(station) for station in (1, 2)] == [200, 200]
+    for station in (3, 9, 0, -1, "", "x", "1.0", "٢", "9" * 30):
+        answer = client.get(RUNS, params={"sort": f"mte_mm:{station}"})
+        assert answer.status_code == 422, station
+        assert answer.json()["errors"][0]["where"] == "sort"
+        assert "a station from 1 to 2" in answer.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("field", "wrong"),
+    [("limit", "0"), ("limit", "501"), ("limit", "x"), ("offset", "-1"), ("offset", "1e3"), ("offset", "9" * 30)],
+)
+@pytest.mark.parametrize("path", [RUNS, "/api/v1/recordings", "/api/v1/diagnoses"])
+def test_a_number_out_of_range_in_a_lists_address_is_refused(client: TestClient, path: str, field: str, wrong: str) -> None:
+    answer = client.get(path, params={field: wrong})
+    assert answer.status_code == 422
+    assert [one["where"] for one in answer.json()["errors"]] == [field]
+
+
+@pytest.mark.parametrize("page", ["0", "-1", "x", "1.5", "9" * 30])
+@pytest.mark.parametrize("path", ["/runs", "/recordings", "/diagnoses"])
+def test_a_page_of_a_list_that_cant_be_is_refused(client: TestClient, path: str, page: str) -> None:
+    assert client.get(path, params={"page": page}).status_code == 422
+
+
 def test_a_finished_run_gives_measures_recording_csv_report_and_plan(client: TestClient, settings: Settings) -> None:
     run_id = submit(client)
     summary = execute(client, settings, run_id)
