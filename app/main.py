@@ -16,6 +16,7 @@ from app import db, pages, problems
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
 from app.guard import Guard
+from app.head import Head
 from app.health import router as health
 from app.jobs import queue as durable
 from app.live.endpoints import router as live
@@ -60,6 +61,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(diagnoses_page)
     app.include_router(table4_page)
     app.include_router(pages.router)
+    app.add_middleware(Head)
     app.add_middleware(Guard, settings=configured)
     return app
 

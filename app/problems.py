@@ -119,7 +119,7 @@ def _not_possible(request: Request) -> Response:
     """Names the methods of every route at the address; the framework knows of the first only."""
     path, described = request.url.path, request.app.openapi()["paths"]
     methods = {method.upper() for route, item in described.items() if compile_path(route)[0].match(path) for method in item}
-    allowed = ", ".join(sorted(methods)) or "GET"
+    allowed = ", ".join(sorted(methods | ({"HEAD"} if "GET" in methods else set()))) or "GET, HEAD"
     response = problem(405, f"{request.method} is not possible at {path}; {allowed} is.")
     response.headers["Allow"] = allowed
     return response

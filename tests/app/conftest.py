@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import tarfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from app.main import create_app
 from rths_engine.planning import templates
 from tests.browser.service import Service, running
 
+ARCHIVE = Path(__file__).parents[1] / "data" / "earlier_build_0_1_0.tar.xz"
 ADDRESS = "http://127.0.0.1:8000"
 
 
@@ -52,6 +54,21 @@ def app_of(client: TestClient) -> FastAPI:
     """The application that a client asks."""
     assert isinstance(client.app, FastAPI)
     return client.app
+
+
+def unpack_earlier(folder: Path) -> Path:
+    """The data folder that version 0.1.0 wrote, tests/data/README.md."""
+    with tarfile.open(ARCHIVE) as packed:
+        packed.extractall(folder, filter="data")
+    return folder / "rths"
+
+
+@pytest.fixture(scope="module")
+def earlier(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    """Files of version 0.1.0 under today's service, migrated: rows in every state; no worker takes what waits."""
+    settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("earlier")), embedded_worker=False)
+    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as client:
+        yield client
 
 
 def plan(**changes: Any) -> dict[str, Any]:

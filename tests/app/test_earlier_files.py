@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import tarfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,30 +11,13 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from app.config import Settings
-from app.main import create_app
 from rths_engine.planning.reading import plan_from_yaml
 from rths_engine.recordings.opening import load
-from tests.app.conftest import ADDRESS
+from tests.app.conftest import unpack_earlier
 from tests.browser.service import Service, running, until
 
-ARCHIVE = Path(__file__).parents[1] / "data" / "earlier_build_0_1_0.tar.xz"
 PATIENCE_S = 240  # two busy cores
 WITH_RECORDING = ("Completed", "Tripped", "Cancelled", "Damper with play")
-
-
-def unpacked(folder: Path) -> Path:
-    with tarfile.open(ARCHIVE) as packed:
-        packed.extractall(folder, filter="data")
-    return folder / "rths"
-
-
-@pytest.fixture(scope="module")
-def old(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    """The old files under today's service, migrated; no worker takes what waits."""
-    settings = Settings(data=unpacked(tmp_path_factory.mktemp("earlier")), embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS) as client:
-        yield client
 
 
 def rows(client: TestClient, kind: str) -> dict[str, dict[str, Any]]:
@@ -50,8 +31,8 @@ def opened(client: TestClient, path: str) -> Any:
     return answer
 
 
-def test_every_row_is_listed_as_it_was_stored(old: TestClient) -> None:
-    runs = rows(old, "runs")
+def test_every_row_is_listed_as_it_was_stored(earlier: TestClient) -> None:
+    runs = rows(earlier, "runs")
     assert {name: run["state"] for name, run in runs.items()} == {
         "Completed": "completed",
         "Tripped": "tripped",
@@ -65,36 +46,36 @@ def test_every_row_is_listed_as_it_was_stored(old: TestClient) -> None:
     assert first["code_version"] == "0.1.0" and first["submitted_by"] == "Ana Ruiz"
     assert [station["peak_stroke_mm"] for station in first["stations"]] == pytest.approx([0.05414, 0.04730], rel=1e-3)
     assert runs["Tripped"]["trip"]["station"] == 1
-    assert list(rows(old, "recordings")) == ["Sine test"]
-    diagnoses = rows(old, "diagnoses")
+    assert list(rows(earlier, "recordings")) == ["Sine test"]
+    diagnoses = rows(earlier, "diagnoses")
     assert {name: one["state"] for name, one in diagnoses.items()} == {"Worn damper": "completed", "Queued": "queued"}
     assert diagnoses["Worn damper"]["found"] == "mismatch"
 
 
-def test_every_page_of_every_row_opens(old: TestClient) -> None:
+def test_every_page_of_every_row_opens(earlier: TestClient) -> None:
     pages = ["/", "/lab", "/new", "/runs", "/recordings", "/diagnoses", "/table4"]
     for kind in ("runs", "recordings", "diagnoses"):
-        pages += [f"/{kind}/{row['id']}" for row in rows(old, kind).values()]
-    pages += [f"/stability/{run['id']}" for run in rows(old, "runs").values()]
+        pages += [f"/{kind}/{row['id']}" for row in rows(earlier, kind).values()]
+    pages += [f"/stability/{run['id']}" for run in rows(earlier, "runs").values()]
     for path in pages:
-        assert "<html" in opened(old, path).text or path == "/lab", path
-    shown = rows(old, "diagnoses")["Worn damper"]
-    assert "backlash" in opened(old, f"/diagnoses/{shown['id']}").text
+        assert "<html" in opened(earlier, path).text or path == "/lab", path
+    shown = rows(earlier, "diagnoses")["Worn damper"]
+    assert "backlash" in opened(earlier, f"/diagnoses/{shown['id']}").text
 
 
-def test_every_route_of_every_row_answers(old: TestClient) -> None:
+def test_every_route_of_every_row_answers(earlier: TestClient) -> None:
     """409 is right only of what has no recording, or no verdict, yet."""
     ids = {
-        "run_id": [(row["id"], row["state"] != "queued") for row in rows(old, "runs").values()],
-        "recording_id": [(row["id"], True) for row in rows(old, "recordings").values()],
-        "sha256": [(row["raw_sha256"], True) for row in rows(old, "recordings").values()],
-        "diagnosis_id": [(row["id"], row["state"] != "queued") for row in rows(old, "diagnoses").values()],
+        "run_id": [(row["id"], row["state"] != "queued") for row in rows(earlier, "runs").values()],
+        "recording_id": [(row["id"], True) for row in rows(earlier, "recordings").values()],
+        "sha256": [(row["raw_sha256"], True) for row in rows(earlier, "recordings").values()],
+        "diagnosis_id": [(row["id"], row["state"] != "queued") for row in rows(earlier, "diagnoses").values()],
     }
     asked = 0
-    for path, item in old.app.openapi()["paths"].items():  # type: ignore[attr-defined]
+    for path, item in earlier.app.openapi()["paths"].items():  # type: ignore[attr-defined]
         name = path.partition("{")[2].partition("}")[0]
         for identifier, ended in ids.get(name, []) if "get" in item else []:
-            answer = old.get(path.replace(f"{{{name}}}", identifier))
+            answer = earlier.get(path.replace(f"{{{name}}}", identifier))
             waiting = not ended and path.rsplit(".", 1)[-1] in ("h5", "csv", "html", "json")
             assert answer.status_code == (409 if waiting else 200), f"{answer.url}: {answer.status_code} {answer.text[:500]}"
             asked += 1
@@ -102,11 +83,11 @@ def test_every_route_of_every_row_answers(old: TestClient) -> None:
 
 
 @pytest.mark.parametrize("name", WITH_RECORDING)
-def test_a_recording_comes_as_hdf5_and_as_csv_with_the_same_numbers(old: TestClient, name: str) -> None:
-    run = rows(old, "runs")[name]
-    raw = opened(old, f"/api/v1/runs/{run['id']}/recording.h5").content
+def test_a_recording_comes_as_hdf5_and_as_csv_with_the_same_numbers(earlier: TestClient, name: str) -> None:
+    run = rows(earlier, "runs")[name]
+    raw = opened(earlier, f"/api/v1/runs/{run['id']}/recording.h5").content
     assert len(raw) == run["recording"]["size"]
-    text = opened(old, f"/api/v1/runs/{run['id']}/recording.csv").text
+    text = opened(earlier, f"/api/v1/runs/{run['id']}/recording.csv").text
     table = np.loadtxt(io.StringIO(text), delimiter=",", skiprows=1, ndmin=2)
     with h5py.File(io.BytesIO(raw), "r") as file:
         assert table.shape == (file["signals"].shape[0], file["signals"].shape[1] + 1)
@@ -115,16 +96,16 @@ def test_a_recording_comes_as_hdf5_and_as_csv_with_the_same_numbers(old: TestCli
 
 
 @pytest.mark.parametrize("name", WITH_RECORDING)
-def test_a_report_of_an_old_run_is_written_today(old: TestClient, name: str) -> None:
-    run = rows(old, "runs")[name]
-    assert name in opened(old, f"/api/v1/runs/{run['id']}/report.html").text
-    assert plan_from_yaml(opened(old, f"/api/v1/runs/{run['id']}/plan.yaml").text).digest == run["digest"]
+def test_a_report_of_an_old_run_is_written_today(earlier: TestClient, name: str) -> None:
+    run = rows(earlier, "runs")[name]
+    assert name in opened(earlier, f"/api/v1/runs/{run['id']}/report.html").text
+    assert plan_from_yaml(opened(earlier, f"/api/v1/runs/{run['id']}/plan.yaml").text).digest == run["digest"]
 
 
-def test_an_old_recording_is_read_by_its_roles(old: TestClient, tmp_path: Path) -> None:
-    run = rows(old, "runs")["Completed"]
+def test_an_old_recording_is_read_by_its_roles(earlier: TestClient, tmp_path: Path) -> None:
+    run = rows(earlier, "runs")["Completed"]
     path = tmp_path / "old.h5"
-    path.write_bytes(opened(old, f"/api/v1/runs/{run['id']}/recording.h5").content)
+    path.write_bytes(opened(earlier, f"/api/v1/runs/{run['id']}/recording.h5").content)
     measured = load(path)
     assert list(measured.numbers("station")) == [1, 2]
     for station in (1, 2):
@@ -133,16 +114,16 @@ def test_an_old_recording_is_read_by_its_roles(old: TestClient, tmp_path: Path) 
 
 
 def test_what_waited_in_the_old_queue_is_done_and_an_old_recording_is_diagnosed_by_its_old_plan(tmp_path: Path) -> None:
-    unpacked(tmp_path)
+    unpack_earlier(tmp_path)
     with running(tmp_path) as service:
         runs = {run["name"]: run for run in service.get("/runs")["runs"]}
         done = service.wait(runs["Queued"]["id"], "completed", within_s=PATIENCE_S)
         assert done["digest"] == runs["Completed"]["digest"]
         assert signals(service, done["id"]) == pytest.approx(signals(service, runs["Completed"]["id"]), rel=1e-9, abs=1e-12)
-        earlier = {one["name"]: one for one in service.get("/diagnoses")["diagnoses"]}
-        played, plan = runs["Damper with play"]["id"], service.get(f"/diagnoses/{earlier['Worn damper']['id']}")["plan"]
+        stored = {one["name"]: one for one in service.get("/diagnoses")["diagnoses"]}
+        played, plan = runs["Damper with play"]["id"], service.get(f"/diagnoses/{stored['Worn damper']['id']}")["plan"]
         asked = service.post("/diagnoses", {"recording": {"run": played}, "plan": plan, "name": "Again"})
-        for one in (earlier["Queued"], asked):
+        for one in (stored["Queued"], asked):
             found = diagnosed(service, one["id"])
             assert [effect["id"] for effect in found["verdict"]["effects"]] == ["backlash"]
 

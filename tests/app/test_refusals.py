@@ -90,7 +90,7 @@ def test_a_record_of_zeros_can_be_run_as_it_is(client: TestClient) -> None:
         ("POST", RUNS, b'{"plan": {}, "submitted_by": "\\u0000"}', "application/json", 422, "can't be stored"),
         ("POST", READ, b'name: "\\ud800"', "application/yaml", 422, "can't be stored"),
         ("POST", READ, b"# long\n" * 200_000, "application/yaml", 422, "1000000 is the most"),
-        ("PUT", RUNS, b"", "application/json", 405, "GET, POST"),
+        ("PUT", RUNS, b"", "application/json", 405, "GET, HEAD, POST"),
         ("GET", "/api/v1/nothing", b"", "", 404, "/api/v1/nothing"),
         ("GET", f"{RUNS}/a%00b", b"", "", 400, "NUL"),
         ("GET", f"{RUNS}?q=%00", b"", "", 400, "NUL"),
@@ -112,9 +112,9 @@ def test_a_request_that_cannot_be_taken_is_a_problem_that_says_why(
 
 
 def test_a_method_that_is_not_possible_is_told_which_are(client: TestClient) -> None:
-    assert client.put(RUNS).headers["allow"] == "GET, POST"
-    assert client.post(f"{RUNS}/one").headers["allow"] == "GET"
-    assert client.post("/runs").headers["allow"] == "GET"  # a page
+    assert client.put(RUNS).headers["allow"] == "GET, HEAD, POST"
+    assert client.post(f"{RUNS}/one").headers["allow"] == "GET, HEAD"
+    assert client.post("/runs").headers["allow"] == "GET, HEAD"  # a page
 
 
 def test_empty_filters_are_none_and_a_time_without_zone_is_utc(client: TestClient) -> None:

@@ -1,0 +1,32 @@
+"""HEAD: every address that answers GET answers HEAD with the same status and headers and no body."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+
+class Head:
+    """ASGI middleware. The request runs as GET up to the headers of its answer; nothing of a file is read for the body."""
+
+    def __init__(self, app: ASGIApp):
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http" or scope["method"] != "HEAD":
+            await self.app(scope, receive, send)
+            return
+
+        async def only_headers(message: Message) -> None:
+            await send(message)
+            if message["type"] == "http.response.start":
+                await send({"type": "http.response.body", "body": b""})
+                raise _Answered
+
+        with suppress(_Answered):
+            await self.app({**scope, "method": "GET"}, receive, only_headers)
+
+
+class _Answered(Exception):
+    """The headers are sent, and nothing more is to be."""

@@ -1,0 +1,63 @@
+"""HEAD answers as GET does, without the body and without making it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from fastapi import FastAPI
+from fastapi.responses import StreamingResponse
+from fastapi.testclient import TestClient
+
+from app.head import Head
+
+PAGES = ("/", "/lab", "/new", "/runs", "/runs?sort=nonsense", "/recordings", "/diagnoses", "/table4", "/stability", "/nowhere")
+OTHERS = ("/healthz", "/openapi.json", "/api/docs", "/api/v1/runs?limit=0", "/api/v1/nowhere", "/static/plotly.min.js")
+
+
+def addresses(client: TestClient) -> Iterator[str]:
+    """Every GET route of every row, and of a row that is not there."""
+    ids: dict[str, list[str]] = {"name": ["table3-04", "nothing"]}
+    for kind, parameter in (("runs", "run_id"), ("recordings", "recording_id"), ("diagnoses", "diagnosis_id")):
+        rows = client.get(f"/api/v1/{kind}").json()[kind]
+        ids[parameter] = [*(row["id"] for row in rows), "nothing"]
+        yield from (f"/{kind}/{one}" for one in ids[parameter])
+    ids["sha256"] = [row["raw_sha256"] for row in client.get("/api/v1/recordings").json()["recordings"]]
+    described: Any = client.app
+    for path, item in described.openapi()["paths"].items():
+        parameter = path.partition("{")[2].partition("}")[0]
+        if "get" in item:
+            yield from (path.replace(f"{{{parameter}}}", one) for one in ids[parameter]) if parameter else [path]
+    yield from (*PAGES, *OTHERS)
+
+
+def test_every_address_answers_head_with_the_status_and_headers_of_get(earlier: TestClient) -> None:
+    found = list(addresses(earlier))
+    for path in found:
+        get, head = (earlier.request(method, path, follow_redirects=False) for method in ("GET", "HEAD"))
+        assert (head.status_code, head.headers, head.content) == (get.status_code, get.headers, b""), path
+    assert len(found) > 80
+
+
+def test_the_body_is_not_made_for_head() -> None:
+    app, made = FastAPI(), []
+
+    def parts() -> Iterator[bytes]:
+        made.append(1)
+        yield b"x"
+
+    @app.get("/file")
+    def file() -> StreamingResponse:
+        return StreamingResponse(parts())
+
+    app.add_middleware(Head)
+    client = TestClient(app)
+    assert client.head("/file").status_code == 200 and made == []
+    assert client.get("/file").content == b"x" and made == [1]
+
+
+@pytest.mark.parametrize("path", ["/api/v1/plans/check", "/api/v1/runs/nothing/cancel"])
+def test_head_is_not_possible_where_get_is_not(earlier: TestClient, path: str) -> None:
+    answer = earlier.head(path)
+    assert (answer.status_code, answer.headers["allow"]) == (405, "POST")
