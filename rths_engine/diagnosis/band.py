@@ -10,6 +10,7 @@ from scipy.signal import firwin, upfirdn
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 ANALYSIS_RATE = 128.0  # Hz; what is compared lies below 0.4 of it
 LENGTH = 20  # taps a side and decimated sample
 

@@ -15,8 +15,10 @@ from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import Signatures, absorber
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 REPLICATES = 99
-REDRAWN = 16
+REDRAWN = 16  # times that the error of the input is drawn
+COUNTED = 5  # replicates beyond the score, from which its chance is their share
 TINIEST = 1e-300
 LEAST_OWN = 0.01  # of the power of all noise
 
@@ -102,7 +104,7 @@ def fitted_residual(fitted: Fitted) -> Array:
 def p_value(largest: float, null: Array) -> float:
     """Of the replicates where they reach that far, else of the extreme-value law through them."""
     beyond = int(np.sum(null >= largest))
-    if beyond >= 5:
+    if beyond >= COUNTED:
         return (1 + beyond) / (1 + len(null))
     location, scale = gumbel_r.fit(null)
     return float(gumbel_r.sf(largest, location, scale))

@@ -12,6 +12,7 @@ from rths_engine.planning.plan import Plan
 from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
 
+# chosen; see docs/decisions/0023
 ROUNDING = 1e-5  # of the largest value: files of text keep five digits and more
 
 

@@ -12,6 +12,7 @@ from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen
 
+# chosen; see docs/decisions/0023
 MATERIAL = 0.02  # of all that effects account for: what models err by, so that less says little
 STRONG = 6.0  # of BIC: strong evidence (Kass and Raftery 1995)
 

@@ -11,6 +11,7 @@ from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.planning.plan import Plan
 
+# chosen; see docs/decisions/0023
 LEAST = 1e-6  # a share of a structure's number that is worth keeping
 MOST = 8  # effects of a component
 

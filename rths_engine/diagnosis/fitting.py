@@ -17,6 +17,7 @@ from rths_engine.diagnosis.slopes import Slopes, differences
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 
+# chosen; see docs/decisions/0023
 EVALUATIONS = 40
 RUNAWAY = 1e3  # times the largest measured value
 ROUGH = 12  # evaluations that tell the hopeless

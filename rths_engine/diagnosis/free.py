@@ -15,6 +15,7 @@ from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
+# chosen; see docs/decisions/0023
 SMALLEST = 1e-12
 
 

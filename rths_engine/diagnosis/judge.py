@@ -18,6 +18,7 @@ from rths_engine.diagnosis.select import Selection, select
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 
+# chosen; see docs/decisions/0023
 BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, never fitted where no other recording is held out
 ENDS = 0.3  # s at either end, which the filters blur
 PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 WINDOW = 1.0  # s
+CLEARLY, FEWEST = 2.5, 20  # times the mean power elsewhere; samples whose mean is told
 BEYOND = 3.0  # standard deviations of the noise
 
 
@@ -58,12 +60,12 @@ def _state(one: Judged, scaled: Array) -> str:
     words = []
     for signal in (x, v):
         size = np.abs(signal.values) / max(float(np.max(np.abs(signal.values))), 1e-300)
-        share = [float(np.mean(energy[where])) if where.sum() > 20 else np.nan for where in _thirds(size)]
+        share = [float(np.mean(energy[where])) if where.sum() > FEWEST else np.nan for where in _thirds(size)]
         if np.isfinite(share).all():
             low, _, high = share
-            if high > 2.5 * low:
+            if high > CLEARLY * low:
                 words.append(f"grows with {signal.label}")
-            elif low > 2.5 * high:
+            elif low > CLEARLY * high:
                 words.append(f"largest at small {signal.label}")
     signs = np.sign(v.values)
     up, down = (

@@ -14,8 +14,10 @@ from rths_engine.diagnosis.parallel import each
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 
+# chosen; see docs/decisions/0023
 CYCLES = 6
 FREQUENCIES = (0.1, 0.25, 0.5, 1.0, 2.0)  # Hz
+TRIANGLE = 0.05  # Hz
 SHARES = (0.25, 0.5, 1.0, 1.5)  # of the largest displacement so far
 
 
@@ -48,8 +50,9 @@ def next_test(
                     )
                 )
         amplitude = min(share * so_far, stroke)
-        if 4 * 0.05 * amplitude <= speed:
-            offers.append((f"a triangle of {1e3 * amplitude:.3g} mm at 0.05 Hz, 2 cycles", _triangle(amplitude, 0.05, data.dt)))
+        if 4 * TRIANGLE * amplitude <= speed:
+            signal = _triangle(amplitude, TRIANGLE, data.dt)
+            offers.append((f"a triangle of {1e3 * amplitude:.3g} mm at {TRIANGLE:g} Hz, 2 cycles", signal))
 
     def expected(offer: tuple[str, Array]) -> float:
         moved = _moved_as(data, offer[1])

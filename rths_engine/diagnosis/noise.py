@@ -11,8 +11,11 @@ from scipy.signal import lfilter
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 ORDER, LONG = 12, 128  # the stop band of the decimation takes as many as the first; noise of a second and slower, the other
 
+# chosen; see docs/decisions/0023
+LEAST_SAMPLES = 20  # for each number of a process
 LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # of the noise's power, white beside it
 CORNERS = (0.0003, 0.001, 0.003, 0.01, 0.03, 0.1)  # of the sampling rate
 GRID = 4096  # frequencies of a spectrum
@@ -63,7 +66,10 @@ def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
     count = sum(len(one) for one in stretches)
     mean = sum(float(one.sum()) for one in stretches) / count
     powers = [np.abs(np.fft.rfft(one - mean)) ** 2 / len(one) for one in stretches]
-    order, variance = min(ORDER, max(0, count // 20)), sum(float(np.sum((one - mean) ** 2)) for one in stretches) / count
+    order, variance = (
+        min(ORDER, max(0, count // LEAST_SAMPLES)),
+        sum(float(np.sum((one - mean) ** 2)) for one in stretches) / count,
+    )
     if order == 0 or variance <= 0:
         return Noise.white(float(np.sqrt(max(variance, np.finfo(float).tiny))))
     slow = np.eye(len(CORNERS) + 1)[0]
@@ -77,7 +83,7 @@ def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
         known = np.concatenate([_frequencies(one)[1:] for one in stretches])
         slow = _risen(known, np.concatenate([one[1:] for one in rest]))
     spectrum = (slow @ _shapes(FREQUENCY)) * _peaks(short, sigma, FREQUENCY)
-    covariance = np.fft.irfft(spectrum)[: min(LONG, max(order, count // 20)) + 1]
+    covariance = np.fft.irfft(spectrum)[: min(LONG, max(order, count // LEAST_SAMPLES)) + 1]
     return Noise(spectrum, *_predictor(covariance, min(max(beyond, LEAST_FLOOR), MOST_FLOOR)))
 
 

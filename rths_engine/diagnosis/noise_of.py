@@ -15,6 +15,7 @@ from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.signatures import general_terms, signatures
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 FIRST_GUESS = 0.01  # noise over the output's deviation, before any is known
 LEAST_NOISE = 1e-6  # likewise: below, numbers of a file are rounded
 DRAWS = 12
@@ -43,6 +44,7 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
         asked = [one, one.thinned(), one.behind(), *draws]
         plain, thin, behind, *drawn = each(partial(recordings.component.predicted, fitted.parts), asked)
         reached = np.sqrt(np.var(drawn, axis=0) + (thin - plain) ** 2 + (behind - plain) ** 2)
+        # 1 / 0.6745: the median of |r| of a normal law over its deviation
         sigma = np.maximum(1.4826 * np.median(np.abs(residual), axis=1, keepdims=True), 1e-300)
         width = max(1, round(SMOOTHED / one.step))
         local = np.sqrt(np.maximum(uniform_filter1d(reached**2, width, axis=1), 0.0))

@@ -22,6 +22,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.roles import SHOWN, dimension, to_si
 from rths_engine.results.decimate import extremes
 
+# chosen; see docs/decisions/0023
 POINTS = 3000  # of a plot
 MOST_CHANNELS = 4  # of a component
 SEGMENTS = 8  # of a spectrum

@@ -13,7 +13,8 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
-RISE = float(chi2.ppf(0.9, 1))  # of chi^2, of one number
+# chosen; see docs/decisions/0023
+RISE = float(chi2.ppf(0.9, 1))  # of chi^2, of one number: its 90 % quantile, by definition of the interval
 NORMAL_90 = RISE**0.5  # standard deviations each way
 DOUBLINGS, HALVINGS, TURNS = 7, 4, 2
 

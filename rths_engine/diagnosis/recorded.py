@@ -31,10 +31,12 @@ from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
 
+# chosen; see docs/decisions/0023
 LEAST = 200  # samples: fewer hold too little to tell noise from physics
 MOST = 4_000_000  # samples of a channel
 FAR_OFF = 30.0  # times: units are off
 AT_REST = 0.02  # of the largest: below, the start is taken for rest
+FIRST_MOMENTS = 0.12  # of the first period, by which a start is told
 Pair = tuple[Component, Any]
 FLOORS = ("x_floor", "v_floor", "a_floor")
 
@@ -168,7 +170,7 @@ def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, 
     measured is put where the first mode has it."""
     count = len(plan.structure.assemble().floors)
     period = float(plan.periods()[0])
-    few = max(8, min(recording.samples, round(0.12 * period / recording.dt)))
+    few = max(8, min(recording.samples, round(FIRST_MOMENTS * period / recording.dt)))
     time = np.arange(few) * recording.dt
     x, v, moving = [0.0] * count, [0.0] * count, False
     for floor in range(1, count + 1):

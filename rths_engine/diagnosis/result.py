@@ -17,6 +17,7 @@ from rths_engine.diagnosis.unknown import Law, law
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.planning.plan import Plan
 
+# chosen; see docs/decisions/0023
 SHOWN = 8  # candidates
 ORDER = ("consistent", "recalibrate", "undetermined", "mismatch")
 

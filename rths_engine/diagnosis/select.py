@@ -22,6 +22,7 @@ from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.offset import ForceOffset
 
+# chosen; see docs/decisions/0023
 MOST_EFFECTS = 3  # beside the load cell's zero
 TRIED = 8
 WEAK = 0.25  # of the best score: weaker effects are not tried

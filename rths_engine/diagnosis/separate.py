@@ -9,6 +9,7 @@ import numpy as np
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.foundation.part import Part
 
+# chosen; see docs/decisions/0023
 APART = 10.0  # of lambda: below, two models can't be told apart
 
 

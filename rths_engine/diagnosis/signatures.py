@@ -14,10 +14,12 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
+# chosen; see docs/decisions/0023
 ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
 ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan
 SLOW = 0.15  # Hz
 LEAST, NEAR = 0.01, 0.5  # of a guess: the smallest that is looked at; as large as guessed
+ALIKE = 1e-6  # of the largest singular value: a direction so short follows from the others
 NOTHING = 1e-9  # of the misfit: a signature so small says nothing
 
 
@@ -125,7 +127,7 @@ def absorber(jacobian: Array) -> Array:
     if not used.shape[1]:
         return np.zeros((len(jacobian), 0))
     left, values, _ = np.linalg.svd(used, full_matrices=False)
-    spanned: Array = left[:, values > 1e-6 * values[0]]
+    spanned: Array = left[:, values > ALIKE * values[0]]
     return spanned
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 DIFFERENCE = 1e-3  # of a number's scale: wide beside the kinks of friction and play
 KEPT = 2  # steps by secants before differences are taken again
 

@@ -11,6 +11,7 @@ from scipy.signal.windows import blackmanharris
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 STRETCH = 2.0  # s, over which a spectrum is told
 HOPS = 8  # a stretch
 AROUND = (5, 5)  # frequencies and hops whose powers are taken together

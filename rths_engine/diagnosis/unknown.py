@@ -9,6 +9,7 @@ import numpy as np
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.signatures import absorber
 
+# chosen; see docs/decisions/0023
 MOST_TERMS = 3
 LEAST_SHARE = 0.05  # of what the general law explains, for one more term
 

@@ -11,6 +11,7 @@ from scipy.sparse.linalg import splu
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 
+# chosen; see docs/decisions/0023
 LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled to rounding
 
 

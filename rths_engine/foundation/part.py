@@ -18,6 +18,7 @@ from rths_engine.foundation import location, units
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 
+# chosen; see docs/decisions/0023
 LONGEST_TEXT = 80  # characters of a refused text that are told
 T = TypeVar("T", bound=BaseModel)
 

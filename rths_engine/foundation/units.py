@@ -12,7 +12,7 @@ INCH = 0.0254
 POUND_FORCE = 4.4482216152605  # N
 KIP = 1e3 * POUND_FORCE
 
-# unit -> (dimension, factor to SI)
+# unit -> (dimension, factor to SI), ISO 80000 and by definition
 UNITS: dict[str, tuple[str, float]] = {
     "1": ("number", 1.0),
     "%": ("number", 1e-2),

@@ -14,6 +14,7 @@ from rths_engine.planning.excitation import Drive
 from rths_engine.planning.kinds_of_test import DRIVEN
 from rths_engine.planning.plan import Plan
 
+# chosen; see docs/decisions/0023
 LONGEST = 3600.0  # s, of a drive or a force
 MOST_MOMENTS = 100_000  # of a drive that are looked at
 

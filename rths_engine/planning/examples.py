@@ -23,6 +23,7 @@ from rths_engine.planning.plan import Noise, Plan, RealTime, Station
 from rths_engine.planning.safety import Limits
 from rths_engine.planning.shapes import Chirp, IncreasingCycles, Sine
 
+# chosen; see docs/decisions/0023
 EL_CENTRO = "imperial-valley-1940-el-centro-ns"
 SENSORS = Noise(displacement=10e-6, force=200.0)
 

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from rths_engine.foundation import units
 from rths_engine.foundation.errors import Issue, PlanError
 
+# chosen; see docs/decisions/0023
 LARGEST = 20_000_000  # characters
 DEEPEST = 30
 

@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Value, quantity
 
+# chosen; see docs/decisions/0023
 TONES = 400  # of band-limited noise
 Share = Annotated[float, Field(ge=-1e6, le=1e6)]  # of the amplitude
 

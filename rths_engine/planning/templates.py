@@ -23,6 +23,7 @@ from rths_engine.planning.examples import EXAMPLES
 from rths_engine.planning.motion import RecordMotion
 from rths_engine.planning.plan import Noise, Plan, Station
 
+# Chen and Ricles (2012); the last two, chosen for it: docs/decisions/0013
 STOREY_STIFFNESS = (36_007e3, 23_894e3)  # N/m
 FIRST_PERIOD = 1.48  # s
 ACTUATOR_ALPHA = (30.0, 45.0)
@@ -36,7 +37,7 @@ GROUPS = {
     "actuator": "Tests of an actuator",
     "structure": "Tests of a structure alone",
 }
-BRACE_STIFFNESS = 4e8  # N/m, lateral, of all braces of a storey
+BRACE_STIFFNESS = 4e8  # N/m, lateral, of all braces of a storey: docs/decisions/0013
 NORTHRIDGE = RecordMotion(record="northridge-1994-beverly-hills-009", scale=Factor(factor=0.6))
 
 
@@ -53,6 +54,7 @@ class PaperRow:
     mee_kNm: tuple[float, float] | None
 
 
+# Chen and Ricles (2012), Tables III and IV
 _ROWS = (
     PaperRow(1, (1, 1), 0.0, None, None, None, None),
     PaperRow(2, (1, 1), 0.4, (2.0, 3.2), (2.5, 5.2), (46.8, 73.5), (-5.5, -6.2)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rths_engine.foundation.kernel import compiled
 
+# chosen; see docs/decisions/0023
 LEAST = 0.02  # m/s, peak of a half wave that counts
 LONGEST = 0.2  # s, of a half wave: above 2.5 Hz
 DYING = 0.8  # of the largest peak in the row; a lower one begins the row anew

@@ -19,6 +19,7 @@ from rths_engine.results.result import Result
 from rths_engine.running import loop, starting
 from rths_engine.running.setup import left_out, setup
 
+# chosen; see docs/decisions/0023
 LARGEST_RECORDING = 2_000_000_000  # bytes
 
 

@@ -15,6 +15,7 @@ from rths_engine.stability import station as stations
 from rths_engine.stability import structure
 from rths_engine.stability.station import Lifted
 
+# chosen; see docs/decisions/0023
 ROUNDING = 1e-9  # a radius above 1 by no more is 1
 GONE = 1e-3  # a root so small is over within a step, and no mode
 

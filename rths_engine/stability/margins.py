@@ -11,6 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.stability.closed_loop import ClosedLoop, stable
 from rths_engine.stability.station import delay
 
+# chosen; see docs/decisions/0023
 MOST = 1000.0  # controller steps of added delay looked at
 STEPS = np.concatenate([np.arange(1.0, 10.0), np.geomspace(10.0, MOST, 60)])
 POINTS = 41

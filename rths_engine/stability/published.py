@@ -20,6 +20,7 @@ from rths_engine.planning.plan import Plan, Station
 from rths_engine.stability.closed_loop import stable
 from rths_engine.stability.margins import MOST, crossing
 
+# Chen and Ricles (2012), section 2
 MASS = 5e5  # kg, each floor
 STIFFNESS = 5e7  # N/m, each storey (the text prints kN/m; its periods of 1.02 and 0.39 s need N/m)
 DAMPING_RATIO = 0.02

@@ -13,6 +13,7 @@ from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.planning.plan import Station
 
+# chosen; see docs/decisions/0023
 AMPLITUDE = 1e-9  # m, below any yield, slack or limit; about rest rounding is relative, so nothing is lost
 EXCITED = 24  # controller steps of random command that show which states move
 NEGLIGIBLE = 1e-10  # of the largest

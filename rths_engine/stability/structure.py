@@ -13,6 +13,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning.plan import Plan
 
+# chosen; see docs/decisions/0023
 MOST = 300  # numbers that the structure may be reduced to: the eigenvalues of the loop are computed some hundred times
 REACHED = 1e-9  # a direction shorter than this beside its own length is rounding
 

@@ -13,6 +13,7 @@ from rths_engine.planning import templates
 from rths_engine.planning.templates import PaperRow
 
 PAPER = {row.simulation: row for row in templates.PAPER.values()}
+# Chen and Ricles (2012); the simulations that numbers were calibrated on: docs/table4.md
 FLOORS_PEAK_MM = (49.6, 94.6)  # of simulation 2
 DRIFTS_PERCENT = (1.1, 1.2)  # of simulation 2
 CALIBRATED = (3, 4)  # simulations that parameters were chosen on

@@ -19,6 +19,7 @@ from rths_engine.planning.plan import Noise, Plan, Station
 from rths_engine.planning.safety import Limits
 from rths_engine.planning.templates import DAMPERS, FORCE_CAPACITY, PAPER, VELOCITY_CAPACITY, PaperRow
 
+# Chen and Ricles (2012); each value's source: docs/table4.md
 FLOOR_MASS = 662.9e3  # kg, for T1 = 1.48 s
 BAYS = (9.15,) * 4  # m
 HEIGHTS = (4.57, 3.96)  # m
@@ -29,6 +30,7 @@ PlannedRecord = RecordMotion | FileMotion
 BUNDLED = RecordMotion(record="landers-1992-yermo-270", scale=Factor(factor=1.174))
 
 
+# each value's source: docs/table4.md and docs/decisions/0014
 STEEL = 200e9  # N/m^2
 DAMPER = MrDamper()
 VALVE_TIME = 4e-3  # s
@@ -48,6 +50,7 @@ class Laboratory:
     force_noise: float = 200.0  # N, standard deviation, assumed
 
 
+# calibrated: docs/table4.md
 LABORATORY = Laboratory(time_constant=(26.562e-3, 35.396e-3), delay_growth=0.069875, displacement_noise=47e-6)
 
 

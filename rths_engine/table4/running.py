@@ -14,6 +14,7 @@ from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import Row
 from rths_engine.table4.laboratory import HEIGHTS
 
+# chosen; see docs/decisions/0023
 CORES = 2
 
 

@@ -15,6 +15,7 @@ from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import FLOORS_PEAK_MM
 from rths_engine.table4.laboratory import LABORATORY, Laboratory, PlannedRecord, plans
 
+# chosen; see docs/decisions/0023
 LEAST, MOST = 0.01, 50.0
 CLOSE = 1e-3  # of a factor
 FAR = Limits(displacement=10.0, velocity=min(VELOCITY_CAPACITY))  # so that too strong a motion goes on

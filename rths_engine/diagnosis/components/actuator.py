@@ -20,6 +20,7 @@ from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import OfDisplacement
 from rths_engine.running import replay
 
+# chosen; see docs/decisions/0023
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfDisplacement))
 TOLERANCE = 0.05
 

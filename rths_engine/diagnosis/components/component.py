@@ -19,6 +19,7 @@ from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import Reading
 
+# chosen; see docs/decisions/0023
 REPLAY_RATE = 1024.0  # Hz
 
 

@@ -9,8 +9,10 @@ from rths_engine.diagnosis.components.component import Feature
 from rths_engine.foundation.arrays import Array
 from rths_engine.running.stop import stop
 
+# chosen; see docs/decisions/0023
 Terms = list[tuple[str, str, Array]]  # formula, words, values
-STOPS = (0.1, 0.3, 0.7)
+STOPS = (0.1, 0.3, 0.7)  # of the largest displacement
+SMOOTHING = 0.02  # of the largest velocity, where friction turns round
 WAVES = 12
 RELAXATIONS = (0.1, 0.5, 3.0)  # s
 MODULATIONS = 14  # half waves over a recording
@@ -19,14 +21,12 @@ MODULATIONS = 14  # half waves over a recording
 def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
     """x (m), v (m/s) and the force (N) are scaled by their largest; E is the share of the energy dissipated so far."""
     x, v, f = _scaled(x), _scaled(v), _scaled(force)
-    side = np.tanh(v / 0.02)
+    side = np.tanh(v / SMOOTHING)
     energy = np.cumsum(np.abs(f * v)) * dt
     energy = energy / max(float(energy[-1]), 1e-30)
     time = np.linspace(0.0, 1.0, len(x))
     a = _scaled(np.gradient(v))
-    stops = [
-        (f"stop_{r:g}(x)", f"hysteretic, closing over {100 * r:.0f} % of the amplitude", stop(x, r)) for r in (0.1, 0.3, 0.7)
-    ]
+    stops = [(f"stop_{r:g}(x)", f"hysteretic, closing over {100 * r:.0f} % of the amplitude", stop(x, r)) for r in STOPS]
     return [
         ("1", "constant", np.ones(len(x))),
         ("x", "proportional to displacement", x),
@@ -57,7 +57,7 @@ def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
 def of_position(x: Array, v: Array, dt: float) -> Terms:
     """What depends on the place, finely, alike both ways or against the motion; and what relaxes in time."""
     largest = max(float(np.max(np.abs(x))), 1e-300)
-    side = np.tanh(_scaled(v) / 0.02)
+    side = np.tanh(_scaled(v) / SMOOTHING)
     found: Terms = []
     for waves in range(1, WAVES + 1):
         length = 2 * largest / waves

@@ -21,6 +21,7 @@ from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import OfForce
 from rths_engine.running import replay
 
+# chosen; see docs/decisions/0023
 REACH, TAPER = 16, 6.0  # of a delay by a fraction of a sample: samples either side, and the window's beta
 FINER = 8  # steps of a replay's step, by which its error is told
 AT_REST, SLIGHT = 0.1, 0.02  # s; of the largest force
@@ -118,6 +119,7 @@ class StepError(Loose):
     scale: ClassVar[float] = 1.0
 
 
+# chosen; see docs/decisions/0023
 SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.25}  # ms; of the difference
 
 

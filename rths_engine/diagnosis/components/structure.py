@@ -27,6 +27,7 @@ from rths_engine.planning.excitation import FloorForce, Start
 from rths_engine.planning.plan import Plan
 from rths_engine.running import replay
 
+# chosen; see docs/decisions/0023
 FEW_MODES = 3  # whose damping may be off by other shares
 FINE = 2e-3  # s: a step so small leaves no error of integration beside noise
 FEW = 20  # degrees of freedom that make such a step cheap
@@ -60,6 +61,7 @@ class AddedDamping(NamedTuple):
         return built._replace(damping=built.damping + self.damping)
 
 
+# chosen; see docs/decisions/0023
 TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2, ModeDamping: 0.03}
 
 

@@ -11,6 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled
 from rths_engine.foundation.part import Part, quantity
 
+# chosen; see docs/decisions/0023
 MOST_SAMPLES = 2048  # of the moving window; a longer one skips substeps
 FILTERS, COEFFICIENTS, SUMS, FRESH, WINDOW = 5, 9, 12, 21, 30  # places in the state
 

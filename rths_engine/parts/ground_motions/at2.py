@@ -11,6 +11,7 @@ from rths_engine.parts.ground_motions.parsed import Parsed
 from rths_engine.parts.ground_motions.text import NUMBER, block
 from rths_engine.parts.ground_motions.units_in_text import unit_in
 
+# chosen; see docs/decisions/0023
 _HEADER_LINES = 12
 _NAMED = re.compile(rf"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*({NUMBER}|[A-Z]+)", re.IGNORECASE)
 _LISTED = re.compile(rf"^\s*(\d+)\s+({NUMBER})\s+NPTS\s*,\s*DT", re.IGNORECASE)

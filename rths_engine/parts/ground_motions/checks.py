@@ -11,6 +11,7 @@ from rths_engine.foundation.units import STANDARD_GRAVITY
 from rths_engine.parts.ground_motions.parsed import Parsed
 from rths_engine.parts.ground_motions.units_in_text import ACCELERATION_UNITS, checked_unit
 
+# chosen; see docs/decisions/0023
 SHORTEST_STEP, LONGEST_STEP = 0.0005, 0.1  # s
 FEWEST_SAMPLES, MOST_SAMPLES = 50, 1_000_000
 LEAST_PGA, LARGEST_PGA = 0.001, 5.0  # g

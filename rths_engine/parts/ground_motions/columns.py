@@ -16,6 +16,7 @@ from rths_engine.parts.ground_motions.parsed import Parsed
 from rths_engine.parts.ground_motions.text import NUMBER, numbers, value
 from rths_engine.parts.ground_motions.units_in_text import unit_in
 
+# chosen; see docs/decisions/0023
 _COMMENT = ("#", "%", "!", "//", '"', "'", ";", "*")
 _STEP = re.compile(
     rf"\b(?:dt|delta[ _]?t|time[ _]?step|sampling interval|step)\b\s*(?:\((s|sec|ms)\))?\s*[=:]?\s*({NUMBER})\s*(ms)?",

@@ -25,7 +25,7 @@ _REALS = re.compile(r"^\s*(\d+)\s+real-header values", re.IGNORECASE)
 _FORMAT = re.compile(r"\(\s*(\d+)\s*[fe]\s*(\d+)\.\d+[^)]*\)", re.IGNORECASE)
 _CHANNEL = re.compile(r"\bCha?n(?:nel)?\.?\s*(\d+)\s*:\s*(.*?)(?:\s{2,}|\(|$)", re.IGNORECASE)
 _END = re.compile(r"End[- ]of[- ]data", re.IGNORECASE)
-_STEP_NUMBER = 34
+_STEP_NUMBER = 34  # of the real-value header of COSMOS V2: the step, s
 
 
 @dataclass(frozen=True, slots=True)

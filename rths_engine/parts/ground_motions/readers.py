@@ -11,6 +11,7 @@ from rths_engine.parts.ground_motions.parsed import Parsed
 from rths_engine.parts.ground_motions.record import Motion, slug
 from rths_engine.parts.ground_motions.text import lines_of
 
+# chosen; see docs/decisions/0023
 FORMATS = {"at2": "PEER AT2", "cosmos": "COSMOS or CSMIP V2", "columns": "plain columns"}
 _LARGEST_FILE = 100_000_000  # bytes: ten channels of a million samples
 

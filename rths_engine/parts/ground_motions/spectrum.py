@@ -14,6 +14,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.parts.ground_motions.record import Motion
 
+# chosen; see docs/decisions/0023
 _POINTS_A_PERIOD = 20
 _FINEST = 32  # parts of one step: below dt / 2 the response follows the record, so finer finds no higher peak
 

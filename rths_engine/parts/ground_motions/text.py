@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from rths_engine.foundation.errors import Issue, MotionError
 
+# chosen; see docs/decisions/0023
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?"
 _GLUED = re.compile(NUMBER)
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")

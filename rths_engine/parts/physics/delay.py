@@ -9,7 +9,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled
 
-HEAD = 2  # of the state: place of the newest sample in the ring, whether it has begun
+HEAD = 2  # places in the state before the ring: that of the newest sample, whether it has begun
 
 
 def ring(longest: float, dt: float) -> Array:

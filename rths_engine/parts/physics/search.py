@@ -10,6 +10,7 @@ import annotated_types
 
 from rths_engine.parts.physics.effect import Effect
 
+# chosen; see docs/decisions/0023
 TINY = 1e-12
 UNSURE = 0.5  # of the logarithm of a number
 PRESLIDING = 0.02  # of the stroke: friction that builds up over more is rather a hysteresis of its own

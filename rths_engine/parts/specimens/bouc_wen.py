@@ -11,6 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled
 from rths_engine.foundation.part import Part, quantity
 
+# chosen; see docs/decisions/0023
 SATURATED = 20.0  # yield displacements of one move after which zeta is at its asymptote, within exp(-20 + 1)
 SLIPPING = 1.0 - 1e-9  # of the asymptote
 

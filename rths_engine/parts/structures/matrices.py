@@ -14,6 +14,7 @@ from rths_engine.foundation.part import Value, quantity
 from rths_engine.parts.structures.assembled import Assembled, no_members
 from rths_engine.parts.structures.modes import circular_frequencies, rayleigh
 
+# chosen; see docs/decisions/0023
 MOST_DOF = 2000
 EQUAL = 1e-9  # of the largest entry: closer entries are the same number written twice
 SYMBOLS = {"mass": "M", "stiffness": "K", "damping": "C"}

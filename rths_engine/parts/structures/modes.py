@@ -8,6 +8,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, cholesky, eigvalsh
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 
+# chosen; see docs/decisions/0023
 PROBLEM = "its stiffness matrix is singular: it is a mechanism"
 MECHANISM = Issue("structure", PROBLEM, fix="support it or raise its softest stiffness")
 DEPENDENT = Issue(

@@ -19,6 +19,7 @@ from rths_engine.parts.structures.frame_model import FrameModel, Member
 from rths_engine.parts.structures.modes import circular_frequencies, rayleigh
 from rths_engine.parts.structures.sections import SECTIONS
 
+# chosen; see docs/decisions/0023
 MOST_DOF = 3000  # K is stored dense while a plan is checked
 BayWidth = Annotated[float, Field(ge=0.1, le=100)]
 LEAN_AREA = 0.5  # m^2

@@ -8,6 +8,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.roles import shown
 
+# chosen; see docs/decisions/0023
 LONGEST_RUN = 10  # samples that are bridged by interpolation; longer runs refuse the file
 LARGEST = 1e30  # SI: beyond it, what is computed from values soon overflows
 CLIPPED_RUN = 4  # samples at exactly the extreme

@@ -9,6 +9,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.finding import Finding
 
+# chosen; see docs/decisions/0023
 LONGEST_GAP = 10  # steps that are bridged by interpolation; longer ones refuse the file
 LATEST = 1e12  # s: 30 000 years; dates in seconds are below, in milliseconds taken for seconds beyond
 JITTER = 0.02  # of a step: rounding of time stamps stays below

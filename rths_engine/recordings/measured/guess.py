@@ -15,6 +15,7 @@ from rths_engine.recordings.measured.mapping import LARGEST_NUMBER, MOST_CHANNEL
 from rths_engine.recordings.measured.roles import ROLES, dimension, key
 from rths_engine.recordings.measured.table import Column, Table
 
+# chosen; see docs/decisions/0023
 _ALIKE = 0.8  # correlation from which an unnamed column counts as another's derivative
 _DISSIPATES = 0.4  # share of the exchanged energy from which one counts as a device's force
 

@@ -12,9 +12,11 @@ from rths_engine.recordings.measured import relations
 from rths_engine.recordings.measured.names import written_unit
 from rths_engine.recordings.measured.roles import dimension, to_si
 
+# chosen; see docs/decisions/0023
 _CLOSE = 0.1  # of the factor between displacement and velocity
 _RELATED = 0.7  # correlation from which that factor is believed
 
+# chosen; see docs/decisions/0023
 # dimension -> (largest value up to which the unit is taken, unit), the last without bound
 _MAGNITUDES: dict[str, tuple[tuple[float, str], ...]] = {
     "time": ((np.inf, "s"),),

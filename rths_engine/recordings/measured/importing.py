@@ -17,6 +17,7 @@ from rths_engine.recordings.measured.resample import resampled
 from rths_engine.recordings.measured.roles import ROLES, SI, dimension, to_si
 from rths_engine.recordings.measured.table import MOST_SAMPLES, Table
 
+# chosen; see docs/decisions/0023
 LEAST = 8  # samples of a recording
 SHORTEST, LONGEST = 1e-9, 1e9  # step, s
 LOST = 0.01  # share of a channel's time beyond the others' from which it is told

@@ -18,6 +18,7 @@ from rths_engine.planning import plan_yaml
 from rths_engine.recordings.measured.names import written_unit
 from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, key
 
+# chosen; see docs/decisions/0023
 SCHEMA: Literal["rths-mapping/1"] = "rths-mapping/1"
 MOST_CHANNELS = 200
 LARGEST_NUMBER = 999  # of a station or floor

@@ -9,6 +9,7 @@ from rths_engine.recordings.measured import relations
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.roles import key
 
+# chosen; see docs/decisions/0023
 SURE = 0.5  # correlation from which sign and factor are told; noise and phase lag bring it down
 FAR = 30.0  # factor between two channels that only a wrong unit explains
 NEAR = 1.5  # and from which a gain is doubtful

@@ -9,6 +9,7 @@ from scipy.ndimage import uniform_filter1d
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 SAME = 1e-3  # of the range: rounding in the file
 SMOOTHED = 9  # samples: takes the sampling noise off a derivative, not the motion of a test
 

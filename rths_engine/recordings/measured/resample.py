@@ -16,6 +16,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured.clock import DRIFT, Clock
 
+# chosen; see docs/decisions/0023
 LARGEST_FACTOR = 1000  # between two rates, and of the fraction that stands for it
 ON_GRID = 1e-3  # of a step
 

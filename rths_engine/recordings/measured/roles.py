@@ -47,7 +47,7 @@ SI = {
 }
 SHOWN = {**SI, "acceleration": "g", "velocity": "mm/s", "length": "mm", "force": "kN", "temperature": "degC"}
 
-# unit -> (SI value of one, SI value at its zero)
+# unit -> (SI value of one, SI value at its zero), by definition
 WITH_ZERO = {"degC": (1.0, 273.15), "degF": (5 / 9, 255.3722222222222)}
 UNITS = (*(name for name, (dimension, _) in units.UNITS.items() if dimension in SI), *WITH_ZERO)
 

@@ -12,6 +12,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MeasuredError
 
+# chosen; see docs/decisions/0023
 MOST_SAMPLES = 50_000_000  # in all columns: 400 MB
 MOST_COLUMNS = 1000
 LONGEST_NAME = 200

@@ -14,6 +14,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 LONGEST_S = 0.2
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 LEAST_CYCLES = 3
 SMALLEST = 0.01  # of the first cycle used; smaller ones are near the rounding or the noise of a record
 

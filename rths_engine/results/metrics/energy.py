@@ -17,6 +17,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.planning.loads import loads
 from rths_engine.planning.plan import Plan
 
+# chosen; see docs/decisions/0023
 MASSLESS = 1e-9  # of the largest load: rounding of a condensation
 
 

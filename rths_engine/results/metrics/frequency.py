@@ -16,6 +16,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 
+# chosen; see docs/decisions/0023
 SEGMENT_S = 16.0  # several cycles of the slowest structure that is usually tested
 FINEST_RATE = 1024.0  # Hz; far above what a structure does
 

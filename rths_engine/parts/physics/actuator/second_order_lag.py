@@ -15,6 +15,7 @@ from rths_engine.parts.physics.effect import COMMAND, Effect
 from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
+# chosen; see docs/decisions/0023
 SHORT = 0.01  # of a substep: a shorter T does nothing
 
 

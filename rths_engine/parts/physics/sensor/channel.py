@@ -10,6 +10,7 @@ from pydantic import Field
 from rths_engine.parts.physics.effect import F_SENSOR, X_SENSOR, Effect
 from rths_engine.parts.physics.search import Search, Seen
 
+# chosen; see docs/decisions/0023
 CALIBRATED = 2 * math.log(3)  # of BIC: odds of three to one against
 
 

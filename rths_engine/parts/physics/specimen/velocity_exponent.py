@@ -13,6 +13,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
+# chosen; see docs/decisions/0023
 SLOW = 0.05  # of the reference velocity: slower motion counts as this fast
 FAST = 1e6
 

@@ -13,6 +13,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
+# chosen; see docs/decisions/0023
 LEAST = 0.05  # of the cold force
 
 

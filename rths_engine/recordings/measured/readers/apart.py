@@ -17,6 +17,7 @@ from typing import Any
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured.table import Table
 
+# chosen; see docs/decisions/0023
 PATIENCE_S = 60.0  # a file of the largest size takes seconds
 TRIES = 2  # a file before it may have left the process in disorder
 

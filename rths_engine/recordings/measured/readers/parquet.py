@@ -11,6 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured.table import Column, Table, refuse_many
 
+# chosen; see docs/decisions/0023
 BATCH = 65_536  # rows
 
 

@@ -16,6 +16,7 @@ from rths_engine.parts.ground_motions.columns import header_step
 from rths_engine.recordings.measured.names import written_unit
 from rths_engine.recordings.measured.table import Column, Table, refuse_many
 
+# chosen; see docs/decisions/0023
 _COMMENT = re.compile(r"[#%!]+|//")
 _MISSING = {"", "na", "n/a", "nan", "null", "none", "-", "--", "#n/a", "nil"}
 _LOOKED_AT = 60  # lines by which the separator is found

@@ -11,6 +11,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.table import Column, Table, refuse_many, spread
 
+# chosen; see docs/decisions/0023
 DEEPEST = 12
 _STEP = re.compile(r"(dt|delta_?t|time_?step|sampling_?(interval|period)|ts)(_s)?", re.IGNORECASE)
 _RATE = re.compile(r"(fs|rate|freq|frequency|(sampling|sample)_?(freq|frequency|rate))(_hz)?", re.IGNORECASE)
