@@ -96,6 +96,7 @@ UNITS: dict[str, tuple[str, float]] = {
     "kN*(s/m)^n": ("power-law damping", 1e3),
 }
 
+# chosen; see docs/decisions/0023
 LONGEST = 40  # characters of a unit; longer text is not looked into
 _BY_POWERS = {frozenset((unit_text.powers(unit) or {}).items()): unit for unit in reversed(UNITS)}
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:[^\d\s.,]|1\s*/|1\s*$).*)?$")

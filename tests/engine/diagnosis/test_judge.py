@@ -71,6 +71,14 @@ def test_a_law_outside_the_library_is_unknown() -> None:
     assert found.verdict == "mismatch" and found.unknown and found.effects == ()
 
 
+def test_a_verdict_with_the_same_seed_is_the_same_to_the_bit() -> None:
+    data = noisy([Gain(gain=2.1), Wave(size=0.5, storey=4)], 8, COUNT)
+    one, other = (verdict_on(linear(), data).selection for _ in range(2))
+    assert np.array_equal(one.chosen.z, other.chosen.z)
+    assert (one.chances, one.ranges) == (other.chances, other.ranges)
+    assert [each.p_value for each in one.detections] == [each.p_value for each in other.detections]
+
+
 def test_three_blocks_of_ten_are_held_out_and_the_ends_left_out() -> None:
     used = fitted_blocks(1000, DT)
     inside = inner(1000, DT)

@@ -1,0 +1,28 @@
+"""One diagnosis that several tests look at: a specimen with 2 mm of play. What is told and shown of it is as JSON is read."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from rths_engine.diagnosis.pictures import pictures
+from rths_engine.diagnosis.verdict import Diagnosis, diagnose
+from rths_engine.parts.physics.specimen.backlash import Backlash
+from tests.engine import recorded_specimens as made
+
+
+@pytest.fixture(scope="session")
+def played() -> Diagnosis:
+    return diagnose(made.plan(), made.recording(2, Backlash(gap=0.002)))
+
+
+@pytest.fixture(scope="session")
+def told(played: Diagnosis) -> Any:
+    return json.loads(json.dumps(played.verdict, allow_nan=False))
+
+
+@pytest.fixture(scope="session")
+def shown(played: Diagnosis) -> Any:
+    return json.loads(json.dumps(pictures(played), allow_nan=False))
