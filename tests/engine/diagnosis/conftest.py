@@ -20,9 +20,9 @@ def played() -> Diagnosis:
 
 @pytest.fixture(scope="session")
 def told(played: Diagnosis) -> Any:
-    return json.loads(json.dumps(played.verdict, allow_nan=False))
+    return json.loads(json.dumps(played.verdict.as_dict(), allow_nan=False))
 
 
 @pytest.fixture(scope="session")
 def shown(played: Diagnosis) -> Any:
-    return json.loads(json.dumps(pictures(played), allow_nan=False))
+    return json.loads(json.dumps(pictures(played).as_dict(), allow_nan=False))

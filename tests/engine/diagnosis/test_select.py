@@ -11,8 +11,9 @@ import pytest
 
 from rths_engine.diagnosis.select import MOST_EFFECTS, Selection, select
 from rths_engine.foundation.arrays import Array
+from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
-from tests.engine.diagnosis.made import SIGMA, Driven, Gain, Linear, Wave, drive, driven, linear, noisy, recordings
+from tests.engine.diagnosis.made import SIGMA, Driven, Gain, Linear, Wave, WaveSearch, drive, driven, linear, noisy, recordings
 
 COUNT = 800
 
@@ -33,6 +34,9 @@ class Trapped(Wave):
         shapes = {1: x + 0.3 * e, 2: e + 0.45 * w}
         found: Array = self.size * shapes[self.storey]
         return found
+
+
+physics.SEARCHES[Trapped] = WaveSearch(Trapped)
 
 
 @dataclass(frozen=True)
