@@ -1,0 +1,1 @@
+"""Times of runs and steps on this machine, and what they are compared with."""

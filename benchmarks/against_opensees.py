@@ -29,8 +29,11 @@ def our_step(plan: Plan, repeats: int = 5) -> tuple[float, np.ndarray]:
 
 
 def frame_ratios() -> dict[str, Any]:
-    """OpenSees' time over ours, elastic and inelastic; OpenSees with operator splitting (AlphaOS), factored once, and the
-    fastest of its equation systems. Empty without OpenSees."""
+    """OpenSees' time over the engine's for a step of the frame, elastic and inelastic.
+
+    OpenSees runs operator splitting (AlphaOS), factored once, with the fastest of its equation systems. Empty without
+    OpenSees.
+    """
     results: dict[str, Any] = {}
     for name, inelastic in (("elastic", False), ("inelastic", True)):
         plan = alone(frame(2, 4, inelastic), DURATION)

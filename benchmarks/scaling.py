@@ -1,5 +1,7 @@
-"""Cost of a step against degrees of freedom, beside what reading the step's tables once must cost: the fastest of several
-rounds, since other work on the machine, which takes the caches away, only ever adds."""
+"""Time of a step against degrees of freedom, beside the least time that reading the step's tables once takes.
+
+Each figure is the fastest of several rounds: other work on the machine takes the caches away and only ever adds time.
+"""
 
 from __future__ import annotations
 

@@ -62,8 +62,10 @@ def _batch(_: int) -> float:
 
 
 def two_cores() -> dict[str, float]:
-    """Work done by two processes in the time that one needs for its own: by the clock, which needs both cores free, and by
-    CPU time, which shows what the two take from each other alone."""
+    """Work that two processes do in the time that one process needs for its own work.
+
+    By the clock, which needs both cores free, and by CPU time, which shows what the two take from each other alone.
+    """
     by_clock, by_cpu = [], []
     with ProcessPoolExecutor(2, get_context("spawn"), initializer=warm) as pool:
         list(pool.map(_batch, range(4)))

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from ruamel.yaml import YAML
 
 from app import npm_parts
 
@@ -122,6 +123,18 @@ def test_the_checker_of_the_scripts_is_installed_where_its_pinned_version_is_mis
     monkeypatch.setattr(subprocess, "run", run)
     assert npm_parts.main(["check"]) == 2  # as the checker answers where types are wrong
     assert asked == (["ci", "run"] if installs else ["run"])
+
+
+def test_hooks_before_a_commit_and_the_hosted_workflow_run_what_make_runs() -> None:
+    yaml = YAML(typ="safe")
+    hooks = [hook for repo in yaml.load(ROOT / ".pre-commit-config.yaml")["repos"] for hook in repo["hooks"]]
+    recipe = (ROOT / "Makefile").read_text().partition("\ncheck: setup\n")[2].partition("\n\n")[0]
+    checks = re.findall(r"\$\(BIN\)/(.*)", recipe)
+    asked = {re.sub(r" --(force-exclude|check)", "", command).removesuffix(" .") for command in checks}
+    assert {re.sub(r" --force-exclude", "", hook["entry"]).removeprefix(".venv/bin/") for hook in hooks} == asked
+    job = yaml.load(ROOT / ".github" / "workflows" / "ci.yml")["jobs"]["run"]
+    oldest = PROJECT["requires-python"].removeprefix(">=")
+    assert job["container"].startswith(f"python:{oldest}-") and job["steps"][-1]["run"] == ".ci/run"
 
 
 @pytest.fixture

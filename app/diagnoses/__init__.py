@@ -1,0 +1,1 @@
+"""Diagnoses: compare a recording with a plan, in a queue of their own."""

@@ -48,8 +48,10 @@ class InputOut(BaseModel):
 
 
 class DiagnosisOut(BaseModel):
-    """A diagnosis without its plan and its result. `found` is the verdict's kind, `before_id` and `after_id` are the runs of
-    the plan and of the extended plan."""
+    """A diagnosis without its plan and its result.
+
+    `found` is the verdict's kind; `before_id` and `after_id` are the runs of the plan and of the extended plan.
+    """
 
     model_config = ConfigDict(from_attributes=True)
 

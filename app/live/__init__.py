@@ -1,0 +1,1 @@
+"""The live stream: frames from workers to browsers."""

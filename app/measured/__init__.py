@@ -1,0 +1,1 @@
+"""Measured recordings: upload a file, map its columns, import it."""

@@ -1,0 +1,1 @@
+"""Plans: check, preview and templates."""

@@ -1,0 +1,1 @@
+"""Reports of runs and diagnoses as HTML files that stand alone."""

@@ -1,0 +1,1 @@
+"""Stability of a plan's closed loop."""

@@ -1,0 +1,1 @@
+"""The twelve simulations of Table IV, queued together and compared with the paper."""

@@ -1,0 +1,1 @@
+"""The worker: executes queued jobs in processes of its own."""

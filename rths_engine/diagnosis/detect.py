@@ -1,5 +1,8 @@
-"""Is there more in the residual than noise: by parametric bootstrap of the largest score over the library, and of what any
-law of motion, energy and time could account for."""
+"""Detection of a mismatch: whether the residual holds more than noise.
+
+The test is a parametric bootstrap of the largest score over the library, and of what any law of motion, energy and time could
+account for.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +28,11 @@ LEAST_OWN = 0.01  # of the power of all noise
 
 @dataclass(frozen=True)
 class Detection:
-    """Scores of the signatures, the largest, and how probable one as large is where nothing was left out; the same of the
-    general law's squared length, with the expected length without one; and of how far the planned numbers left their plan."""
+    """Scores of the signatures, the largest score, and its p-value where nothing was left out.
+
+    The same for the squared length of the general law, with its expected length where nothing was left out, and for how far
+    the planned numbers left their plan.
+    """
 
     scores: Array
     largest: float
@@ -43,10 +49,13 @@ class Detection:
 
 
 def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array, random: np.random.Generator) -> Detection:
-    """By recordings simulated with the fitted model: noise of the recording's colour on the output, and of the
-    displacement's size on the input, taken through the same smoothing, model and band. What is along a signature or a law is
-    told beside the power that is not, at the same frequencies, so that noise of another level than it is taken for raises no
-    alarm; each score in standard deviations of its own, since noise reaches some signatures more than others."""
+    """Compare the scores with those of recordings that the fitted model simulates.
+
+    Noise of the recording's colour is added to the output, and of the displacement's size to the input, and taken through the
+    same smoothing, model and band. The power along a signature or a law is compared with the power that is not, at the same
+    frequencies, so that noise of another level than assumed raises no alarm. Each score is in standard deviations of its own,
+    since noise reaches some signatures more than others.
+    """
     absorbed = absorber(fitted.jacobian)
     drawn = null_misfits(recordings, fitted, random)
     drawn -= drawn @ absorbed @ absorbed.T
@@ -135,8 +144,10 @@ def null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Gener
 
 
 def _inputs(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> list[list[Array]]:
-    """What the true input may do to the residuals beside what it is taken for, several times. Of a smoothed input the error is
-    independent (Berkson 1950, JASA 45, 164-180), and so biases nothing."""
+    """Changes of the residuals that the error of the input may cause, drawn several times.
+
+    The error of a smoothed input is independent of it (Berkson 1950, JASA 45, 164-180), and so biases nothing.
+    """
     before = recordings.predicted(fitted.parts)
     if not any(one.input_noise > 0 for one in recordings.data):
         return [[np.zeros_like(plain) for plain in before]]

@@ -18,9 +18,11 @@ STRONG = 6.0  # of BIC: strong evidence (Kass and Raftery 1995)
 
 
 def weighed(tried: Sequence[Fitted], before: float, seen: Sequence[Seen]) -> list[float]:
-    """chi^2 / T + k ln N of each, and what its effects' numbers are less likely beforehand. `before` is the BIC of the planned
-    parts alone; T rises above 1 where MATERIAL of what the best model accounts for would be strong evidence: models err by as
-    much, whatever the noise."""
+    """Evidence of each model: chi^2 / T + k ln N, and the prior odds of its effects' numbers.
+
+    `before` is the BIC of the planned parts alone. T rises above 1 where MATERIAL of what the best model accounts for would be
+    strong evidence: models err by as much, whatever the noise.
+    """
     bic = [model.bic for model in tried]
     counts = [len(model.free) * float(np.log(model.samples)) for model in tried]
     temper = tempering(min(bic), before)

@@ -26,8 +26,11 @@ CLOSE = 1e-6  # of the squared misfit: far below the 1 that evidence weighs
 
 @dataclass(frozen=True)
 class Recordings:
-    """What a component is fitted to: its data, which samples count, the noise of each channel of the output, and how much each
-    sample counts, less where noise on the input reaches the output more, or more is left than noise elsewhere."""
+    """What a component is fitted to: its data, the samples that count, and the noise of each channel of the output.
+
+    `weights` says how much each sample counts: less where noise on the input reaches the output more, or where more is left
+    than noise elsewhere.
+    """
 
     component: Component
     data: tuple[Any, ...]
@@ -71,8 +74,11 @@ class Recordings:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A model fitted: its parts, the misfit in units of the noise, behind it how far the planned numbers went in units of
-    their spread, and the Jacobian of both."""
+    """A fitted model: its parts, its misfit and the Jacobian.
+
+    The misfit is in units of the noise. Behind it stands how far the planned numbers went, in units of their spread; the
+    Jacobian covers both.
+    """
 
     parts: tuple[Part, ...]
     free: tuple[Number, ...]

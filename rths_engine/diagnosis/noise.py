@@ -26,8 +26,11 @@ TURNS = 3
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """Of a `spectrum` (GRID + 1): the mean of |rfft|^2 over the count, from 0 to half the sampling rate. The `whitener`, in
-    units of `scale`, is of the noise with a white floor: by it no frequency counts for much more than the others."""
+    """Noise of a channel, by its `spectrum` (GRID + 1) and its `whitener`.
+
+    The spectrum is the mean of |rfft|^2 over the count, from 0 to half the sampling rate. The `whitener`, in units of `scale`,
+    is that of the noise with a white floor, so that no frequency counts for much more than the others.
+    """
 
     spectrum: Array
     whitener: Array
@@ -60,9 +63,12 @@ class Noise:
 
 
 def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
-    """The noise of which stretches, about their mean, are: a short autoregressive process, times a spectrum that rises
-    towards low frequencies, each found in turn. The white floor of its whitener has `beyond` times the noise's power, where
-    models err by as much: then no frequency counts for much more than others."""
+    """Noise of which stretches, about their mean, are samples.
+
+    It is a short autoregressive process times a spectrum that rises towards low frequencies, each estimated in turn. The white
+    floor of its whitener has `beyond` times the noise's power, since models err by as much: no frequency then counts for much
+    more than others.
+    """
     count = sum(len(one) for one in stretches)
     mean = sum(float(one.sum()) for one in stretches) / count
     powers = [np.abs(np.fft.rfft(one - mean)) ** 2 / len(one) for one in stretches]

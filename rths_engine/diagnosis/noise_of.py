@@ -32,8 +32,11 @@ def first_noise(recordings: Recordings) -> Recordings:
 
 
 def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Recordings:
-    """Each sample by 1 / sqrt(1 + s^2 / sigma^2): s is the deviation that noise on the input gives the output there, and that
-    half as many samples of it would make, as where it jumps; sigma a robust one of the residual."""
+    """Weights 1 / sqrt(1 + s^2 / sigma^2) of the samples.
+
+    s is the deviation that noise on the input gives the output there, and that half as many samples of noise would give it, as
+    where the signal jumps; sigma is a robust standard deviation of the residual.
+    """
     residuals = recordings.residuals(fitted.parts)
     weights = []
     for one, residual in zip(recordings.data, residuals, strict=True):
@@ -53,9 +56,12 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
 
 
 def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
-    """First all that the fitted numbers leave is taken for noise; then term by term what stands clear of it, of the library's
-    effects and of a general law, is taken out, and the noise found anew. Where clearly more is left for a while than elsewhere,
-    the samples count less."""
+    """Estimate the noise of a fit.
+
+    At first everything that the fitted numbers leave counts as noise. Then, term by term, what stands clear of the noise, of
+    the library's effects and of a general law, is taken out and the noise is estimated again. Samples count less where clearly
+    more is left for a while than elsewhere.
+    """
     plain = first_noise(replace(recordings, weights=recordings.steady))
     now = evaluated(plain, fitted.parts)
     count = now.samples

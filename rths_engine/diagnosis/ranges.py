@@ -27,9 +27,12 @@ def deviations(fitted: Fitted, misfits: Array) -> Array:
 
 
 def ranges(recordings: Recordings, fitted: Fitted, misfits: Array, temper: float) -> list[tuple[float, float]]:
-    """90 % interval of each free number: of an effect's, where chi^2, the other numbers moving along, has risen by what noise
-    (`misfits`) and the models' own errors (`temper`, their chi^2 over that of noise) may raise it; wider by what numbers that
-    the fit holds may do."""
+    """90 % interval of each free number.
+
+    The interval of an effect's number ends where chi^2, the other numbers moving along, has risen by what noise (`misfits`)
+    and the models' own errors (`temper`, their chi^2 over that of noise) may raise it. It is wider by the effect of the
+    numbers that the fit holds fixed.
+    """
     first = len(recordings.component.base)
     own = deviations(fitted, misfits) * np.sqrt(temper)
     plain = np.sqrt(np.maximum(np.diag(np.linalg.pinv(fitted.jacobian.T @ fitted.jacobian)), 1e-300))

@@ -104,8 +104,11 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
 
 
 def foreseen(actuator: Actuator, parts: Sequence[Any], pressed: Specimen, recorded: dict[str, Any]) -> None:
-    """Tell the specimen, in a recording's data by component, where the actuator's `parts` move it, against the force as planned
-    (that measured has noise in common with what is compared), and its reading without what the displacement sensor adds."""
+    """Give the specimen's data the motion that the actuator's `parts` make of the command.
+
+    The motion is computed against the force as planned, since the measured force shares noise with what is compared. Its
+    reading is without what the displacement sensor adds.
+    """
     if not {actuator.name, pressed.name} <= recorded.keys():
         return
     sent, data = recorded[actuator.name], recorded[pressed.name]
@@ -166,8 +169,10 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
 
 
 def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, Array]) -> Any:
-    """Displacements and velocities of the floors at the start, by a cubic through the first samples; None at rest. What was not
-    measured is put where the first mode has it."""
+    """Displacements and velocities of the floors at the start, by a cubic through the first samples; None at rest.
+
+    Floors that were not measured follow the first mode.
+    """
     count = len(plan.structure.assemble().floors)
     period = float(plan.periods()[0])
     few = max(8, min(recording.samples, round(FIRST_MOMENTS * period / recording.dt)))
@@ -187,7 +192,7 @@ def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, 
 
 
 def _by_acceleration(plan: Plan, recording: Measured, few: int) -> list[float]:
-    """x = -a / omega_1^2 of the first mode, whose size is that of the accelerations measured at the start."""
+    """Displacements x = -a / omega_1^2 of the first mode, whose size is that of the accelerations measured at the start."""
     built = plan.structure.assemble()
     flexible, modes = eigh(built.mass, built.stiffness)  # 1 / omega^2, rising
     shape = modes[list(built.floors), -1]

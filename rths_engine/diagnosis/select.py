@@ -84,8 +84,11 @@ def select(
 
 
 def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
-    """Fitted from where it is; from there with what is loose put back, which a kink of a model may hold; and from each guess of
-    the newest effect."""
+    """Fit a model again from several starts.
+
+    It starts from the present numbers; from these with the free numbers of the replay put back, which a kink of a model may
+    hold; and from each guess of the newest effect.
+    """
     pairs = zip_longest(best.parts, recordings.component.base)
     loosened = tuple(base if isinstance(base, Loose) else part for part, base in pairs)
     newest = key(best.parts[-1])

@@ -14,8 +14,10 @@ APART = 10.0  # of lambda: below, two models can't be told apart
 
 
 def separation(recordings: Recordings, one: Sequence[Part], other: Sequence[Part]) -> float:
-    """lambda = N_eff (misfit of one to the other / sigma)^2: the squared distance, in units of the noise, of what two models
-    simulate."""
+    """Squared distance of what two models simulate, in units of the noise.
+
+    lambda = N_eff (misfit of one to the other / sigma)^2.
+    """
     pairs = zip(recordings.predicted(one), recordings.predicted(other), strict=True)
     between = recordings.joined([first - second for first, second in pairs])
     return float(between @ between)

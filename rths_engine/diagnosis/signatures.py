@@ -41,8 +41,10 @@ class Signatures:
 
 
 def signatures(recordings: Recordings, fitted: Fitted, sized: bool = True) -> Signatures:
-    """Of every effect that the component may leave out, at its guesses, beside the fitted model; `sized`: of about the size
-    that the misfit has along it, since large effects need not be alike small ones."""
+    """Signatures of every effect that the component may leave out, at its guesses, beside the fitted model.
+
+    With `sized` each effect has about the size that the misfit has along it, since large effects need not resemble small ones.
+    """
     component = recordings.component
     present = component.present(fitted.parts)
     guesses = [guess for guess in component.hypotheses(recordings.data[0]) if key(guess) not in present]
@@ -93,8 +95,10 @@ def general(recordings: Recordings, fitted: Fitted) -> Array:
 
 
 def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
-    """Unit columns (N, K), likewise, a term of the law each, but for what is as slow as drifts: of so few waves, noise is not
-    told from a law."""
+    """Unit columns (N, K), one for each term of the general law, without those as slow as drifts.
+
+    With so few waves, noise can't be distinguished from a law.
+    """
     absorbed = absorber(np.column_stack([fitted.jacobian, _slow(recordings, len(fitted.misfit))]))
     terms = [recordings.component.features(fitted.parts, one) for one in recordings.data]
     columns = []

@@ -166,7 +166,7 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
 
 @compiled
 def _resist_drifts(t, dt, state, left_out, residual):
-    """residual -= the forces of the structure's left-out effects against the drifts of their storeys."""
+    """Subtract the forces of the structure's left-out effects, against the drifts of their storeys, from `residual`."""
     x, v = state.x, state.v
     for k in range(left_out.stiffness.size):
         drift, rate = 0.0, 0.0

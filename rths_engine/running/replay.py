@@ -30,8 +30,10 @@ from rths_engine.running.setup import left_out, setup
 def specimen(
     part: Part, extended: Sequence[Effect], x: Array, current: Array, dt: float, start: float = 0.0, pressed: float = 0.0
 ) -> Array:
-    """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s). `pressed` is the
-    force before."""
+    """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s).
+
+    `pressed` is the force before.
+    """
     part = amended(part, extended)
     parameters, state = part.build(dt)
     code = specimens.KINDS.index(type(part))
@@ -59,8 +61,11 @@ def compensator(part: Part, x_cmd: Array, x_meas: Array, dt: float) -> Array:
 
 
 def structure(plan: Plan, inputs: Array, reactions: Array) -> Array:
-    """Displacements (steps + 1, DOF), m, of the plan's structure under inputs (steps + 1, 1 + forces), the ground
-    acceleration (m/s^2) and the forces on floors (N), and the stations' forces (steps + 1, stations), N."""
+    """Displacements (steps + 1, DOF), m, of the plan's structure under inputs and the stations' forces.
+
+    The inputs (steps + 1, 1 + forces) are the ground acceleration (m/s^2) and the forces on floors (N); the stations' forces
+    are (steps + 1, stations), N.
+    """
     built, scheme = plan.assembled(), plan.scheme()
     stations = len(plan.stations)
     held, parts = setup(plan, built, scheme, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))

@@ -27,7 +27,7 @@ def rows(matrix: Array) -> Rows:
 
 @compiled
 def subtract_product(matrix, vector, result):
-    """result -= matrix @ vector."""
+    """Subtract a product: result -= matrix @ vector."""
     for a in range(result.size):
         total = 0.0
         for entry in range(matrix.start[a], matrix.start[a + 1]):
@@ -37,7 +37,9 @@ def subtract_product(matrix, vector, result):
 
 @compiled
 def subtract_forces(members, x, plastic, result):
-    """result -= r(x) of the members; `plastic` (E, 3) holds and takes their plastic curvatures (1/m).
+    """Subtract the members' restoring forces: result -= r(x).
+
+    `plastic` (E, 3) holds and takes the plastic curvatures (1/m) of the members.
 
     At each Lobatto point: trial moment EI (kappa - kappa_p), back moment H kappa_p; where they differ by more than the yield
     moment, kappa_p grows by the excess over EI + H (bilinear law with kinematic hardening, exact return mapping).

@@ -9,7 +9,10 @@ from rths_engine.foundation.kernel import compiled
 
 @compiled
 def solve(factor: Factor, right: Array, work: Array, result: Array) -> None:
-    """result = inv(A) @ right; `work` has as many numbers. `right` stays."""
+    """Solve a factored system: result = inv(A) @ right.
+
+    `work` has as many numbers as `right`, which is not changed.
+    """
     count = right.size
     for k in range(count):
         work[k] = right[factor.order[k]]

@@ -81,5 +81,5 @@ def published(paper: PaperRow, field: str, station: int) -> float:
 
 
 def factor(ours: float, paper: float) -> float:
-    """exp |ln |ours/paper||, at least 1; infinite where ours is nothing."""
+    """Factor exp |ln |ours/paper|| between a measure and the paper's, at least 1; infinite where ours is 0."""
     return math.exp(abs(math.log(abs(ours / paper)))) if ours else math.inf

@@ -43,7 +43,7 @@ def _times(motion: PlannedRecord, factor: float) -> PlannedRecord:
 
 
 def floors_excess(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory) -> float:
-    """ln of the floors' peaks over the paper's; 1 where even these limits are exceeded."""
+    """Logarithm of the floors' peaks over the paper's; 1 where even these limits are exceeded."""
     plan = plans(motion, laboratory)[2]
     stations = tuple(station.model_copy(update={"limits": FAR}) for station in plan.stations)
     result = simulate(plan.model_copy(update={"stations": stations}), motions)

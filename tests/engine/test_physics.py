@@ -130,7 +130,9 @@ def test_the_sentence_of_an_event_says_when(guess: Effect) -> None:
 @pytest.mark.parametrize("kind", physics.KINDS, ids=lambda kind: kind.__name__)
 def test_an_effect_declares_its_equation_and_label_unit_and_bounds_of_each_number(kind: type[Effect]) -> None:
     search = physics.SEARCHES[kind]
-    assert kind.title and search.noun and search.needs and re.search(r"[=<+]|K|M", (kind.__doc__ or "").splitlines()[0])
+    summary, _, rest = (kind.__doc__ or "").partition("\n\n")
+    assert kind.title and search.noun and search.needs and summary.endswith(".")
+    assert re.search(r"[=<+]|K|M", (rest or summary).splitlines()[0])
     for name, field in kind.model_json_schema()["properties"].items():
         assert field["title"]
         if name not in ("kind", "channel", "side"):

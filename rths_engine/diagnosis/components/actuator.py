@@ -27,8 +27,11 @@ TOLERANCE = 0.05
 
 @dataclass(frozen=True)
 class ActuatorData(Data):
-    """Command (m), measured displacement (m), force on the actuator (N), None where it was not measured. What `wanders` begins
-    anywhere and creeps, as a drive in open loop: origin and slope of its displacement tell nothing."""
+    """Signals of an actuator: command (m), measured displacement (m) and force on the actuator (N).
+
+    The force is None where it was not measured. Where `wanders`, the displacement begins anywhere and creeps, as that of a
+    drive in open loop does: its origin and slope then carry no information.
+    """
 
     command: Array
     x: Array

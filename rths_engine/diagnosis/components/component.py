@@ -94,13 +94,18 @@ class Data(ABC):
 
     @property
     def finer(self) -> int:
-        """Replay steps of a sample. A part's velocity is a backward difference, half a step late: what was measured, and did
-        not come from such steps, is replayed in finer ones."""
+        """Number of replay steps in a sample.
+
+        A part's velocity is a backward difference, half a step late. Signals that were measured, and did not come from such
+        steps, are replayed in finer steps.
+        """
         return 1 if self.stepped else max(1, int(np.ceil(REPLAY_RATE * self.dt - 1e-9)))
 
     def refined(self, signal: Array, more: int = 1) -> Array:
-        """At the replay's steps, or `more` times as fine, a quarter of one early: midway between what velocity and
-        displacement need."""
+        """Resample a signal to the replay's steps, or `more` times as fine, a quarter of a step early.
+
+        A quarter of a step is midway between what velocity and displacement need.
+        """
         if self.stepped:
             return signal
         return np.asarray(CubicSpline(np.arange(len(signal)), signal)(self.places(len(signal), more)))

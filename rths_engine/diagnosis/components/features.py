@@ -19,7 +19,10 @@ MODULATIONS = 14  # half waves over a recording
 
 
 def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
-    """x (m), v (m/s) and the force (N) are scaled by their largest; E is the share of the energy dissipated so far."""
+    """Terms of a law of motion, from x (m), v (m/s) and the force (N), each scaled by its largest value.
+
+    E is the share of the energy dissipated so far.
+    """
     x, v, f = _scaled(x), _scaled(v), _scaled(force)
     side = np.tanh(v / SMOOTHING)
     energy = np.cumsum(np.abs(f * v)) * dt

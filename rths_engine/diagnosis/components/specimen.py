@@ -30,8 +30,11 @@ SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
 @dataclass(frozen=True)
 class SpecimenData(Data):
-    """Measured displacement (m), force (N) and current; `expected` (m) is what the actuator, as fitted, makes of its command,
-    None where that is not known: motion that noise hides, as ripples of a command, is taken from it."""
+    """Signals of a specimen: measured displacement (m), force (N) and current.
+
+    `expected` (m) is the displacement that the actuator, as fitted, makes of its command, or None where that is not known.
+    Motion that noise hides, such as ripples of a command, is taken from it.
+    """
 
     x: Array
     force: Array
@@ -125,8 +128,10 @@ SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.25}  # ms; of 
 
 @dataclass(frozen=True)
 class Specimen(Component):
-    """Displacement -> force of a station's specimen. The base is the specimen with the effects that its plan has, and a skew
-    of the channels where the recording was measured."""
+    """The specimen of a station: displacement -> force.
+
+    The base is the specimen with the effects that its plan has, and a skew of the channels where the recording was measured.
+    """
 
     output: ClassVar[str] = "force"
 
@@ -161,8 +166,10 @@ class Specimen(Component):
 
 
 def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Array:
-    """(1, n) of the force, in the band of the comparison, at the displacement (m) `fine` at the replay's steps. `parts`: the
-    specimen, then effects and what of the replay is loose."""
+    """Force (1, n) of the specimen, in the band of the comparison, at the displacement `fine` (m).
+
+    `fine` is sampled at the replay's steps. `parts` holds the specimen, then effects and the free numbers of the replay.
+    """
     n = data.finer
     force = _force(parts, fine, np.repeat(current, n), data.dt / n, data)
     found = _late(data.reduced(force[None, ::n]), sum(part.delay for part in parts if isinstance(part, ClockSkew)) / data.step)
@@ -171,8 +178,10 @@ def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Ar
 
 
 def _late(signals: Array, samples: float) -> Array:
-    """Signals (channels, n) delayed by a few samples, by a sinc under a Kaiser window: what begins with a jump rings no further
-    than its reach."""
+    """Signals (channels, n) delayed by a few samples, by a sinc under a Kaiser window.
+
+    A signal that begins with a jump rings no further than the window's reach.
+    """
     if not samples:
         return signals
     after = np.arange(-REACH, REACH + 1) - samples

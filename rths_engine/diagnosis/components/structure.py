@@ -78,9 +78,12 @@ Kind = Literal["x", "v", "a"]
 
 @dataclass(frozen=True)
 class StructureData(Data):
-    """Ground acceleration (m/s^2), forces (N) by floor, and what was measured of the floors: displacement and velocity against
-    the ground, absolute acceleration. `released` are the displacements and velocities of all floors at the start, where it was
-    not at rest. `substeps` of an integration step are those of the run that it is a recording of."""
+    """Signals of a structure: ground acceleration (m/s^2), forces (N) by floor, and the floors' measured motion.
+
+    Measured are displacement and velocity relative to the ground, and absolute acceleration. `released` holds the
+    displacements and velocities of all floors at the start, where the structure was not at rest. `substeps` of an integration
+    step are those of the recorded run.
+    """
 
     ground: Array
     forces: dict[int, Array]
@@ -115,8 +118,10 @@ class Structure(Component):
         return found
 
     def motion(self, parts: Sequence[Any], data: StructureData, extra: Array | None = None) -> Array:
-        """Displacements of the floors (samples, floors), m, in `finer` steps; `extra` (samples, floors) are forces on every
-        floor, N."""
+        """Displacements (m) of the floors (samples, floors), in `finer` steps.
+
+        `extra` (samples, floors) are forces (N) on every floor.
+        """
         ground = data.ground
         for effect in parts:
             if isinstance(effect, Effect) and effect.hook == GROUND:
@@ -232,8 +237,11 @@ class Structure(Component):
 
 
 def based(plan: Plan, released: bool, read: Sequence[int]) -> tuple[Part, ...]:
-    """What of a structure's plan may be off a little: the stiffness of each storey, the damping, of higher modes too; where it
-    was let go, and the zeros of the displacements `read` then."""
+    """Free numbers of a structure whose plan may be off a little.
+
+    They are the stiffness of each storey, the damping, also of higher modes, the displacements from which the structure was
+    let go, and the zeros of the displacements `read` then.
+    """
     floors = range(1, len(plan.structure.assemble().floors) + 1)
     stiff = [StiffnessError(storey=storey) for storey in floors]
     damped = (DampingError(), *(ModeDamping(mode=mode) for mode in range(2, min(FEW_MODES, len(stiff)) + 1)))

@@ -1,5 +1,6 @@
-"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N); `force` is the specimen's at the last substep. The command
-x_comp is a displacement (m), or what else drives the kind.
+"""Actuators: `step(p, s, x_comp, force) -> displacement` (m, N).
+
+`force` is the specimen's at the last substep. The command x_comp is a displacement (m), or the quantity that drives the kind.
 
 Each has a `velocity_limit` (m/s) and a `force_limit` (N): what it reaches at most.
 """

@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class FirstOrderDelay(Part):
-    """d_m[q] = d_m[q-1] + (d_p[q] - d_m[q-1]) / alpha   (5a)
+    """First-order actuator with velocity and force limits.
+
+    d_m[q] = d_m[q-1] + (d_p[q] - d_m[q-1]) / alpha   (5a)
 
     The increment is held to velocity_limit * dt. While the specimen resists with force_limit or more, the piston stalls:
     it moves no further against the force, and may still move with it (one substep behind the force).

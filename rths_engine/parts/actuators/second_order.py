@@ -13,7 +13,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class SecondOrderActuator(Part):
-    """y'' + 2 zeta omega y' + omega^2 y = omega^2 d_p(t - T),  omega = 2 pi f
+    """Second-order actuator with dead time.
+
+    y'' + 2 zeta omega y' + omega^2 y = omega^2 d_p(t - T),  omega = 2 pi f
 
     Exact for a command linear between substeps (and for a dead time between two substeps by linear interpolation). On a ramp it
     lags by 2 zeta / omega + T. The increment is held to velocity_limit * dt; while the specimen resists with force_limit or

@@ -13,7 +13,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class ServoHydraulicActuator(Part):
-    """T_v o' = clip((d_p - y) / (T v_0), -1, 1) - o,  g = v_0 o sqrt(1 - sgn(o) p_L / p_s),  A p_L' = k_h (g - y'),
+    """Servo-hydraulic actuator: valve flow, oil column and supply pressure.
+
+    T_v o' = clip((d_p - y) / (T v_0), -1, 1) - o,  g = v_0 o sqrt(1 - sgn(o) p_L / p_s),  A p_L' = k_h (g - y'),
     m y'' = A p_L + 2 zeta sqrt(k_h m) (g - y') - F
 
     o valve opening, g valve flow over piston area A (m/s), p_L load pressure, p_s supply pressure: A p_s is the force

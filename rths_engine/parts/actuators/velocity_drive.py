@@ -12,7 +12,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class VelocityDrive(Part):
-    """T y'' + y' = clip(k (u - u_0), -v_max, v_max)
+    """Electric drive in open loop: a voltage asks for a velocity.
+
+    T y'' + y' = clip(k (u - u_0), -v_max, v_max)
 
     The command is the voltage u (V) at the amplifier, not a displacement; k gain, u_0 voltage at which the drive rests, T time
     constant of motor and carriage. The amplifier saturates at v_max, which is v_max / k in volts. Exact for a voltage that is

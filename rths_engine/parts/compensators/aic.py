@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class AdaptiveInverseCompensation(Part):
-    """d_p[q] = alpha d_c[q] - (alpha - 1) d_c[q-1],  alpha = alpha_es + d_alpha   (7a)
+    """Adaptive inverse compensation (AIC).
+
+    d_p[q] = alpha d_c[q] - (alpha - 1) d_c[q-1],  alpha = alpha_es + d_alpha   (7a)
     d_alpha = kp TI + ki integral of TI dt   (7b)
 
     TI is the tracking indicator (m^2) up to the last substep; the integral is trapezoidal. The published gains hold for

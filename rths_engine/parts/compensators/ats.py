@@ -39,7 +39,9 @@ def _descend(s, own, diagonal, mixed, low, high):
 
 
 class AdaptiveTimeSeries(Part):
-    """d_p = a0 d_c + a1 d_c' + a2 d_c'',  a minimising the sum over the window of (d_p - a0 d_m - a1 d_m' - a2 d_m'')^2
+    """Adaptive time series compensation (ATS).
+
+    d_p = a0 d_c + a1 d_c' + a2 d_c'',  a minimising the sum over the window of (d_p - a0 d_m - a1 d_m' - a2 d_m'')^2
 
     Derivatives are backward differences over h: (3 d(t) - 4 d(t-h) + d(t-2h)) / (2h) and (d(t) - 2 d(t-h) + d(t-2h)) / h^2;
     h = one integration step keeps the kinks of the ramped command out of d_c''. Both d_p and d_m pass two equal first-order

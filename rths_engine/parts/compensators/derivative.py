@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class DerivativeFeedForward(Part):
-    """d_p[q] = d_c[q] + g_v (3 d_c[q] - 4 d_c[q-1] + d_c[q-2]) / (2 dt) + g_a (d_c[q] - 2 d_c[q-1] + d_c[q-2]) / dt^2
+    """Derivative feed-forward: velocity and acceleration of the command added to it.
+
+    d_p[q] = d_c[q] + g_v (3 d_c[q] - 4 d_c[q-1] + d_c[q-2]) / (2 dt) + g_a (d_c[q] - 2 d_c[q-1] + d_c[q-2]) / dt^2
 
     Inverts a lag T with g_v = T, and a second-order actuator with g_v = 2 zeta / omega and g_a = 1 / omega^2. g_v in s, g_a in
     s^2, given as its root. State: s[0] unused, s[1] the command before the last (m).

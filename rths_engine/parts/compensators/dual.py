@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class DualCompensation(Part):
-    """d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1] + kp (d_c[q-1] - d_m[q-1])
+    """Dual compensation: inverse compensation corrected by the tracking error.
+
+    d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1] + kp (d_c[q-1] - d_m[q-1])
 
     The tracking error of the last substep corrects what a wrong alpha_es leaves: on a ramp a first-order actuator's lag falls
     from (alpha - alpha_es) controller steps to (alpha - alpha_es) / (1 + kp). kp = 0 is inverse compensation.

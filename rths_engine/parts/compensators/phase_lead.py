@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class PhaseLead(Part):
-    """r T d_p' + d_p = d_c + T d_c',  0 <= r < 1;  frequency response (1 + i omega T) / (1 + i omega r T)
+    """First-order phase-lead compensation.
+
+    r T d_p' + d_p = d_c + T d_c',  0 <= r < 1;  frequency response (1 + i omega T) / (1 + i omega r T)
 
     Discretised by the backward difference, as the actuator (5a) is, so that r = 0 with T = (alpha - 1) dt inverts it exactly.
     The delay taken away at low frequency is (1 - r) T; noise is amplified at most 1 / r times.

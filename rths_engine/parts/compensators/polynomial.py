@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class PolynomialExtrapolation(Part):
-    """d_p(t) = sum over i = 0 ... n of w_i d_c(t - i h) = P(t + tau),  P the polynomial of order n through these samples
+    """Polynomial extrapolation of the command over the actuator's delay.
+
+    d_p(t) = sum over i = 0 ... n of w_i d_c(t - i h) = P(t + tau),  P the polynomial of order n through these samples
 
     tau (s) is the delay and h the whole number of controller steps nearest to it (at least one); for h = tau the weights are
     the published 2, -1 (n = 1), 3, -3, 1 (n = 2) and 4, -6, 4, -1 (n = 3). Exact for polynomials of order n.

@@ -53,7 +53,10 @@ def _peak(samples: Array, dt: float, period: float, damping: float, finer: dict[
 
 
 def _displacement(samples: Array, w: float, damping: float) -> Array:
-    """u / step^2 at each sample, for w = omega * step: u = Im z / Im p, where z' = p z - a in time counted in steps."""
+    """Displacement u / step^2 at each sample, for w = omega * step.
+
+    u = Im z / Im p, where z' = p z - a in time counted in steps.
+    """
     from scipy.signal import lfilter  # a second of import, which a run that scales by a factor is spared
 
     pole = w * complex(-damping, np.sqrt(1 - damping**2))

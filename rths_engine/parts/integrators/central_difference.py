@@ -10,7 +10,9 @@ from rths_engine.parts.integrators.stepping import Stepping
 
 
 class CentralDifference(Stepping):
-    """M (x[i+1] - 2 x[i] + x[i-1]) / dt^2 + C (x[i+1] - x[i-1]) / (2 dt) + r[i] = F[i]
+    """Central difference integration.
+
+    M (x[i+1] - 2 x[i] + x[i-1]) / dt^2 + C (x[i+1] - x[i-1]) / (2 dt) + r[i] = F[i]
 
     With w[i] = (x[i+1] - x[i]) / dt: (M + dt/2 C) (w[i] - w[i-1]) / dt = F[i] - C w[i-1] - r[i]. These are the displacements
     of explicit Newmark, to rounding; laboratories know it by either name. Second order; stable while omega dt <= 2 in every

@@ -10,7 +10,9 @@ from rths_engine.parts.integrators.stepping import Stepping
 
 
 class CrIntegrator(Stepping):
-    """v[i+1] = v[i] + dt beta a[i];  x[i+1] = x[i] + dt v[i] + dt^2 beta a[i];  beta = 4 inv(4 M + 2 dt C + dt^2 K) M   (3)
+    """CR explicit integration.
+
+    v[i+1] = v[i] + dt beta a[i];  x[i+1] = x[i] + dt v[i] + dt^2 beta a[i];  beta = 4 inv(4 M + 2 dt C + dt^2 K) M   (3)
 
     Since M a = F - C v - r, beta a solves (M + dt/2 C + dt^2/4 K) beta a = F - C v - r: M is never inverted, so that
     massless degrees of freedom are allowed. Explicit, and unconditionally stable for linear elastic systems; K and C here hold

@@ -11,7 +11,9 @@ from rths_engine.parts.integrators.stepping import Stepping
 
 
 class KrAlphaIntegrator(Stepping):
-    """v[i+1] = v[i] + dt alpha_1 a[i];  x[i+1] = x[i] + dt v[i] + (1/2 + gamma) dt^2 alpha_1 a[i]
+    """KR-alpha explicit integration.
+
+    v[i+1] = v[i] + dt alpha_1 a[i];  x[i+1] = x[i] + dt v[i] + (1/2 + gamma) dt^2 alpha_1 a[i]
     M ((1 - alpha_3) a[i] + alpha_3 a[i-1]) = (1 - alpha_f) R[i] + alpha_f R[i-1],  R = F - C v - r
 
     alpha_1 = inv(M + X) M,  alpha_3 = inv(M + X) (alpha_m M + alpha_f X),  X = gamma dt C + beta dt^2 K

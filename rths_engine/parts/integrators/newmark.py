@@ -10,7 +10,9 @@ from rths_engine.parts.integrators.stepping import Stepping
 
 
 class ExplicitNewmark(Stepping):
-    """M a + C v + r = F;  x[i+1] = x[i] + dt v[i] + dt^2/2 a[i];  v[i+1] = v[i] + dt/2 (a[i] + a[i+1])
+    """Explicit Newmark integration.
+
+    M a + C v + r = F;  x[i+1] = x[i] + dt v[i] + dt^2/2 a[i];  v[i+1] = v[i] + dt/2 (a[i] + a[i+1])
 
     beta = 0 and gamma = 1/2. In the velocity of half steps w[i] = v[i] + dt/2 a[i]: (M + dt/2 C) a[i] = F[i] - C w[i-1] - r[i],
     w[i] = w[i-1] + dt a[i], x[i+1] = x[i] + dt w[i]; the loop's velocity is w. Second order, no numerical damping; stable while

@@ -8,7 +8,9 @@ from rths_engine.foundation.arrays import Array
 
 
 class Scheme(NamedTuple):
-    """D A[i] = (1 - w) R[i] + c[i-1],  c[i] = w R[i] - E A[i],  R = F - C v - r
+    """What an integrator hands to the loop.
+
+    D A[i] = (1 - w) R[i] + c[i-1],  c[i] = w R[i] - E A[i],  R = F - C v - r
     v[i+1] = v[i] + dt A[i];  x[i+1] = x[i] + dt v[i+1] + s dt^2 A[i]
 
     A (m/s^2) is the weighted acceleration. Every explicit integrator here has this form: one solve with D a step, and no

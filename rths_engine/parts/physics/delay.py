@@ -19,7 +19,10 @@ def ring(longest: float, dt: float) -> Array:
 
 @compiled
 def delayed(s, length, y, late):
-    """y as it was `late` substeps ago, linear in between; for late < 0 on its last slope. `length` of the ring in use."""
+    """Signal y as it was `late` substeps ago, linear in between; for late < 0 on its last slope.
+
+    `length` is that of the part of the ring in use.
+    """
     if s[1] == 0.0:
         s[HEAD : HEAD + length] = y
         s[1] = 1.0

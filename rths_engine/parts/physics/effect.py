@@ -14,7 +14,9 @@ COMMAND, PISTON, INPUT, SERIES, FORCE, X_SENSOR, F_SENSOR, STOREY, PART, MATRICE
 
 
 class Effect(Part):
-    """A left-out effect. `step(p, s, y, x, v, w, t, dt) -> y` replaces the signal y at its `hook`:
+    """What every left-out effect is: a part nested in its component, which vanishes at its neutral values.
+
+    A left-out effect. `step(p, s, y, x, v, w, t, dt) -> y` replaces the signal y at its `hook`:
 
     COMMAND   y compensated command, x and v of the piston at the last substep, w force on it
     PISTON    y piston displacement, x and v of the command it follows, w force on it

@@ -9,7 +9,10 @@ from rths_engine.foundation.kernel import compiled
 
 @compiled
 def bristle(z, moved):
-    """z of z' = v - |v| z after a straight move, in units of the pre-sliding displacement. Source: Dahl (1968), exponent 1."""
+    """Bristle deflection z of z' = v - |v| z after a straight move, in units of the pre-sliding displacement.
+
+    Source: Dahl (1968), exponent 1.
+    """
     if moved >= 0.0:
         return 1.0 - (1.0 - z) * math.exp(-moved)
     return (1.0 + z) * math.exp(moved) - 1.0

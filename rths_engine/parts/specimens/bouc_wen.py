@@ -25,7 +25,10 @@ def _slope(zeta, way, n, eta):
 
 @compiled
 def moved(zeta, ratio, n, eta):
-    """zeta after a move of `ratio` yield displacements: classical Runge-Kutta in parts below 0.5 / n."""
+    """Hysteretic variable zeta after a move of `ratio` yield displacements.
+
+    Classical Runge-Kutta in parts below 0.5 / n.
+    """
     move = min(max(ratio, -SATURATED), SATURATED)
     way = 1.0 if move >= 0.0 else -1.0
     parts = math.ceil(2.0 * n * abs(move))
@@ -43,7 +46,9 @@ def moved(zeta, ratio, n, eta):
 
 
 class BoucWen(Part):
-    """f = r k x + (1 - r) f_y zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta)),  x_y = f_y / k
+    """Bouc-Wen hysteresis.
+
+    f = r k x + (1 - r) f_y zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta)),  x_y = f_y / k
 
     k initial stiffness, r post-yield ratio, f_y yield force, n sharpness of the yield, eta = beta / (beta + gamma) fullness of
     the unloading: 0.5 unloads straight with k; from 0.5 to 1 every cycle dissipates. Rate-independent, so integrated over the

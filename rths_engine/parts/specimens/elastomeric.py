@@ -15,7 +15,9 @@ RelaxationTime = Annotated[float, Field(gt=0, le=1e4)]
 
 
 class Elastomeric(Part):
-    """f = k x + sum of f_i,  f_i' = k_i v - f_i / tau_i   (generalised Maxwell model, 1 to 4 branches)
+    """Elastomeric damper as a Maxwell chain.
+
+    f = k x + sum of f_i,  f_i' = k_i v - f_i / tau_i   (generalised Maxwell model, 1 to 4 branches)
 
     At frequency omega: storage stiffness k + sum k_i (omega tau_i)^2 / (1 + (omega tau_i)^2), loss stiffness
     sum k_i omega tau_i / (1 + (omega tau_i)^2); a cycle dissipates pi X^2 times the loss stiffness. Exact for a displacement

@@ -11,7 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class FrictionSlider(Part):
-    """f = k sgn(u) max(|u| - g, 0),  u = x - x_s;  the slider x_s follows so that |f| <= f_s
+    """Friction slider with slack.
+
+    f = k sgn(u) max(|u| - g, 0),  u = x - x_s;  the slider x_s follows so that |f| <= f_s
 
     A Coulomb slider (slip force f_s) behind a spring k and a slack (free play g each way, as of worn pins). Exact return
     mapping; rate-independent. A closed cycle of amplitude X dissipates 4 f_s (X - g - f_s / k), or nothing while X is smaller.

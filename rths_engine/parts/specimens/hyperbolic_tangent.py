@@ -12,7 +12,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class HyperbolicTangent(Part):
-    """f = k x + c v + f_0 tanh(v / v_0 + x / x_0),  v the displacement increment over dt
+    """Hyperbolic tangent model of a controllable-fluid damper.
+
+    f = k x + c v + f_0 tanh(v / v_0 + x / x_0),  v the displacement increment over dt
 
     f_0 yield force, v_0 velocity scale of the yield, x_0 displacement scale of the pre-yield hysteresis; a large x_0 leaves it
     out. Explicit: no equation to solve. Energy of a cycle at least pi c omega X^2, at most 4 f_0 X more.

@@ -21,9 +21,10 @@ LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled t
 
 
 def circular_frequencies(mass: Array, stiffness: Array) -> Array:
-    """omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none. PlanError for a mechanism or next to no mass.
+    """Circular frequencies omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none.
 
     1/omega^2 are the eigenvalues of G^T F G, where F is the flexibility at the DOF that have mass and G G^T their mass matrix.
+    Raises PlanError for a mechanism or next to no mass.
     """
     massive = np.flatnonzero(mass.any(axis=0))
     try:

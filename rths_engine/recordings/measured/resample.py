@@ -1,5 +1,7 @@
-"""y = x at rate * p / q: samples at any times to equal steps, interpolated where their times are uneven, then by a rational
-factor with a zero-phase anti-alias filter (polyphase, Kaiser window; scipy.signal.resample_poly).
+"""Resample a signal to equal steps at a rational multiple of its rate: y = x at rate * p / q.
+
+Samples at uneven times are interpolated first. The change of rate uses a zero-phase anti-alias filter (polyphase, Kaiser
+window; scipy.signal.resample_poly).
 
 Fails first for content next to half of the lower rate, which the filter takes away.
 """

@@ -20,7 +20,9 @@ LONGEST = 0.1  # s
 
 
 class AmplitudeDependentDelay(Effect):
-    """y(t) = d(t - min(b a, 0.1 s)),  a = the largest |d| of late, forgotten as exp(-t / T_a)
+    """Delay that grows with the amplitude.
+
+    y(t) = d(t - min(b a, 0.1 s)),  a = the largest |d| of late, forgotten as exp(-t / T_a)
 
     The delay grows by b (s/m) with the amplitude a of the command; T_a (s) is the memory of the amplitude. Neutral: b = 0.
     State: a, then `physics.delay`.

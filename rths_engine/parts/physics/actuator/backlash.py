@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Backlash(Effect):
-    """y = min(max(y[q-1], d - g/2), d + g/2)
+    """Backlash between drive and piston.
+
+    y = min(max(y[q-1], d - g/2), d + g/2)
 
     The play operator: the piston's end y follows the drive d with free play g (m) and rests while the drive crosses it after a
     reversal. Neutral: g = 0. State: s[0] y, s[1] whether it has begun; at the start the play is centred.

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class DeadBand(Effect):
-    """y = x + e - clip(e, -b, b),  e = d - x
+    """A drive that leaves small errors standing.
+
+    y = x + e - clip(e, -b, b),  e = d - x
 
     The drive sees of the error e between command d and piston x only what exceeds b (m), as behind a valve with overlap:
     within b the piston rests, beyond it lags by b more. Neutral: b = 0. No state.

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class DelayError(Effect):
-    """y(t) = d(t - T)
+    """More or less delay than the actuator model has.
+
+    y(t) = d(t - T)
 
     The command d reaches the actuator T (s) later than its model has it, or for T < 0 earlier: then on its last slope,
     y = d + |T| v, right while omega |T| is small. Linear between substeps. Neutral: T = 0. State: `physics.delay`.

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class ForceCompliance(Effect):
-    """y = y_0 - c,  tau c' = phi F - c
+    """A piston that gives way to the force on it.
+
+    y = y_0 - c,  tau c' = phi F - c
 
     The oil column and the rod give way by phi (m/N) under the specimen's force F of the last substep, over tau (s), which also
     keeps the explicit step stable, about while phi k < 2 tau / dt for a specimen of stiffness k. Neutral: phi = 0.

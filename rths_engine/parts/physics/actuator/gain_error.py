@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class GainError(Effect):
-    """y = (1 + e) d
+    """A piston that moves by another amount than commanded.
+
+    y = (1 + e) d
 
     e of either sign: a position loop without integral part, or calibrated on another transducer. Neutral: e = 0. No state.
     Fails first where the gain depends on the frequency.

@@ -20,7 +20,9 @@ SHORT = 0.01  # of a substep: a shorter T does nothing
 
 
 class SecondOrderLag(Effect):
-    """T^2 y'' + 2 zeta T y' + y = d,  T = 1 / (2 pi f)
+    """Dynamics of second order that the actuator model lacks.
+
+    T^2 y'' + 2 zeta T y' + y = d,  T = 1 / (2 pi f)
 
     The command d passes an oil column or a valve of natural frequency f before the actuator of the model. Exact for a command
     linear between substeps; it lags a ramp by 2 zeta T. Neutral: T = 0. State: s[0] y, s[1] T y' (m), s[2] last command,

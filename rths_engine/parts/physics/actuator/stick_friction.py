@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class StickFriction(Effect):
-    """y rests after a reversal until |d - y| = b;  then y = d + o,  o' = -o / tau from o = -+ b
+    """A piston that sticks after each reversal.
+
+    y rests after a reversal until |d - y| = b;  then y = d + o,  o' = -o / tau from o = -+ b
 
     Seals hold the piston y at every reversal of the drive d until it is b (m) ahead; once loose, the piston catches up over
     tau (s). Neutral: b = 0. State: s[0] y, s[1] d of the last substep, s[2] way of motion, 1, -1 or 0, s[3] o, s[4] 1 while it

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class VelocitySaturation(Effect):
-    """|y'| <= v_max
+    """A drive that reaches less velocity than its model.
+
+    |y'| <= v_max
 
     The velocity limit of the actuator's model becomes the smaller of its own and v_max (m/s), for both directions: a pump or a
     valve that gives less flow than its data sheet. Neutral: v_max = 10 m/s, beyond any actuator here.

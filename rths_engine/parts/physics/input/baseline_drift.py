@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class BaselineDrift(Effect):
-    """a = a_g + b + c t
+    """A ground motion whose zero line moves.
+
+    a = a_g + b + c t
 
     The zero of the accelerometer is off by b (m/s^2) and moves by c (m/s^3). Neutral: b = c = 0.
     Source: Boore and Bommer (2005), Soil Dyn. Earthquake Eng. 25, 93-115. Fails first where the zero jumps during the shaking.

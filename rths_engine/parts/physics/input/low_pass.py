@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class LowPass(Effect):
-    """T a' + a = a_g,  T = 1 / (2 pi f_c)
+    """A ground motion without its high frequencies.
+
+    T a' + a = a_g,  T = 1 / (2 pi f_c)
 
     The ground motion has passed a first-order filter of the corner frequency f_c, of a table or an amplifier. Exact for a_g
     linear between samples, at rest before the first. Neutral: T = 0. Fails first with the steeper filters of digital recorders.

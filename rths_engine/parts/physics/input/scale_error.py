@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class GroundScaleError(Effect):
-    """a = (1 + e) a_g
+    """A ground motion of another size than recorded.
+
+    a = (1 + e) a_g
 
     The table shakes by another factor than recorded. Neutral: e = 0. Fails first where the table loses one band only.
     """

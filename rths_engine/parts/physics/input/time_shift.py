@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class TimeShift(Effect):
-    """a(t) = a_g(t - T)
+    """A ground motion later or earlier than recorded.
+
+    a(t) = a_g(t - T)
 
     The ground motion comes T (s) later than recorded, earlier for T < 0; linear between samples, the first and the last value
     beyond them. Neutral: T = 0. Fails first where the clocks drift apart.

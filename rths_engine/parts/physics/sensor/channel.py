@@ -19,14 +19,14 @@ class Reading(Effect):
 
 
 class OfDisplacement(Reading):
-    """y = x_meas"""
+    """An effect on the displacement sensor: y = x_meas."""
 
     channel: Literal["x_meas"] = Field("x_meas", title="Channel")
     hook: ClassVar[int] = X_SENSOR
 
 
 class OfForce(Reading):
-    """y = f_meas"""
+    """An effect on the load cell: y = f_meas."""
 
     channel: Literal["f_meas"] = Field("f_meas", title="Channel")
     hook: ClassVar[int] = F_SENSOR

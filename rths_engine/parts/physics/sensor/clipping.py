@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Clipping(Reading):
-    """y = min(max(w, -L), L)
+    """A sensor at the end of its range.
+
+    y = min(max(w, -L), L)
 
     The sensor or its amplifier reads no more than L (m or N), either way. Neutral: L at its upper bound. No state.
     Fails first where the range is not centred.
@@ -33,7 +35,7 @@ class Clipping(Reading):
 
 
 class DisplacementClipping(OfDisplacement, Clipping):
-    """x_meas = min(max(x, -L), L)"""
+    """Clipping of the displacement sensor: x_meas = min(max(x, -L), L)."""
 
     limit: float = quantity("Limit L", "m", "mm", gt=0, le=1e3, default=1e3)
     title: ClassVar[str] = "Clipping of the displacement sensor"
@@ -41,7 +43,7 @@ class DisplacementClipping(OfDisplacement, Clipping):
 
 
 class ForceClipping(OfForce, Clipping):
-    """f_meas = min(max(f, -L), L)"""
+    """Clipping of the load cell: f_meas = min(max(f, -L), L)."""
 
     limit: float = quantity("Limit L", "N", "kN", gt=0, le=1e12, default=1e12)
     title: ClassVar[str] = "Clipping of the load cell"

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Drift(Reading):
-    """y = w + r t
+    """A sensor whose zero moves.
+
+    y = w + r t
 
     The zero of the sensor moves by r (m/s or N/s): its amplifier warms up. Neutral: r = 0. No state.
     Fails first where the drift levels out during the test.
@@ -34,14 +36,14 @@ class Drift(Reading):
 
 
 class DisplacementDrift(OfDisplacement, Drift):
-    """x_meas = x + r t"""
+    """Drift of the displacement sensor: x_meas = x + r t."""
 
     rate: float = quantity("Rate r", "m/s", "mm/s", ge=-1, le=1, default=0.0)
     title: ClassVar[str] = "Drift of the displacement sensor"
 
 
 class ForceDrift(OfForce, Drift):
-    """f_meas = f + r t"""
+    """Drift of the load cell: f_meas = f + r t."""
 
     rate: float = quantity("Rate r", "N/s", "kN/s", ge=-1e9, le=1e9, default=0.0)
     title: ClassVar[str] = "Drift of the load cell"

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Dropout(Reading):
-    """y(t) = w(t_0) for t_0 < t <= t_0 + D
+    """A sensor that stands still for a while.
+
+    y(t) = w(t_0) for t_0 < t <= t_0 + D
 
     The reading of the moment t_0 (s) is held for D (s): samples lost on their way. At the ends by the share of the substep.
     Neutral: D = 0. State: s[0] the last reading before t_0. Fails first where lost samples read zero.
@@ -39,13 +41,13 @@ class Dropout(Reading):
 
 
 class DisplacementDropout(OfDisplacement, Dropout):
-    """x_meas(t) = x(t_0) for t_0 < t <= t_0 + D"""
+    """Dropout of the displacement sensor: x_meas(t) = x(t_0) for t_0 < t <= t_0 + D."""
 
     title: ClassVar[str] = "Dropout of the displacement sensor"
 
 
 class ForceDropout(OfForce, Dropout):
-    """f_meas(t) = f(t_0) for t_0 < t <= t_0 + D"""
+    """Dropout of the load cell: f_meas(t) = f(t_0) for t_0 < t <= t_0 + D."""
 
     title: ClassVar[str] = "Dropout of the load cell"
 

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Offset(Reading):
-    """y = w + o
+    """A sensor that reads too much by a constant.
+
+    y = w + o
 
     The zero of the sensor is off by o (m or N): a transducer moved, a bridge not balanced. Neutral: o = 0. No state.
     Fails first where the zero moves with time.
@@ -34,14 +36,14 @@ class Offset(Reading):
 
 
 class DisplacementOffset(OfDisplacement, Offset):
-    """x_meas = x + o"""
+    """Offset of the displacement sensor: x_meas = x + o."""
 
     error: float = quantity("Offset o", "m", "mm", ge=-1, le=1, default=0.0)
     title: ClassVar[str] = "Offset of the displacement sensor"
 
 
 class ForceOffset(OfForce, Offset):
-    """f_meas = f + o"""
+    """Offset of the load cell: f_meas = f + o."""
 
     error: float = quantity("Offset o", "N", "kN", ge=-1e9, le=1e9, default=0.0)
     title: ClassVar[str] = "Offset of the load cell"

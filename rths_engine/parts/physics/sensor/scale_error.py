@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class ScaleError(Reading):
-    """y = (1 + e) w
+    """A sensor that reads too much by a share.
+
+    y = (1 + e) w
 
     The sensor's factor is off by the share e: another calibration, another range. Neutral: e = 0. No state.
     Fails first where the error depends on the reading.
@@ -34,13 +36,13 @@ class ScaleError(Reading):
 
 
 class DisplacementScaleError(OfDisplacement, ScaleError):
-    """x_meas = (1 + e) x"""
+    """Scale error of the displacement sensor: x_meas = (1 + e) x."""
 
     title: ClassVar[str] = "Scale error of the displacement sensor"
 
 
 class ForceScaleError(OfForce, ScaleError):
-    """f_meas = (1 + e) f"""
+    """Scale error of the load cell: f_meas = (1 + e) f."""
 
     title: ClassVar[str] = "Scale error of the load cell"
 

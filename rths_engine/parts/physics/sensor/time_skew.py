@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class TimeSkew(Reading):
-    """y(t) = w(t - T)
+    """A sensor that reads late or early.
+
+    y(t) = w(t - T)
 
     The reading is late by T (s), by a filter or another clock, or early for T < 0: then on its last slope, which is right while
     omega |T| is small. Linear between substeps. Neutral: T = 0. State: `physics.delay`.
@@ -37,13 +39,13 @@ class TimeSkew(Reading):
 
 
 class DisplacementTimeSkew(OfDisplacement, TimeSkew):
-    """x_meas(t) = x(t - T)"""
+    """Time skew of the displacement sensor: x_meas(t) = x(t - T)."""
 
     title: ClassVar[str] = "Time skew of the displacement sensor"
 
 
 class ForceTimeSkew(OfForce, TimeSkew):
-    """f_meas(t) = f(t - T)"""
+    """Time skew of the load cell: f_meas(t) = f(t - T)."""
 
     title: ClassVar[str] = "Time skew of the load cell"
 

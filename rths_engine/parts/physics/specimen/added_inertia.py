@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class AddedInertia(Effect):
-    """f = f_0 + m (x[q] - 2 x[q-1] + x[q-2]) / dt^2
+    """Mass that moves with the piston before the load cell.
+
+    f = f_0 + m (x[q] - 2 x[q-1] + x[q-2]) / dt^2
 
     m (kg) of clevis, rod or fixture between load cell and specimen. The second difference is the acceleration half a substep
     before v. Neutral: m = 0. State: s[0] x[q-1], s[1] x[q-2], s[2] samples seen, up to 2; no force before the third.

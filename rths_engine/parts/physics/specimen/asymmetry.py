@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Asymmetry(Effect):
-    """f = (1 + a) f_0 for f_0 > 0, (1 - a) f_0 for f_0 < 0
+    """Strength that differs by direction.
+
+    f = (1 + a) f_0 for f_0 > 0, (1 - a) f_0 for f_0 < 0
 
     Neutral: a = 0. Fails first where the asymmetry is of the displacement and not of the force.
     """

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Backlash(Effect):
-    """|x - u| <= g/2;  u = x -+ g/2 in contact, which lasts while the specimen's force presses on it;  u rests in between
+    """Backlash between actuator and specimen.
+
+    |x - u| <= g/2;  u = x -+ g/2 in contact, which lasts while the specimen's force presses on it;  u rests in between
 
     The specimen's end u has free play g (m) in its connection: after a reversal the specimen unloads, then nothing is felt
     until the play is taken up in the other sense. Contact opens by the force of the last substep. Neutral: g = 0.

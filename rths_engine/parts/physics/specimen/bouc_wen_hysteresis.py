@@ -16,7 +16,9 @@ from rths_engine.parts.specimens.bouc_wen import moved
 
 
 class BoucWenHysteresis(Effect):
-    """f = f_0 + F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
+    """A Bouc-Wen element beside the specimen.
+
+    f = f_0 + F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
 
     F (N) strength, x_y (m) yield displacement, n sharpness, eta fullness of the unloading, as in `specimens.bouc_wen`, over
     the same substeps. Neutral: F = 0. State: s[0] x of the last substep, s[1] zeta, s[2] whether it has begun.

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class CoulombFriction(Effect):
-    """f = f_0 + F_c z,  x_e z' = v - |v| z
+    """Coulomb friction beside the specimen.
+
+    f = f_0 + F_c z,  x_e z' = v - |v| z
 
     F_c friction force (N), either sign of motion; x_e pre-sliding displacement (m), over which the friction builds up after a
     reversal. Neutral: F_c = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun; z is exact for steps in x.

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class CubicStiffness(Effect):
-    """f = f_0 + k_3 x^3
+    """A spring that hardens or softens with its stroke.
+
+    f = f_0 + k_3 x^3
 
     k_3 (N/m^3), positive where it hardens. Neutral: k_3 = 0. No state. At amplitude X of a sine it adds the stiffness
     3/4 k_3 X^2 to the first harmonic and k_3 X^3 / 4 of third harmonic.

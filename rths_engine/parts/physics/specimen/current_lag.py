@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class CurrentLag(Effect):
-    """f = f_0 (i_0 + i_f) / (i_0 + |i|),  tau i_f' = |i| - i_f
+    """Force that follows the current late.
+
+    f = f_0 (i_0 + i_f) / (i_0 + |i|),  tau i_f' = |i| - i_f
 
     The coil's field, and with it the force, follows the current i (A) over tau (s); i_0 is the current that would make the
     force without current: the force of the model is taken as proportional to i_0 + |i|. Exact for a current held over the

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class ParallelStiffness(Effect):
-    """f = f_0 + k x
+    """A spring beside the specimen.
+
+    f = f_0 + k x
 
     k (N/m) of either sign: an accumulator, a gas charge, a guide; a negative one takes stiffness away. Neutral: k = 0.
     No state. Fails first where the spring hardens with its stroke.

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Pinching(Effect):
-    """f = f_0 (1 - d exp(-(x / x_p)^2))
+    """Force that is pinched about the middle of the stroke.
+
+    f = f_0 (1 - d exp(-(x / x_p)^2))
 
     d is the share of the force that is lost about x = 0 and x_p (m) half the width of the pinch. Neutral: d = 0. No state.
     Source: the Gaussian slip zone of Baber and Noori (1985), J. Eng. Mech. 111, 1010-1026, in the force.

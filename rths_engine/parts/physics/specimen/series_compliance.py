@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class SeriesCompliance(Effect):
-    """u + phi f(u) = x
+    """Compliance in series with the specimen.
+
+    u + phi f(u) = x
 
     phi (m/N) is the flexibility of clevises, load cell or frame between the measured displacement x and the specimen's end u.
     Solved in every substep with the specimen's own law. Neutral: phi = 0. No state.

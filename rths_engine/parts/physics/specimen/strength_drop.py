@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class StrengthDrop(Effect):
-    """f = f_0 (1 - d [t > t_d])
+    """Force that is lost at one moment.
+
+    f = f_0 (1 - d [t > t_d])
 
     From the moment t_d (s) the share d of the force is missing: a seal, a bolt or a coil has failed. Neutral: d = 0. No state.
     Fails first where the loss takes longer than the rise of the force.

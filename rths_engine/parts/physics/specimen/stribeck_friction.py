@@ -17,7 +17,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class StribeckFriction(Effect):
-    """f = f_0 + (F_c + F_b exp(-(v / v_s)^2)) z,  x_e z' = v - |v| z
+    """Friction that falls with the velocity.
+
+    f = f_0 + (F_c + F_b exp(-(v / v_s)^2)) z,  x_e z' = v - |v| z
 
     F_c friction at speed, F_c + F_b breakaway friction (N), v_s Stribeck velocity (m/s), x_e pre-sliding displacement (m).
     Neutral: F_c = F_b = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun.

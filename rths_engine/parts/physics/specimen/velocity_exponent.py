@@ -19,7 +19,9 @@ FAST = 1e6
 
 
 class VelocityExponent(Effect):
-    """f = f_0 ((r^2 + s^2) / (1 + s^2))^(e/2),  r = v / v_r, s = 0.05
+    """Another exponent of the velocity.
+
+    f = f_0 ((r^2 + s^2) / (1 + s^2))^(e/2),  r = v / v_r, s = 0.05
 
     A force that grew with |v|^n grows with |v|^(n + e). The force at the reference velocity v_r (m/s) stays; below s v_r the
     factor levels out, so that it is bounded for e < 0. v_r only moves the strength of the specimen's own model, and is held.

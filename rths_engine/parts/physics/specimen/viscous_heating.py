@@ -18,7 +18,9 @@ LEAST = 0.05  # of the cold force
 
 
 class ViscousHeating(Effect):
-    """f = f_0 max(1 - phi E, 0.05),  E' = f v
+    """Force that fades as the specimen heats.
+
+    f = f_0 max(1 - phi E, 0.05),  E' = f v
 
     E (J) is the work done on the specimen so far, of which all that its springs do not give back heats it, and phi (1/J) the
     force it loses for that. Trapezoidal rule. Neutral: phi = 0.

@@ -18,7 +18,9 @@ HORIZONTAL = (0, 3)  # places in a member's six end displacements
 
 
 class BaseFlexibility(Effect):
-    """V = b / phi: one more degree of freedom b without mass, y = x - iota b,  K -> T^T K T + e e^T / phi,  T = [1, -iota]
+    """A base that sways.
+
+    V = b / phi: one more degree of freedom b without mass, y = x - iota b,  K -> T^T K T + e e^T / phi,  T = [1, -iota]
 
     The structure stands on a spring of flexibility phi (m/N) under its base shear V, dampers of the lowest storey on it too; x
     stays relative to the ground. A single storey's period lengthens by sqrt(1 + phi k). Neutral: phi = 0.

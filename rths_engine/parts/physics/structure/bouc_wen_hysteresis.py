@@ -10,7 +10,9 @@ from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 
 
 class BoucWenHysteresis(OfStorey, specimen.BoucWenHysteresis):
-    """f = F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
+    """A Bouc-Wen element between two floors.
+
+    f = F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
 
     x drift of the storey. Else as `physics.specimen.bouc_wen_hysteresis`.
     """

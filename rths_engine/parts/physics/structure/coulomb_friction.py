@@ -12,7 +12,9 @@ from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 
 
 class CoulombFriction(OfStorey, specimen.CoulombFriction):
-    """f = F_c z,  x_e z' = v - |v| z
+    """Coulomb friction between two floors.
+
+    f = F_c z,  x_e z' = v - |v| z
 
     x drift of the storey: bolts, partitions or bearings rub between its floors. Else as `physics.specimen.coulomb_friction`.
     """

@@ -11,7 +11,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class CubicStiffness(OfStorey, specimen.CubicStiffness):
-    """f = k_3 x^3
+    """A storey that hardens or softens with its drift.
+
+    f = k_3 x^3
 
     x drift of the storey. Else as `physics.specimen.cubic_stiffness`.
     """

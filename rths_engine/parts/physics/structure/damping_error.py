@@ -16,7 +16,9 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class DampingError(Effect):
-    """(1 + e) C
+    """A structure damped more or less than its model.
+
+    (1 + e) C
 
     Every modal damping ratio of the structure is off by the share e. Neutral: e = 0.
     Source: Chopra, Dynamics of Structures, chapter 11. Fails first where one mode is off and another is not.

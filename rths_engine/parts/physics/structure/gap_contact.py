@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class GapContact(OfStorey):
-    """f = k_c (x - g) for x > g,  k_c (x + g) for x < -g
+    """A storey that strikes a stop.
+
+    f = k_c (x - g) for x > g,  k_c (x + g) for x < -g
 
     Beyond the drift g (m) a stop or a neighbouring building of stiffness k_c (N/m) is in contact, on both sides or on one. No
     energy is lost. Neutral: k_c = 0. No state.

@@ -18,7 +18,9 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class MassError(OfStorey):
-    """S M S,  S = diag(1, .., sqrt(1 + e), .., 1)
+    """A floor heavier or lighter than its model.
+
+    S M S,  S = diag(1, .., sqrt(1 + e), .., 1)
 
     The mass of the floor on top of the storey is off by the share e; of a mass matrix that is not diagonal its coupling scales
     by sqrt(1 + e), so that it stays positive. Damping stays. Neutral: e = 0.

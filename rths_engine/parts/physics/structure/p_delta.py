@@ -17,7 +17,9 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class PDelta(Effect):
-    """K - mu lambda K_G,  K_G = sum over storeys of W_s l_s^T l_s,  lambda the least root of det(K - lambda K_G) = 0
+    """Gravity that works on the drift.
+
+    K - mu lambda K_G,  K_G = sum over storeys of W_s l_s^T l_s,  lambda the least root of det(K - lambda K_G) = 0
 
     W_s (kg) is the mass above storey s and l_s takes x to its drift, for storeys of equal height; mu is the gravity load as
     a share of the load lambda K_G at which the structure buckles sideways: K stays positive definite for mu < 1.

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Pinching(OfStorey):
-    """f = -d w exp(-(x / x_p)^2)
+    """A storey that slips about the middle of its drift.
+
+    f = -d w exp(-(x / x_p)^2)
 
     The share d of the storey's elastic force w is missing about the drift x = 0, over x_p (m): bolts in their holes, cracks
     that have to close. Neutral: d = 0. No state.

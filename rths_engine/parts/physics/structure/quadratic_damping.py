@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class QuadraticDamping(OfStorey):
-    """f = c_2 |v| v
+    """Damping that grows with the square of the velocity.
+
+    f = c_2 |v| v
 
     v velocity of the storey's drift, c_2 (N s^2/m^2). Neutral: c_2 = 0. No state. A cycle of a sine of amplitude X dissipates
     8/3 c_2 omega^2 X^3. Source: Chopra, Dynamics of Structures, chapter 3, equivalent viscous damping.

@@ -16,7 +16,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class StiffnessDrop(OfStorey):
-    """f = -d w [t > t_d]
+    """A storey that loses stiffness at one moment.
+
+    f = -d w [t > t_d]
 
     From the moment t_d (s) the share d of the storey's elastic force w is missing: a brace or a weld failed. Neutral: d = 0.
     No state. Fails first where the failure leaves the storey askew.

@@ -17,7 +17,9 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class StiffnessError(OfStorey):
-    """K + e k l^T l,  k = 1 / (l K^-1 l^T)
+    """A storey stiffer or softer than its model.
+
+    K + e k l^T l,  k = 1 / (l K^-1 l^T)
 
     l takes x to the drift of the storey, and k is its stiffness against a pair of forces along the drift: of a shear building
     the storey's own. K stays positive definite for every e > -1. Damping stays. Neutral: e = 0.

@@ -15,7 +15,9 @@ from rths_engine.parts.physics.wording import said
 
 
 class Yielding(OfStorey):
-    """f = (1 - r) (q - w),  q' = w' while |q| < F_y or w turns it back
+    """A storey that yields.
+
+    f = (1 - r) (q - w),  q' = w' while |q| < F_y or w turns it back
 
     w elastic force of the storey, in all r w + (1 - r) q: bilinear with kinematic hardening, yield force F_y (N) and post-yield
     stiffness r times the initial. Exact for a drift that turns at substeps. Neutral: r = 1.
