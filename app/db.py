@@ -31,6 +31,8 @@ class UtcDateTime(sa.TypeDecorator[datetime]):
 
 
 class Base(DeclarativeBase):
+    """Base of the tables; times are stored in UTC and dictionaries as JSON."""
+
     type_annotation_map: ClassVar = {datetime: UtcDateTime, dict[str, Any]: sa.JSON}
 
 
@@ -43,6 +45,7 @@ def connect(url: str) -> sa.Engine:
 
 
 def sessions(engine: sa.Engine) -> sessionmaker[Session]:
+    """Maker of sessions whose rows stay readable after a commit."""
     return sessionmaker(engine, expire_on_commit=False)
 
 
@@ -64,6 +67,7 @@ def migrate(url: str) -> None:
 
 
 def alembic_config(url: str) -> Config:
+    """Alembic's configuration for the database at `url`."""
     config = Config()
     config.set_main_option("script_location", str(MIGRATIONS).replace("%", "%%"))
     config.attributes["url"] = url

@@ -14,11 +14,13 @@ from rths_engine.parts.ground_motions import MotionLibrary
 
 
 def settings(request: Request) -> Settings:
+    """The settings of this application."""
     found: Settings = request.app.state.settings
     return found
 
 
 def session(request: Request) -> Iterator[Session]:
+    """A session that commits when the request has succeeded."""
     with unit_of_work(request.app.state.sessions) as one:
         yield one
 
@@ -28,6 +30,7 @@ OneSession = Annotated[Session, Depends(session, scope="function")]
 
 
 def library(configured: Configured) -> MotionLibrary:
+    """The library of ground motions: bundled and added records."""
     return MotionLibrary(configured.motions)
 
 

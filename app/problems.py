@@ -43,6 +43,7 @@ class Conflict(Exception):
 
 
 def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None) -> Response:
+    """An answer in problem+json (RFC 9457)."""
     title = TITLES.get(status, "Not possible")
     body = {"type": "about:blank", "title": title, "status": status, "detail": detail, "errors": errors or []}
     return Response(json.dumps(body), status, media_type=MEDIA_TYPE)  # ASCII, so that any text can be told back
@@ -61,6 +62,7 @@ def install(app: FastAPI) -> None:
 
 
 def too_large(limit: int) -> Response:
+    """The answer 413 to a request larger than `limit` bytes."""
     return problem(413, f"The request is larger than {limit / 1e6:g} MB, the most that is taken.")
 
 

@@ -17,6 +17,7 @@ FOLDER = Path(__file__).parent
 
 
 def main() -> None:
+    """Measure every figure, print the results and write them with their chart."""
     warm()
     results: dict[str, Any] = {"machine": _machine()}
     if reason := peer.missing():

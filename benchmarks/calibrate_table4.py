@@ -40,6 +40,7 @@ SIMPLEX, REFINED = 0.04, 80
 
 
 def main(path: str, seed: int | None) -> None:
+    """Search for the laboratory's unknown numbers from the present ones, or anew with a seed, and print them."""
     motion, motions = FileMotion(path=path, unit="g", dt=0.02), MotionLibrary(None)
 
     def cost(logarithms: np.ndarray) -> float:
@@ -59,6 +60,7 @@ def main(path: str, seed: int | None) -> None:
 
 
 def searched(cost: Callable[[np.ndarray], float], seed: int) -> np.ndarray:
+    """The best numbers of a differential evolution within BOUNDS, as logarithms."""
     bounds = [(math.log(low), math.log(high)) for low, high in BOUNDS.values()]
     options: dict[str, Any] = {"popsize": POPULATION, "maxiter": GENERATIONS, "mutation": (0.4, 0.9), "recombination": 0.8}
     with ThreadPoolExecutor(2) as threads:
@@ -70,6 +72,7 @@ def searched(cost: Callable[[np.ndarray], float], seed: int) -> np.ndarray:
 
 
 def present(factor: float) -> np.ndarray:
+    """The numbers in use and a record's factor, as logarithms."""
     values = asdict(table4.LABORATORY)
     first, second = values.pop("time_constant")
     values |= {"first_time_constant": first, "second_time_constant": second, "factor": factor}
@@ -77,6 +80,7 @@ def present(factor: float) -> np.ndarray:
 
 
 def described(logarithms: np.ndarray) -> tuple[table4.Laboratory, float]:
+    """The laboratory and the record's factor that logarithms stand for."""
     values = dict(zip(BOUNDS, map(float, np.exp(logarithms)), strict=True))
     factor = values.pop("factor")
     constants = values.pop("first_time_constant"), values.pop("second_time_constant")
@@ -84,6 +88,7 @@ def described(logarithms: np.ndarray) -> tuple[table4.Laboratory, float]:
 
 
 def loss(laboratory: table4.Laboratory, motion: FileMotion, motions: MotionLibrary) -> float:
+    """Mean squared logarithm of our measures over the published ones, and of the floors' peaks likewise."""
     plans = table4.plans(motion, laboratory)
     terms = []
     for simulation in CALIBRATED:

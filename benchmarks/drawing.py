@@ -28,6 +28,7 @@ def _line(rows: list[dict[str, Any]], key: str, colour: str, dashes: str) -> str
 
 
 def svg(rows: list[dict[str, Any]]) -> str:
+    """Chart of the time of a step against degrees of freedom, as SVG."""
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="13">']
     parts.append(f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>')
     for dof in (10, 30, 100, 300, 1000, 2000):

@@ -33,6 +33,7 @@ def frame(storeys: int, bays: int, inelastic: bool) -> dict[str, Any]:
 
 
 def shear_building(storeys: int) -> dict[str, Any]:
+    """A shear building of equal storeys."""
     return {"kind": "shear_building", "storeys": [{"mass": 2e5, "stiffness": 1e8}] * storeys}
 
 

@@ -42,6 +42,7 @@ def read_seconds(size: int) -> float:
 
 
 def structures() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Structures of rising size with their kinds."""
     yield "shear building", shear_building(10)
     for inelastic in (False, True):
         for storeys, bays in FRAMES:
@@ -49,6 +50,7 @@ def structures() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def step_by_dof() -> dict[str, list[dict[str, Any]]]:
+    """Times of a step and of building the run, by degrees of freedom."""
     rows = []
     for kind, structure in structures():
         start = perf_counter()

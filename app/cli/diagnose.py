@@ -17,6 +17,7 @@ from rths_engine.recordings import opening
 
 
 def diagnose(given: Namespace) -> None:
+    """`rths diagnose`: compare a recording with a plan and print, write or draw the result."""
     if not 0 < given.level < 1:
         raise PlanError(Issue("--level", "needs a rate of false alarms between 0 and 1", given.level, "0.01 is usual"))
     for option, path in (("--json", given.json), ("--report", given.report)):

@@ -16,6 +16,7 @@ Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 
 def main(arguments: list[str] | None = None) -> int:
+    """Run one command and return its exit code."""
     given = parser().parse_args(arguments)
     module, _, function = given.function.partition(":")
     try:

@@ -13,6 +13,7 @@ from rths_engine.planning.reading import plan_to_yaml
 
 
 def plan(given: Namespace) -> None:
+    """`rths plan`: print a template as YAML, or list the templates."""
     if given.name:
         print(plan_to_yaml(templates.template(given.name)), end="")
         return
@@ -21,6 +22,7 @@ def plan(given: Namespace) -> None:
 
 
 def motions(given: Namespace) -> None:
+    """`rths motions`: list the ground motions with PGA, step and length."""
     print(f"{'Name':48} {'PGA g':>7} {'Step s':>7} {'Length s':>8}  Record")
     for record in MotionLibrary(settings(given).motions).summaries():
         if record.problem:
@@ -31,4 +33,5 @@ def motions(given: Namespace) -> None:
 
 
 def version(_: Namespace) -> None:
+    """`rths version`: print the version."""
     print(__version__)

@@ -15,6 +15,7 @@ CHECKOUT = Path(__file__).parents[2]
 
 
 def prove(given: Namespace) -> None:
+    """`rths prove`: diagnose recordings whose left-out physics is known, and write the scores."""
     _checked(given)
     sys.path.insert(0, str(CHECKOUT))
     proving, table, drawing = (import_module(f"tests.proof.{name}") for name in ("proving", "table", "drawing"))

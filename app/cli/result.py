@@ -31,6 +31,7 @@ LEAST_NAME = 8
 
 
 def text(plan: Plan, summary: dict[str, Any], out: Path | None) -> str:
+    """The measures of a run as lines for a terminal."""
     return "\n".join(_lines(plan, summary, out))
 
 

@@ -21,6 +21,7 @@ GRACE_S = 2
 
 
 def serve(given: Namespace) -> int:
+    """`rths serve`: run the service until Ctrl-C; returns the exit code."""
     settings = stored(given, embedded_worker=not given.no_worker)
     listening = listen(settings)
     server = Server(create_app(settings), settings, given.demo)
@@ -64,6 +65,7 @@ def listen(settings: Settings) -> socket.socket:
 
 
 def address(settings: Settings) -> str:
+    """The URL at which a browser on this machine finds the service."""
     host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
     return f"http://[{host}]:{settings.port}/" if ":" in host else f"http://{host}:{settings.port}/"
 

@@ -23,6 +23,7 @@ def text(
     drifts: Sequence[float],
     elapsed_s: float,
 ) -> str:
+    """Table IV as text, each of its rows above the paper's."""
     return "\n".join([*_head(planned, motion), *_table(rows), *_foot(rows, floors, drifts), f"Run in {elapsed_s:.2f} s."])
 
 

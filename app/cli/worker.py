@@ -14,12 +14,14 @@ from app.worker.main import work
 
 
 def worker(given: Namespace) -> None:
+    """`rths worker`: execute queued jobs until the process ends."""
     settings = stored(given)
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
     work(settings, given.web, given.name or f"{socket.gethostname()}-{os.getpid()}")
 
 
 def migrate(given: Namespace) -> None:
+    """`rths migrate`: bring the database and its queue to the newest schema."""
     settings = stored(given)
     db.migrate(settings.url)
     queue.migrate(settings.url)

@@ -17,6 +17,7 @@ from app.runs.dependency import Runs
 def diagnosis_service(
     request: Request, session: OneSession, runs: Runs, recordings: Recordings, plans: Plans
 ) -> DiagnosisService:
+    """The service of diagnoses in the session of the request."""
     return DiagnosisService(session, Sources(runs, recordings, plans), request.app.state.queue)
 
 

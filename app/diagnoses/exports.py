@@ -8,6 +8,7 @@ from rths_engine.diagnosis.schema import Pictures, Verdict
 
 
 def facts(diagnosis: Diagnosis) -> Facts:
+    """Facts above a report: recording, plan, level, who asked, how long it took."""
     heldout = ", ".join(one.name for one in diagnosis.heldout)
     took = (diagnosis.finished_at - diagnosis.started_at).total_seconds() if _timed(diagnosis) else None  # type: ignore[operator]
     found = [

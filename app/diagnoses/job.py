@@ -12,6 +12,8 @@ from app.reports.diagnosis_tables import tables
 
 
 class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
+    """Diagnoses as a kind of job: executed one after another, below the priority of tests."""
+
     name = noun = "diagnosis"
     table = Diagnosis
     queue, workflow = "diagnoses", "diagnose"

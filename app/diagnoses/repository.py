@@ -10,6 +10,8 @@ from app.models import Diagnosis
 
 
 class DiagnosisRepository(JobRepository[Diagnosis]):
+    """SQL of diagnoses. Never commits."""
+
     def __init__(self, session: Session):
         super().__init__(session, Diagnosis)
 

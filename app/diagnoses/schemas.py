@@ -40,6 +40,8 @@ class Asked(BaseModel):
 
 
 class InputOut(BaseModel):
+    """A recording that a diagnosis uses: imported, or the recording of a run."""
+
     model_config = ConfigDict(from_attributes=True)
 
     name: str
@@ -84,6 +86,8 @@ class DiagnosisDetail(DiagnosisOut):
 
 
 class DiagnosisList(BaseModel):
+    """A page of diagnoses and their number in all."""
+
     diagnoses: list[DiagnosisOut]
     total: int
 

@@ -27,6 +27,8 @@ LONGEST_NAME = 200
 
 
 class DiagnosisService:
+    """Rules of diagnoses: submit, cancel, remove, and run the extended plan. No SQL, no HTTP."""
+
     def __init__(self, session: Session, sources: Sources, queue: Queue):
         self.rows = DiagnosisRepository(session)
         self.jobs: JobService[Diagnosis, Diagnosed] = JobService(session, DIAGNOSES, queue)

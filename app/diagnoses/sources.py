@@ -20,12 +20,15 @@ from rths_engine.planning.reading import read_plan
 
 
 def file_of(given: DiagnosisInput, settings: Settings) -> Path:
+    """Path of the HDF5 file of a recording, imported or of a run."""
     folder, name = (settings.measured, given.recording_id) if given.recording_id else (settings.recordings, given.run_id)
     return folder / f"{name}.h5"
 
 
 @dataclass(frozen=True, slots=True)
 class Sources:
+    """Where a diagnosis finds its plan and its recordings."""
+
     runs: RunService
     recordings: MeasuredService
     plans: PlanService

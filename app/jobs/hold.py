@@ -12,6 +12,8 @@ from app.jobs.tables import QueueState
 
 
 class Hold:
+    """The switch that holds the queue of tests."""
+
     def __init__(self, session: Session):
         self.session = session
 

@@ -15,6 +15,8 @@ Row = TypeVar("Row", bound=Job)
 
 
 class JobRepository(Generic[Row]):
+    """SQL that every kind of job needs. Never commits."""
+
     def __init__(self, session: Session, table: type[Row]):
         self.session, self.table = session, table
 

@@ -8,6 +8,8 @@ from app.problems import Conflict
 
 
 class State(StrEnum):
+    """State of a job."""
+
     QUEUED = "queued"
     RUNNING = "running"
     COMPLETED = "completed"

@@ -13,6 +13,8 @@ WORKER_SILENCE = timedelta(seconds=6)  # six heartbeats: a worker this long sile
 
 
 class Workers:
+    """Heartbeats of the workers."""
+
     def __init__(self, session: Session):
         self.session = session
 

@@ -11,6 +11,7 @@ from app.measured.service import MeasuredService
 
 
 def measured_service(session: OneSession, configured: Configured) -> MeasuredService:
+    """The service of measured recordings in the session of the request."""
     return MeasuredService(session, configured.measured)
 
 

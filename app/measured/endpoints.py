@@ -22,6 +22,7 @@ def upload(recordings: Recordings, file: Annotated[UploadFile, File()]) -> Uploa
 
 @router.get("/files/{sha256}")
 def uploaded(sha256: str, recordings: Recordings) -> Uploaded:
+    """An uploaded file: its columns and the mapping proposed for it."""
     return recordings.uploaded(sha256)
 
 
@@ -62,6 +63,7 @@ def listed(
 
 @router.get("/{recording_id}")
 def one(recording_id: str, recordings: Recordings) -> RecordingDetail:
+    """A recording with its channels and its mapping."""
     return RecordingDetail.model_validate(recordings.get(recording_id))
 
 
@@ -73,6 +75,7 @@ def channels(recording_id: str, recordings: Recordings) -> dict[str, Any]:
 
 @router.get("/{recording_id}/recording.h5")
 def hdf5(recording_id: str, recordings: Recordings) -> FileResponse:
+    """The recording as HDF5."""
     return FileResponse(recordings.hdf5(recording_id), media_type="application/x-hdf5", filename=f"{recording_id}.h5")
 
 
@@ -86,6 +89,7 @@ def raw(recording_id: str, recordings: Recordings) -> FileResponse:
 
 @router.get("/{recording_id}/mapping.yaml")
 def mapping(recording_id: str, recordings: Recordings) -> PlainTextResponse:
+    """The mapping of a recording as YAML, for files of the same layout."""
     headers = {"Content-Disposition": f'attachment; filename="{recording_id}.yaml"'}
     return PlainTextResponse(recordings.mapping_text(recording_id), media_type="application/yaml", headers=headers)
 

@@ -17,6 +17,8 @@ _READING = threading.Lock()  # a large file takes some times its size in memory:
 
 
 class RawFiles:
+    """Uploaded files in a folder, each under its SHA-256."""
+
     def __init__(self, folder: Path):
         self.folder = folder
 

@@ -17,6 +17,8 @@ RECORDED = MeasuredRecording.raw_sha256 == RawFile.sha256
 
 
 class MeasuredRepository:
+    """SQL of measured recordings and uploaded files. Never commits."""
+
     def __init__(self, session: Session):
         self.session = session
 

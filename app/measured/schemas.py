@@ -57,6 +57,8 @@ class RecordingDetail(RecordingOut):
 
 
 class RecordingList(BaseModel):
+    """A page of recordings and their number in all."""
+
     recordings: list[RecordingOut]
     total: int
 

@@ -32,6 +32,8 @@ NOBODY = "unnamed"
 
 
 class MeasuredService:
+    """Rules of measured recordings: upload, preview, import, remove. No SQL, no HTTP."""
+
     def __init__(self, session: Session, folder: Path):
         self.session, self.folder = session, folder
         self.rows, self.raw_files = MeasuredRepository(session), RawFiles(folder / "raw")

@@ -27,6 +27,7 @@ def roles() -> dict[str, Any]:
 
 
 def column(one: Column) -> dict[str, Any]:
+    """A column of a file with its unit, its number of samples and its statistics."""
     known = one.values[np.isfinite(one.values)]
     missing = len(one.values) - len(known)
     return {"name": one.name, "unit": one.unit, "samples": len(one.values), "missing": missing, **_statistics(known)}
@@ -39,6 +40,7 @@ def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:
 
 
 def preview(measured: Measured | None) -> dict[str, Any]:
+    """Decimated channels and force-displacement loops of a recording; empty where the mapping gives none."""
     if measured is None:
         return {"channels": [], "loops": [], "samples": None, "dt_s": None, "start_s": None}
     channels = [_decimated(one, measured) for one in measured.channels]

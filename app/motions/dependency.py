@@ -11,6 +11,7 @@ from app.motions.service import MotionService
 
 
 def motion_service(motions: Library) -> MotionService:
+    """The service of ground motions."""
     return MotionService(motions)
 
 

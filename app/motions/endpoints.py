@@ -15,6 +15,7 @@ Text = Annotated[str, Form(max_length=200)]
 
 @router.get("")
 def listed(motions: Motions) -> dict[str, Any]:
+    """Every ground motion with PGA, step and duration."""
     return {"motions": motions.listed()}
 
 
@@ -36,14 +37,17 @@ def look(
 
 @router.get("/{name}")
 def one(name: str, motions: Motions) -> dict[str, Any]:
+    """A ground motion with PGA, step, duration and provenance."""
     return motions.summary(name)
 
 
 @router.get("/{name}/preview")
 def shown(name: str, motions: Motions) -> dict[str, Any]:
+    """Samples and response spectrum of a ground motion, for plots."""
     return motions.preview(name)
 
 
 @router.delete("/{name}", status_code=204)
 def remove(name: str, motions: Motions) -> None:
+    """Delete a ground motion that was added; bundled ones stay."""
     motions.remove(name)

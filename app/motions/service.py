@@ -17,6 +17,8 @@ PREVIEW_POINTS = 6000
 
 
 class MotionService:
+    """Rules of the library of ground motions: list, preview, add, remove."""
+
     def __init__(self, library: MotionLibrary):
         self.library = library
 

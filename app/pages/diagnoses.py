@@ -56,6 +56,7 @@ def listed(
 
 @router.get("/diagnoses/{diagnosis_id}")
 def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: Configured) -> HTMLResponse:
+    """The page of a diagnosis."""
     diagnosis = diagnoses.get(diagnosis_id)
     result: dict[str, Any] = {}
     if diagnosis.verdict is not None and diagnosis.pictures is not None:

@@ -28,6 +28,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/")
 def lab(request: Request, runs: Runs) -> HTMLResponse:
+    """The Lab page: the queue, the running tests and the recent runs."""
     return page(request, "lab.html", **_lab(request, runs))
 
 
@@ -39,11 +40,13 @@ def lab_now(request: Request, runs: Runs) -> HTMLResponse:
 
 @router.get("/new")
 def new(request: Request, configured: Configured) -> HTMLResponse:
+    """The page on which a test is planned."""
     return page(request, "new.html", limit_mb=configured.upload_limit // MEGABYTE)
 
 
 @router.get("/runs")
 def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilter, Query()]) -> HTMLResponse:
+    """The page of all runs, by filter and order."""
     found: list[Run] = []
     total, problem = 0, None
     try:
@@ -57,11 +60,13 @@ def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilt
 
 @router.get("/runs/{run_id}")
 def run(request: Request, run_id: str, runs: Runs) -> HTMLResponse:
+    """The page of a run."""
     return page(request, "run.html", run=runs.get(run_id))
 
 
 @router.get("/{path:page}")
 def missing(request: Request, path: str) -> HTMLResponse:
+    """The page for an address that has none."""
     return error_page(request, 404, "Not found", f"There is no page /{path}.")
 
 

@@ -56,4 +56,5 @@ class PageRoute(APIRoute):
 
 
 def error_page(request: Request, status: int, title: str, detail: str) -> HTMLResponse:
+    """A page that says what went wrong."""
     return page(request, "error.html", status, title=title, detail=detail)

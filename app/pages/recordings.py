@@ -26,6 +26,7 @@ def listed(
     recordings: Recordings,
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
+    """The page of recordings, where files are imported."""
     found, total = recordings.listed(LIMIT, LIMIT * (number - 1))
     part: dict[str, Any] = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
     offered: dict[str, Any] = {"formats": FORMATS, "limit_mb": configured.measurements_limit // MEGABYTE}
@@ -34,4 +35,5 @@ def listed(
 
 @router.get("/recordings/{recording_id}")
 def one(request: Request, recording_id: str, recordings: Recordings) -> HTMLResponse:
+    """The page of a recording."""
     return page(request, "recording.html", recording=recordings.get(recording_id))

@@ -77,6 +77,7 @@ templates.env.filters |= {"fixed": fixed, "brief": brief, "ago": ago, "clock": c
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:
+    """A template as a response, with the headers that every page has."""
     return templates.TemplateResponse(request, template, context, status_code=status, headers=HEADERS)
 
 

@@ -18,6 +18,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/stability")
 def first() -> RedirectResponse:
+    """Redirect to the stability of the first template."""
     return RedirectResponse(f"/stability/{FIRST}")
 
 

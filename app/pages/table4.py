@@ -26,6 +26,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/table4")
 def whole(request: Request, table4: Table4) -> HTMLResponse:
+    """The page of Table IV."""
     return page(request, "table4.html", record=engine.BUNDLED, **_now(table4))
 
 

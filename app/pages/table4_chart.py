@@ -17,6 +17,8 @@ TICKS = (1 / 3, 1 / 1.5, 1.0, 1.5, 3.0)
 
 @dataclass(frozen=True, slots=True)
 class Mark:
+    """A mark in the chart of Table IV: place, shape, station and hover text."""
+
     x: float
     y: float
     shape: str

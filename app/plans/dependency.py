@@ -11,6 +11,7 @@ from app.plans.service import PlanService
 
 
 def plan_service(motions: Library) -> PlanService:
+    """The service of plans."""
     return PlanService(motions)
 
 

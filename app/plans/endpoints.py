@@ -15,11 +15,13 @@ router = APIRouter(prefix="/api/v1", tags=["plans"])
 
 @router.get("/templates")
 def templates(plans: Plans) -> dict[str, Any]:
+    """The templates by name, title and group."""
     return {"templates": plans.templates()}
 
 
 @router.get("/templates/{name}")
 def template(name: str, plans: Plans) -> dict[str, Any]:
+    """The plan of a template."""
     return plans.template(name)
 
 

@@ -20,6 +20,8 @@ LARGEST_YAML = 1_000_000  # bytes; YAML is read at some 50 kB/s
 
 
 class PlanService:
+    """Rules of plans: check, preview and templates. No HTTP."""
+
     def __init__(self, motions: MotionLibrary):
         self.motions = motions
 

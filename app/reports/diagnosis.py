@@ -18,4 +18,5 @@ def shown(verdict: Verdict, pictures: Pictures) -> dict[str, Any]:
 
 
 def report_html(title: str, facts: Facts, verdict: Verdict, pictures: Pictures) -> str:
+    """The report of a diagnosis: one HTML file that stands alone."""
     return page.render("diagnosis_report.html", title=title, facts=facts, **shown(verdict, pictures))

@@ -28,6 +28,8 @@ COLOURS = {"measured": MEASURED, "before": BEFORE, "after": AFTER, "simulated": 
 
 
 class Section(NamedTuple):
+    """A heading of a report and the plots under it."""
+
     title: str
     panels: list[Panel]
 
@@ -151,6 +153,7 @@ def _blocks(detail: Detail, models: Models, spans: list[dict[str, Any]]) -> Pane
 
 
 def trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, Any]:
+    """A line of a plot; `name` gives its label and colour."""
     known = {"name": NAMES[name], "x": packed(x), "y": packed(y), "colour": COLOURS[name], "dash": dash}
     return {**known, "width": 2.4} if name == "measured" else known
 

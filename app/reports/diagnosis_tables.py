@@ -43,6 +43,7 @@ class Tables:
 
 
 def tables(verdict: Verdict) -> Tables:
+    """The tables and sentences of a verdict."""
     told = [one.sentence for one in verdict.effects]
     sentence, *further = told or [VERDICTS[verdict.verdict]]
     return Tables(

@@ -18,6 +18,8 @@ _DAMPING = 0.05
 
 
 class Section(NamedTuple):
+    """The part of a report on one excitation: facts and plots."""
+
     title: str
     facts: list[tuple[str, str]]
     panels: list[Panel]

@@ -13,6 +13,7 @@ _FRONTEND = Path(__file__).parents[2] / "frontend"
 
 
 def render(template: str, **context: Any) -> str:
+    """A report by its template, with Plotly in it."""
     text: str = _environment().get_template(template).render(plotly=plotly(), **context)
     return text
 

@@ -15,6 +15,8 @@ _LISTED = 12  # values of a list that are written out
 
 @dataclass(frozen=True, slots=True)
 class Row:
+    """A number of the plan with its label and unit."""
+
     label: str
     value: str
     unit: str = ""

@@ -11,6 +11,7 @@ from app.runs.service import RunService
 
 
 def run_service(request: Request, session: OneSession, motions: Library) -> RunService:
+    """The service of runs in the session of the request."""
     return RunService(session, motions, request.app.state.queue)
 
 

@@ -79,6 +79,7 @@ def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
 
 @router.get("/runs/{run_id}")
 def one(run_id: str, runs: Runs) -> RunDetail:
+    """A run with its plan and its measures."""
     return RunDetail.of(runs.get(run_id))
 
 
@@ -90,6 +91,7 @@ def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) 
 
 @router.get("/runs/{run_id}/recording.h5")
 def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileResponse:
+    """The recording of a run as HDF5."""
     run = runs.get(run_id)
     headers = {"ETag": f'"{run.recording_sha256}"'}
     return FileResponse(
@@ -99,6 +101,7 @@ def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileRespo
 
 @router.get("/runs/{run_id}/recording.csv")
 def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingResponse:
+    """The recording of a run as CSV."""
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}.csv"'}
     return StreamingResponse(csv_parts(recording_path(run, configured)), media_type="text/csv", headers=headers)
@@ -106,11 +109,13 @@ def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingR
 
 @router.get("/runs/{run_id}/report.html")
 def report_html(run_id: str, runs: Runs, configured: Configured) -> HTMLResponse:
+    """The report of a run: one HTML file that stands alone."""
     return HTMLResponse(report(runs.get(run_id), configured))
 
 
 @router.get("/runs/{run_id}/plan.yaml")
 def plan_text(run_id: str, runs: Runs) -> PlainTextResponse:
+    """The plan of a run as YAML."""
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}.yaml"'}
     return PlainTextResponse(plan_yaml.write(runs.plan_of(run)), media_type="application/yaml", headers=headers)
@@ -124,10 +129,12 @@ def abort(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> dict[str, A
 
 @router.get("/queue")
 def queue(runs: Runs) -> QueueOut:
+    """The queue: held or not, its length, the running tests, and when a worker was last seen."""
     return runs.queue_state()
 
 
 @router.post("/queue/release")
 def release(runs: Runs) -> QueueOut:
+    """Release the queue after an abort."""
     runs.release()
     return runs.queue_state()

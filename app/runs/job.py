@@ -15,6 +15,8 @@ from app.runs.order import Outcome, RunOrder
 
 
 class RunKind(Kind[Run, RunOrder, Outcome]):
+    """Tests as a kind of job: watched live, kept when cancelled, and waiting while the queue is held."""
+
     name, noun, table = "run", "test", Run
     queue, workflow = "tests", "run-test"
     process = "app.worker.engine"

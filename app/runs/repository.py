@@ -49,6 +49,8 @@ class Page:
 
 
 class RunRepository(JobRepository[Run]):
+    """SQL of runs. Never commits."""
+
     def __init__(self, session: Session):
         super().__init__(session, Run)
 

@@ -51,6 +51,8 @@ class StationOut(BaseModel):
 
 
 class RecordingOut(BaseModel):
+    """Checksum and size (bytes) of a recording."""
+
     sha256: str
     size: int
 
@@ -101,11 +103,15 @@ class RunDetail(RunOut):
 
 
 class RunList(BaseModel):
+    """A page of runs and their number in all."""
+
     runs: list[RunOut]
     total: int
 
 
 class Submitted(BaseModel):
+    """The runs that were queued."""
+
     runs: list[RunOut]
 
 

@@ -26,6 +26,8 @@ from rths_engine.planning.reading import read_plan
 
 
 class RunService:
+    """Rules of runs: submit, list, cancel and abort. No SQL, no HTTP."""
+
     def __init__(self, session: Session, motions: MotionLibrary, queue: Queue | None = None):
         self.runs = RunRepository(session)
         self.jobs: JobService[Run, Outcome] = JobService(session, RUNS, queue)

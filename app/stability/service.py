@@ -11,6 +11,8 @@ POINTS = 31
 
 
 class StabilityService:
+    """Predicts the stability of a plan's closed loop."""
+
     def predict(self, data: Any) -> dict[str, Any]:
         """Radius, verdict, modes, delay margins and the map (null for fewer than two stations). Raises PlanError."""
         plan = read_plan(data)

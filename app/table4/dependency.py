@@ -11,6 +11,7 @@ from app.table4.service import Table4Service
 
 
 def table4_service(runs: Runs) -> Table4Service:
+    """The service of Table IV."""
     return Table4Service(runs)
 
 

@@ -17,6 +17,8 @@ SHOWN = {State.COMPLETED, State.TRIPPED}
 
 
 class Table4Service:
+    """Queues the simulations of Table IV and compares them with the paper."""
+
     def __init__(self, runs: RunService):
         self.runs = runs
 

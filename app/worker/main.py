@@ -35,6 +35,7 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # engines sh
 
 
 def main(arguments: list[str] | None = None) -> None:
+    """`python -m app.worker`: execute queued jobs until the process ends."""
     parser = argparse.ArgumentParser(prog="rths worker", description="Execute queued tests and diagnoses.")
     parser.add_argument("--data", type=Path, help="data folder (RTHS_DATA)")
     parser.add_argument("--database-url", help="database (RTHS_DATABASE_URL)")

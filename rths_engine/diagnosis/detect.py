@@ -105,6 +105,7 @@ def p_planned(fitted: Fitted) -> float:
 
 
 def fitted_residual(fitted: Fitted) -> Array:
+    """The misfit less what the fitted numbers can absorb."""
     absorbed = absorber(fitted.jacobian)
     left: Array = fitted.misfit - absorbed @ (absorbed.T @ fitted.misfit)
     return left

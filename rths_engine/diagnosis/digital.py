@@ -18,8 +18,11 @@ ROUNDING = 1e-5  # of the largest value: files of text keep five digits and more
 
 @dataclass(frozen=True)
 class Replayed:
-    """A computed part, replayed: its largest error over the largest value, and its RMS error over the RMS about the mean; both
-    infinite where the replay runs away."""
+    """A computed part, replayed, and its errors.
+
+    `error` is the largest error over the largest value; `nrmse` is the RMS error over the RMS about the mean. Both are
+    infinite where the replay runs away.
+    """
 
     component: str
     error: float

@@ -57,6 +57,7 @@ def numbers(component: Component, parts: Sequence[Part]) -> list[Number]:
 
 
 def vector(parts: Sequence[Part], free: Sequence[Number]) -> Array:
+    """The free numbers of `parts` in the coordinates of the fit."""
     return np.array([number.to_z(getattr(parts[number.owner], number.field)) for number in free])
 
 

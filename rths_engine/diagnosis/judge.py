@@ -72,8 +72,10 @@ class Judged:
         )
 
     def nrmse(self, parts: Sequence[Part], fitted: bool | None) -> float:
-        """RMS error over the RMS about the mean of what was measured: fitted, held out, or all (None). Channels count alike.
-        Infinity where the simulation runs away."""
+        """RMS error over the RMS about the mean of the measured channels: fitted, held out, or all (None).
+
+        Channels count alike. Infinite where the simulation runs away.
+        """
         rows: list[tuple[Array, Array]] = []
         if fitted is False and self.heldout:
             for other in self.heldout:
@@ -108,6 +110,7 @@ def judged(
     random: np.random.Generator,
     told: Callable[[float], None],
 ) -> Judged:
+    """Fit one component, detect and select what it leaves out, and judge it."""
     used = inner if heldout else fitted_blocks
     masks = tuple(used(one.measured.shape[1], one.step) for one in data)
     noises = tuple(Noise.white(1.0) for _ in data[0].measured)

@@ -18,8 +18,10 @@ BEYOND = 3.0  # standard deviations of the noise
 
 @dataclass(frozen=True)
 class Place:
-    """Windows (s), bands (Hz), a word on the state, and the level of the residual over time in standard deviations of noise,
-    infinite where the simulation runs away."""
+    """Where a residual stands above its noise: windows (s), bands (Hz) and a word on the state.
+
+    `level` is the residual over time in standard deviations of the noise, infinite where the simulation runs away.
+    """
 
     times: list[tuple[float, float]]
     bands: list[tuple[float, float]]
@@ -29,6 +31,7 @@ class Place:
 
 
 def place(one: Judged) -> Place:
+    """When and at which frequencies the residual of a component stands above its noise."""
     data, residual = one.recordings.data[0], one.recordings.residuals(one.selection.baseline.parts)[0]
     noise = np.array([max(model.deviation, 1e-300) for model in one.recordings.noises])
     scaled = residual / noise[:, None]

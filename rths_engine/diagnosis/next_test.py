@@ -32,8 +32,10 @@ class NextTest:
 def next_test(
     recordings: Recordings, one: Sequence[Part], other: Sequence[Part], stroke: float, speed: float
 ) -> NextTest | None:
-    """Of sines and ramps within the stroke (m) and speed (m/s) of the rig; None where the component has no drive
-    or none of them separates the two."""
+    """The test that best separates two models, among sines and ramps within the rig's stroke (m) and speed (m/s).
+
+    None where the component has no drive, or where none of these tests separates the models.
+    """
     data = recordings.data[0]
     if not isinstance(data, ActuatorData | SpecimenData):
         return None

@@ -27,6 +27,7 @@ CLEAR = 4.0  # standard deviations: a term so large is no noise
 
 
 def first_noise(recordings: Recordings) -> Recordings:
+    """The recordings with white noise of a share of each channel's spread, to start a fit."""
     spread = np.std(np.concatenate([one.measured for one in recordings.data], axis=1), axis=1)
     return replace(recordings, noises=tuple(Noise.white(max(FIRST_GUESS * float(one), 1e-300)) for one in spread))
 

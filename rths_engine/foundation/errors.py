@@ -40,8 +40,10 @@ class RthsError(Exception):
 
 
 def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:
-    """The error with its inputs under other names: with `heldout.0` -> `--holdout other.h5`, what is wrong at `heldout.0` and
-    below is told of `--holdout other.h5`. The command line and the service each have their own names for what they were given.
+    """The error with its inputs under other names.
+
+    With `heldout.0` -> `--holdout other.h5`, an issue at `heldout.0` and below is reported at `--holdout other.h5`. The
+    command line and the service each have their own names for their inputs.
     """
 
     def name(where: str) -> str:

@@ -86,6 +86,7 @@ class Walk:
 
 
 def is_named_tuple(value: Any) -> TypeGuard[type]:
+    """Whether the value is a class of named tuples."""
     return isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields")
 
 

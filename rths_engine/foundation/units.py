@@ -122,10 +122,12 @@ def factor(unit: str) -> float:
 
 
 def to_si(value: float, unit: str) -> float:
+    """A value in `unit`, converted to SI."""
     return value * factor(unit)
 
 
 def from_si(value: float, unit: str) -> float:
+    """A value in SI, converted to `unit`."""
     return value / factor(unit)
 
 

@@ -34,6 +34,7 @@ def _too_long(plan: Plan) -> Iterator[Issue]:
 
 
 def too_long(where: str, shape: Any) -> Iterator[Issue]:
+    """The issue of a shape that lasts longer than a test may."""
     if not shape.duration <= LONGEST:
         problem = f"lasts {shape.duration:.4g} s; {LONGEST:g} s is the most"
         yield Issue(where, problem, shape.kind, "take fewer cycles or a higher frequency")

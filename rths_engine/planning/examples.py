@@ -29,6 +29,7 @@ SENSORS = Noise(displacement=10e-6, force=200.0)
 
 
 def linear_damper(name: str) -> Plan:
+    """A one-storey building with a linear viscous damper."""
     return Plan(
         name="Linear viscous damper in a one-storey building",
         notes="A first test: one station, one linear specimen, inverse compensation that matches the actuator.",
@@ -50,6 +51,7 @@ def linear_damper(name: str) -> Plan:
 
 
 def specimen_mr_damper(name: str) -> Plan:
+    """An MR damper alone, driven by a prescribed displacement."""
     damper = Station(
         name="MR damper",
         compensator=NoCompensation(),
@@ -71,6 +73,7 @@ def specimen_mr_damper(name: str) -> Plan:
 
 
 def actuator_sweep(name: str) -> Plan:
+    """A servo-hydraulic actuator alone, under a sweep."""
     actuator = Station(
         name="Servo-hydraulic actuator",
         compensator=NoCompensation(),
@@ -91,6 +94,7 @@ def actuator_sweep(name: str) -> Plan:
 
 
 def structure_earthquake(name: str) -> Plan:
+    """A moment frame alone under an earthquake."""
     sections = ((4.57, "W24x55"), (3.96, "W18x40"))
     storeys = tuple(FrameStorey(height=h, mass=662.9e3, column="W14x120", beam=beam) for h, beam in sections)
     return Plan(
@@ -105,6 +109,7 @@ def structure_earthquake(name: str) -> Plan:
 
 
 def structure_free_vibration(name: str) -> Plan:
+    """A three-storey building that is pulled and released."""
     storeys = tuple(Storey(mass=5.0e4, stiffness=k, height=3.2) for k in (4.0e7, 3.2e7, 2.4e7))
     return Plan(
         name="Pull and release of a three-storey building",
@@ -119,6 +124,7 @@ def structure_free_vibration(name: str) -> Plan:
 
 
 def structure_matrices(name: str) -> Plan:
+    """A structure given by its matrices, with a shaker on its roof."""
     mass = ((5.0e4, 0.0, 0.0), (0.0, 5.0e4, 0.0), (0.0, 0.0, 4.0e4))
     stiffness = ((7.2e7, -3.2e7, 0.0), (-3.2e7, 5.6e7, -2.4e7), (0.0, -2.4e7, 2.4e7))
     damping = ((1.3e5, -4.0e4, 0.0), (-4.0e4, 1.1e5, -3.0e4), (0.0, -3.0e4, 6.0e4))

@@ -25,6 +25,7 @@ class Effects(NamedTuple):
 
 
 def effects(planned: Sequence[Effect], dt: float) -> Effects:
+    """Left-out effects as the compiled loop takes them: hooks and codes, parameters, states."""
     built = [effect.build(dt) for effect in planned]
     codes = [(effect.hook, _code(effect)) for effect in planned]
     return Effects(

@@ -21,6 +21,7 @@ class Rows(NamedTuple):
 
 
 def rows(matrix: Array) -> Rows:
+    """A matrix by its nonzero numbers, row by row."""
     sparse = csr_array(matrix)
     return Rows(sparse.indptr.astype(np.uint64), sparse.indices.astype(np.uint64), sparse.data)
 

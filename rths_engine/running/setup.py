@@ -73,6 +73,7 @@ def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
 
 
 def left_out(plan: Plan, built: Assembled) -> loop.LeftOut | None:
+    """The plan's left-out effects as the loop takes them; None where the plan has none."""
     against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
     if not against and not any(station.physics for station in plan.stations):
         return None

@@ -101,6 +101,7 @@ class ClosedLoop:
 
 
 def stable(radius: float) -> bool:
+    """Whether a spectral radius is at most 1, to rounding."""
     return radius <= 1.0 + ROUNDING
 
 

@@ -51,6 +51,7 @@ def characteristic(alpha: tuple[float, float], ratio: float = DAMPING_RATIO) -> 
 
 
 def radius(alpha: tuple[float, float], ratio: float = DAMPING_RATIO) -> float:
+    """Spectral radius of the published closed loop with actuator constants `alpha`."""
     return float(np.max(np.abs(Polynomial(characteristic(alpha, ratio)).roots())))
 
 

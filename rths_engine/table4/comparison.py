@@ -52,6 +52,7 @@ class Comparison:
 
 
 def comparison(rows: Iterable[Row]) -> Comparison:
+    """Compare our rows with the paper's: outcomes, signs, and factors between the measures."""
     outcomes_wrong, signs_right, signs_wrong, factors = [], 0, [], []
     rows = list(rows)
     for row in rows:
@@ -71,6 +72,7 @@ def comparison(rows: Iterable[Row]) -> Comparison:
 
 
 def stable(paper: PaperRow) -> bool:
+    """Whether the paper's simulation was stable: only then it gives measures."""
     return paper.mte_mm is not None
 
 

@@ -25,6 +25,7 @@ def run_all(plans: Mapping[int, Plan], motions: MotionLibrary) -> dict[int, Resu
 
 
 def rows(results: Mapping[int, Result]) -> list[Row]:
+    """The rows of Table IV from the results of its simulations."""
     return [
         Row(simulation, result.status, result.trip.time_s if result.trip else None, result.summary()["stations"])
         for simulation, result in results.items()

@@ -18,6 +18,7 @@ _LISTED = re.compile(rf"^\s*(\d+)\s+({NUMBER})\s+NPTS\s*,\s*DT", re.IGNORECASE)
 
 
 def looks_like(lines: list[str]) -> bool:
+    """Whether the lines are a PEER AT2 file: its header holds NPTS and DT."""
     return any("NPTS" in line.upper() and "DT" in line.upper() for line in lines[:_HEADER_LINES])
 
 

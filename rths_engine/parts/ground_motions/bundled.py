@@ -15,6 +15,7 @@ _DATA = files("rths_engine.parts.ground_motions") / "data"
 
 @cache
 def names() -> tuple[str, ...]:
+    """Names of the bundled records, sorted."""
     return tuple(sorted(_index()))
 
 

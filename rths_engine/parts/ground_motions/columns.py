@@ -121,6 +121,7 @@ def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
 
 
 def header_step(header: list[str]) -> float | None:
+    """The time step (s) that a header gives, as a step or as a rate; None where it gives neither."""
     for line in header:
         if found := _STEP.search(line):
             milli = "ms" in ((found[1] or "").lower(), (found[3] or "").lower())

@@ -39,6 +39,7 @@ class _Block:
 
 
 def looks_like(lines: list[str]) -> bool:
+    """Whether the lines are a COSMOS or CSMIP V2 file."""
     return any(_CSMIP.match(line) or _COSMOS.match(line) for line in lines)
 
 

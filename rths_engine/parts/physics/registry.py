@@ -14,6 +14,7 @@ from rths_engine.parts.physics.search import Search
 
 
 def laws(searches: Sequence[Search[Any]]) -> tuple[type[Effect], ...]:
+    """The laws of the effects that the searches look for, in their order."""
     return tuple(search.effect for search in searches)
 
 

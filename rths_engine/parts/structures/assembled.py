@@ -37,4 +37,5 @@ class Assembled(NamedTuple):
 
 
 def no_members() -> Members:
+    """No members, for a structure that is not a frame."""
     return Members(np.zeros((0, 6), dtype=np.int64), np.zeros((0, 3, 6)), np.zeros((0, 5)))

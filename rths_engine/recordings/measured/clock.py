@@ -36,6 +36,7 @@ class Clock:
 
 
 def of_step(step: float, count: int, start: float = 0.0) -> Clock:
+    """The clock of `count` samples at equal steps (s)."""
     return Clock(start + np.arange(count) * step, step, True)
 
 

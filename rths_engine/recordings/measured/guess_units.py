@@ -32,6 +32,8 @@ _MAGNITUDES: dict[str, tuple[tuple[float, str], ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Unit:
+    """A unit guessed for a column, and why."""
+
     name: str
     why: str
     by_magnitude: bool = False
@@ -58,6 +60,7 @@ def by_partner(x: Array, x_unit: str, v: Array, dt: float) -> Unit | None:
 
 
 def by_magnitude(kind: str, values: Array) -> Unit:
+    """The unit that the largest value suggests, where nothing else gives one."""
     peak = float(np.nanmax(np.abs(values[np.isfinite(values)]), initial=0.0))
     unit = next(name for most, name in _MAGNITUDES.get(kind, ((np.inf, "1"),)) if peak <= most)
     if kind == "time":

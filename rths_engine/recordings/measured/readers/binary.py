@@ -7,10 +7,12 @@ from rths_engine.recordings.measured.table import Table
 
 
 def looks_like(raw: bytes, filename: str) -> bool:
+    """Whether the file is Parquet, HDF5 or MATLAB."""
     return parquet.looks_like(raw) or hdf5.looks_like(raw) or matlab.looks_like(raw, filename)
 
 
 def read(raw: bytes) -> Table:
+    """Read a Parquet, HDF5 or MATLAB file."""
     if parquet.looks_like(raw):
         return parquet.read(raw)
     return hdf5.read(raw) if hdf5.looks_like(raw) else matlab.read(raw)

@@ -8,6 +8,7 @@ from rths_engine.recordings.measured.table import Column, Table
 
 
 def looks_like(lines: list[str]) -> bool:
+    """Whether the lines are a ground-motion file of COSMOS or PEER."""
     return cosmos.looks_like(lines) or at2.looks_like(lines)
 
 

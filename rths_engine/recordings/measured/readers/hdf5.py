@@ -21,6 +21,7 @@ _RUN = "rths-recording/1"
 
 
 def looks_like(raw: bytes) -> bool:
+    """Whether the bytes begin an HDF5 file; a user block may stand before it."""
     return any(raw[at : at + 8] == _SIGNATURE for at in (0, 512, 1024, 2048))
 
 

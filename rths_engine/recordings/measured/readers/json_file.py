@@ -11,10 +11,12 @@ from rths_engine.recordings.measured.table import Table
 
 
 def looks_like(raw: bytes) -> bool:
+    """Whether the bytes begin a JSON object or list."""
     return raw.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] in (b"{", b"[")
 
 
 def read(raw: bytes) -> Table:
+    """Read a JSON file. Raises MeasuredError for one that is not valid JSON."""
     try:
         data: Any = json.loads(raw.decode("utf-8-sig"))
     except (UnicodeDecodeError, ValueError, RecursionError) as error:

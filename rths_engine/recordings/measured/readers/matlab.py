@@ -16,6 +16,7 @@ _HEAD = b"MATLAB 5.0 MAT-file"
 
 
 def looks_like(raw: bytes, filename: str) -> bool:
+    """Whether the file is MATLAB's, by its head or its name."""
     return raw.startswith(_HEAD) or filename.lower().endswith(".mat")
 
 

@@ -16,6 +16,7 @@ BATCH = 65_536  # rows
 
 
 def looks_like(raw: bytes) -> bool:
+    """Whether the bytes are a Parquet file."""
     return raw.startswith(b"PAR1") or raw.endswith(b"PAR1")
 
 
