@@ -9,7 +9,7 @@ from rths_engine.results.channels import Channel
 
 def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...]) -> dict[str, Any]:
     """What frames mean: buckets of `bucket` substeps of `dt` (s), `buckets` in the whole run, and the channels in order."""
-    shown = [{"key": c.key, "label": c.label, "unit": c.shown_label, "group": c.group} for c in channels]
+    shown = [{"key": c.key, "role": c.role, "number": c.number, "label": c.label, "unit": c.shown_label} for c in channels]
     return {"type": "schema", "attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
 
 

@@ -54,9 +54,9 @@ def _drive(recording: Recording) -> Section:
 
 def _forces(recording: Recording, figures: Figures) -> Section:
     panels = []
-    for number, force in enumerate(recording.plan.forces, start=1):
-        title = f"Force on floor {force.floor}"
-        panels.append(figures.against_time(title, "Force", [(f"force{number}", title)], wide=True))
+    for channel in recording.channels:
+        if channel.role == "force_ext":
+            panels.append(figures.against_time(channel.label, "Force", [(channel.key, channel.label)], wide=True))
     return Section("Forces", [], panels)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.reports.packed import Samples, packed
 from rths_engine.planning.plan import Station
+from rths_engine.results.channels import CHANNELS, key
 from rths_engine.results.decimate import extremes
 
 POINTS = 130_000  # of all traces together: 2 x 4 bytes a point in base64 make 1.4 MB
@@ -36,7 +37,7 @@ class Figures:
         self.column = {channel.key: index for index, channel in enumerate(recording.channels)}
         self.channels = recording.channels
         self.signals: Samples = recording.signals
-        stations = {channel.group for channel in recording.channels if channel.group.startswith("s")}
+        stations = [channel for channel in recording.channels if channel.role == "x_cmd"]
         traces = 12 * len(stations) + 8
         self.buckets = max(60, min(MOST_BUCKETS, POINTS // (2 * traces)))
 
@@ -71,9 +72,9 @@ class Figures:
         spec = {"traces": traces, "x": "Time, s", "y": _labelled(quantity, unit), "from_zero": "" if part else "x"}
         return Panel(title, _sentence(title, of, time, signals, unit), spec, wide)
 
-    def work(self, title: str, group: str, of: str) -> Panel:
+    def work(self, title: str, number: int, of: str) -> Panel:
         """Energy that a station's specimen took up, integral of f dx (kN m), against time."""
-        x, force = self.shown(f"{group}.x_meas") * 1e-3, self.shown(f"{group}.f_meas")
+        x, force = self.shown(key("x_meas", number)) * 1e-3, self.shown(key("f_meas", number))
         energy = np.cumsum(0.5 * (force + np.append(0.0, force[:-1])) * np.diff(x, prepend=0.0))
         kept = extremes(energy[:, None], self.buckets)
         trace = {"name": of, "x": packed(self.time[kept]), "y": packed(energy[kept]), "colour": 0}
@@ -101,27 +102,29 @@ class Figures:
         return Panel(title, alt, spec, large, large)
 
 
-def station_panels(figures: Figures, group: str, station: Station, test: str) -> list[Panel]:
+def station_panels(figures: Figures, number: int, station: Station, test: str) -> list[Panel]:
     """What is looked at in a kind of test; of a hybrid one what Figures 8 and 9 of the paper show of an actuator."""
     name = station.name
 
-    def alone(title: str, key: str, quantity: str = "") -> Panel:
-        return figures.against_time(title, quantity or title, [(f"{group}.{key}", title)], name)
+    def alone(role: str) -> Panel:
+        title = CHANNELS[role].label
+        return figures.against_time(title, title, [(key(role, number), title)], name)
 
-    pair = [(f"{group}.x_cmd", "Command"), (f"{group}.x_meas", "Measured")]
+    def axis(role: str) -> tuple[str, str]:
+        return key(role, number), CHANNELS[role].label
+
+    pair = [(key("x_cmd", number), "Command"), (key("x_meas", number), "Measured")]
     moved = figures.against_time("Command and measured displacement", "Displacement", pair, name, wide=True)
-    detail = figures.against_time("Detail around the largest command", "Displacement", pair, name, _detail(figures, group))
-    command, measured = (f"{group}.x_cmd", "Command displacement"), (f"{group}.x_meas", "Measured displacement")
-    force = (f"{group}.f_meas", "Damper force")
-    loop = figures.against("Damper force against displacement", measured, force, name, large=test == "specimen")
-    subspace = figures.against("Synchronisation subspace", command, measured, name, equal=True)
-    error, indicator = alone("Tracking error", "error"), alone("Tracking indicator", "ti")
-    adapted = [alone("Adaptation Δα of the compensator", "d_alpha", "Δα")] if station.compensator.kind != "none" else []
+    detail = figures.against_time("Detail around the largest command", "Displacement", pair, name, _detail(figures, number))
+    loop = figures.against("Force against displacement", axis("x_meas"), axis("f_meas"), name, large=test == "specimen")
+    subspace = figures.against("Synchronisation subspace", axis("x_cmd"), axis("x_meas"), name, equal=True)
+    error, indicator, force = alone("error"), alone("ti"), alone("f_meas")
+    adapted = [alone("d_alpha")] if station.compensator.kind != "none" else []
     if test == "specimen":
-        return [loop, moved, alone("Measured force", "f_meas"), figures.work("Energy dissipated", group, name), error]
+        return [loop, moved, force, figures.work("Energy dissipated", number, name), error]
     if test == "actuator":
-        return [moved, detail, subspace, error, indicator, alone("Measured force", "f_meas"), *adapted]
-    return [moved, detail, loop, subspace, error, indicator, alone("Energy error", "energy_error"), *adapted]
+        return [moved, detail, subspace, error, indicator, force, *adapted]
+    return [moved, detail, loop, subspace, error, indicator, alone("energy_error"), *adapted]
 
 
 def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, damping: float) -> Panel:
@@ -135,8 +138,8 @@ def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, d
     return Panel(title, alt, spec)
 
 
-def _detail(figures: Figures, group: str) -> slice:
-    command, time = np.nan_to_num(figures.shown(f"{group}.x_cmd")), figures.time
+def _detail(figures: Figures, number: int) -> slice:
+    command, time = np.nan_to_num(figures.shown(key("x_cmd", number))), figures.time
     if not len(time):
         return slice(None)
     centre = time[int(np.argmax(np.abs(command)))]

@@ -40,7 +40,7 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
     """The report of `run` (a RunOut as JSON) with its `recording`; `motions` finds the stored records besides the bundled."""
     figures = Figures(recording)
     stations = [
-        (number, station.name, station_panels(figures, f"s{number}", station, recording.plan.test))
+        (number, station.name, station_panels(figures, number, station, recording.plan.test))
         for number, station in enumerate(recording.plan.stations, start=1)
     ]
     return page.render(
@@ -109,8 +109,7 @@ def _results(recording: Recording) -> list[tuple[str, dict[str, float], Any]]:
 
 
 def _floors(recording: Recording, figures: Figures) -> list[Panel]:
-    keys = [channel.key for channel in recording.channels if channel.group == "floors"]
-    named = [(key, f"Floor {number}") for number, key in enumerate(keys, start=1)]
+    named = [(one.key, f"Floor {one.number}") for one in recording.channels if one.role == "x_floor"]
     return [
         figures.against_time("Floor displacements relative to the ground", "Displacement", named[first : first + 4], wide=True)
         for first in range(0, len(named), 4)
@@ -122,7 +121,7 @@ def _decay(recording: Recording) -> list[tuple[str, str]]:
     plan = recording.plan
     if plan.start.at_rest or plan.forces or plan.motion.kind != "none":
         return []
-    floors = [channel for channel in recording.channels if channel.group == "floors"]
+    floors = [channel for channel in recording.channels if channel.role == "x_floor"]
     found = free_decay(recording.signal(floors[-1].key), recording.dt)
     if found is None:
         return [("Free decay", "too few cycles for period and damping")]

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import io
-import json
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import h5py
 import numpy as np
 
 from app.config import Settings
 from app.models import Run
 from app.problems import Conflict
 from app.runs.schemas import RunDetail
+from rths_engine.foundation.arrays import Array
 from rths_engine.parts.ground_motions import MotionLibrary
-from rths_engine.recordings.run_file import load
+from rths_engine.recordings.run_file import load, rows
+from rths_engine.results.channels import Channel
 
 ROWS = 4096
 
@@ -34,31 +33,20 @@ def recording_path(run: Run, settings: Settings) -> Path:
 def csv_parts(path: Path) -> Iterator[bytes]:
     """The recording as CSV, read part by part: time and all channels in shown units, the units in the header.
 
-    Raises Conflict for a damaged file, before the first part.
+    Raises RecordingError for a damaged file, before the first part.
     """
-    try:
-        file = h5py.File(path, "r")
-        channels = json.loads(file.attrs["channels"])
-        dt, signals = float(file.attrs["dt"]), file["signals"]
-    except (OSError, KeyError, ValueError) as error:
-        raise Conflict(f"The recording {path.name} is damaged: {error}") from None
-    return _parts(file, channels, dt, signals)
+    return _parts(*rows(path, ROWS))
 
 
-def _parts(file: h5py.File, channels: list[dict[str, Any]], dt: float, signals: Any) -> Iterator[bytes]:
-    with file:
-        yield (",".join(["t (s)", *(_heading(channel) for channel in channels)]) + "\r\n").encode()
-        factors = np.array([channel["factor"] for channel in channels])
-        for first in range(0, len(signals), ROWS):
-            values = signals[first : first + ROWS] / factors
-            time = np.arange(first + 1, first + 1 + len(values)) * dt
-            text = io.BytesIO()
-            np.savetxt(text, np.column_stack([time, values]), fmt="%.9g", delimiter=",", newline="\r\n")
-            yield text.getvalue()
-
-
-def _heading(channel: dict[str, Any]) -> str:
-    return channel["key"] if channel["shown"] == "1" else f"{channel['key']} ({channel['shown']})"
+def _parts(channels: tuple[Channel, ...], dt: float, signals: Iterator[Array]) -> Iterator[bytes]:
+    yield (",".join(["t (s)", *(channel.heading for channel in channels)]) + "\r\n").encode()
+    factors, first = np.array([channel.factor for channel in channels]), 0
+    for part in signals:
+        time = np.arange(first + 1, first + 1 + len(part)) * dt
+        first += len(part)
+        text = io.BytesIO()
+        np.savetxt(text, np.column_stack([time, part / factors]), fmt="%.9g", delimiter=",", newline="\r\n")
+        yield text.getvalue()
 
 
 def report(run: Run, settings: Settings) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.structures.assembled import Assembled
@@ -18,3 +19,16 @@ def loads(plan: Plan, built: Assembled) -> Array:
     for number, force in enumerate(plan.forces, start=1):
         found[number, built.floors[force.floor - 1]] = 1.0
     return found
+
+
+def pushed(plan: Plan) -> tuple[int, ...]:
+    """Floors on which forces act, in the order of the plan's forces."""
+    return tuple(dict.fromkeys(force.floor for force in plan.forces))
+
+
+def columns(plan: Plan) -> NDArray[np.int64]:
+    """(inputs): the recorded column to which each input is added: the ground's, then one for each floor of `pushed`."""
+    if plan.driven:
+        return np.zeros(0, dtype=np.int64)
+    floors = pushed(plan)
+    return np.array([0, *(1 + floors.index(force.floor) for force in plan.forces)], dtype=np.int64)

@@ -18,7 +18,7 @@ def load(path: Path) -> Measured:
     schema = _schema(path)
     if schema == store.SCHEMA:
         return store.load(path)
-    if schema == run_file.SCHEMA:
+    if schema in run_file.SCHEMAS:
         return of_run(run_file.load(path), path.name)
     problem = f"{path.name} is not a recording: its schema is {schema!r}, not {store.SCHEMA} or {run_file.SCHEMA}"
     raise RecordingError(Issue("", problem, fix="import the measurements, or run the plan again"))

@@ -1,6 +1,7 @@
-"""The recording: one HDF5 file a run, complete or absent.
+"""The recording, `rths-recording/2`: one HDF5 file a run, complete or absent.
 
-`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; `/history` (steps + 1, 2, floors) with
+`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel, with the attributes `keys` and `units`
+of the columns; `/history` (steps + 1, 2, floors) with
 x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
 `total` (substeps of the whole test), `code_version`, `digest`.
 """
@@ -8,6 +9,8 @@ x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summa
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,10 +24,12 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RecordingError
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
-from rths_engine.results.channels import Channel
+from rths_engine.recordings import first_form
+from rths_engine.results.channels import CHANNELS, Channel
 from rths_engine.results.result import Result
 
-SCHEMA = "rths-recording/1"
+SCHEMA = "rths-recording/2"
+SCHEMAS = (SCHEMA, first_form.SCHEMA)  # that `load` reads
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,12 +78,35 @@ def save(path: Path, result: Result) -> Saved:
 
 def load(path: Path) -> Recording:
     """Read a recording. Raises RecordingError where the file is missing, damaged or of another form."""
+    with _opened(path) as file:
+        return _read(file)
+
+
+def rows(path: Path, count: int) -> tuple[tuple[Channel, ...], float, Iterator[Array]]:
+    """Channels, time step (s) and signals of a recording, `count` rows at a time. Raises RecordingError as `load` does."""
+    with _opened(path) as file:
+        plan, items, total = _plan(file), json.loads(file.attrs["channels"]), len(file["signals"])
+        channels, _ = _columns(file, items, file["signals"][:0], plan)
+        dt = float(file.attrs["dt"])
+
+    def parts() -> Iterator[Array]:
+        for first in range(0, total, count):
+            with _opened(path) as file:
+                yield _columns(file, items, file["signals"][first : first + count], plan)[1]
+
+    return channels, dt, parts()
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[h5py.File]:
     try:
         with h5py.File(path, "r") as file:
-            return _read(file)
+            if file.attrs.get("schema") not in SCHEMAS:
+                raise ValueError(f"its schema is {file.attrs.get('schema')!r}")
+            yield file
     except FileNotFoundError:
         raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
-    except (OSError, KeyError, TypeError, ValueError) as error:
+    except (OSError, LookupError, TypeError, ValueError) as error:
         raise RecordingError(
             Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix="run the plan again")
         ) from None
@@ -86,7 +114,8 @@ def load(path: Path) -> Recording:
 
 def _write(file: h5py.File, result: Result) -> None:
     compressed: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if len(result.signals) else {}
-    file.create_dataset("signals", data=result.signals, **compressed)
+    signals = file.create_dataset("signals", data=result.signals, **compressed)
+    signals.attrs.update(keys=[one.key for one in result.channels], units=[one.unit for one in result.channels])
     file.create_dataset("history", data=result.history, **compressed)
     motion = {"name": result.motion.name, "sha256": result.motion.sha256, "provenance": result.motion.provenance}
     file.attrs.update(
@@ -103,21 +132,34 @@ def _write(file: h5py.File, result: Result) -> None:
 
 
 def _read(file: h5py.File) -> Recording:
-    attrs = dict(file.attrs)
-    if attrs.get("schema") != SCHEMA:
-        raise ValueError(f"its schema is {attrs.get('schema')!r}")
-    summary = json.loads(attrs["summary"])
-    fields = ("key", "label", "unit", "shown", "group")
-    channels = tuple(Channel(**{name: item[name] for name in fields}) for item in json.loads(attrs["channels"]))
-    plan = read_plan(json.loads(file["plan"][()]))
+    plan, summary = _plan(file), json.loads(file.attrs["summary"])
+    channels, signals = _columns(file, json.loads(file.attrs["channels"]), file["signals"][:], plan)
     return Recording(
         plan,
         summary["status"],
-        float(attrs["dt"]),
-        int(attrs["total"]),
+        float(file.attrs["dt"]),
+        int(file.attrs["total"]),
         channels,
-        file["signals"][:],
+        signals,
         file["history"][:],
         summary,
-        attrs,
+        dict(file.attrs),
     )
+
+
+def _plan(file: h5py.File) -> Plan:
+    return read_plan(json.loads(file["plan"][()]))
+
+
+def _columns(file: h5py.File, items: list[dict[str, Any]], signals: Array, plan: Plan) -> tuple[tuple[Channel, ...], Array]:
+    """Channels, and rows of the file's signals in their columns."""
+    if file.attrs["schema"] == first_form.SCHEMA:
+        return first_form.translated(items, signals, plan)
+    return tuple(_channel(item) for item in items), signals
+
+
+def _channel(item: dict[str, Any]) -> Channel:
+    channel = Channel(item["role"], item["number"], item["label"])
+    if channel.role not in CHANNELS or channel.unit != item["unit"]:
+        raise ValueError(f"its channel {item['key']!r} in {item['unit']} is unknown")
+    return channel

@@ -1,36 +1,117 @@
-"""What a run records: the columns of its signals, with units inside and shown."""
+"""The table of channels, and the channels that a run records.
+
+A channel's key is its role with the station or floor that it belongs to: `ag`, `x_cmd.1`, `x_floor.2`. Runs and imported
+measurements use the same keys.
+"""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import Any, Literal
 
 from rths_engine.foundation import units
+from rths_engine.planning.loads import pushed
+from rths_engine.planning.plan import Plan
 
-if TYPE_CHECKING:
-    from rths_engine.planning.plan import Plan
 
-_STATION = (
-    ("x_cmd", "Command displacement", "m", "mm"),
-    ("x_comp", "Compensated command", "m", "mm"),
-    ("x_meas", "Measured displacement", "m", "mm"),
-    ("f_meas", "Measured force", "N", "kN"),
-    ("error", "Tracking error", "m", "mm"),
-    ("ti", "Tracking indicator", "m^2", "mm^2"),
-    ("d_alpha", "Δα", "1", "1"),
-    ("energy_error", "Energy error", "J", "kN*m"),
-)
+@dataclass(frozen=True, slots=True)
+class Role:
+    """What a channel can be.
+
+    `unit` is SI; people read it in `shown`. `counts` says whether a channel's number is that of a station or of a floor; it is
+    empty where a recording has one channel of the role. `also` names further SI units in which a laboratory may give it.
+    `derived` channels are computed by a run from the others and are never imported.
+    """
+
+    label: str
+    symbol: str
+    unit: str
+    shown: str
+    counts: Literal["station", "floor", ""]
+    meaning: str
+    also: tuple[str, ...] = ()
+    derived: bool = False
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        return tuple(units.UNITS[unit][0] for unit in (self.unit, *self.also))
+
+    def as_dict(self) -> dict[str, Any]:
+        """JSON form."""
+        return {
+            "label": self.label,
+            "symbol": self.symbol,
+            "unit": self.unit,
+            "shown": self.shown,
+            "shown_label": units.pretty(self.shown),
+            "counts": self.counts,
+            "derived": self.derived,
+            "meaning": self.meaning,
+        }
+
+
+CHANNELS: dict[str, Role] = {
+    "t": Role("Time", "t", "s", "s", "", "time of each sample"),
+    "ag": Role("Ground acceleration", "a_g", "m/s^2", "g", "", "acceleration of the ground under the structure"),
+    "drive": Role("Drive", "d", "m", "mm", "", "displacement or voltage that a test without structure follows", ("V", "1")),
+    "x_cmd": Role("Command displacement", "d_c", "m", "mm", "station", "displacement that the structure or the drive asks for"),
+    "x_comp": Role("Compensated command", "d_p", "m", "mm", "station", "command after the delay compensator"),
+    "x_meas": Role("Measured displacement", "d_m", "m", "mm", "station", "displacement that the sensor reads"),
+    "v_meas": Role("Measured velocity", "v_m", "m/s", "mm/s", "station", "velocity that the sensor reads"),
+    "f_meas": Role("Measured force", "r", "N", "kN", "station", "force of one specimen that the load cell reads"),
+    "current": Role("Current", "I", "A", "A", "station", "electric current in the specimen"),
+    "temperature": Role("Temperature", "T", "K", "degC", "station", "temperature of the specimen"),
+    "x_floor": Role("Floor displacement", "x", "m", "mm", "floor", "displacement of a floor relative to the ground"),
+    "v_floor": Role("Floor velocity", "v", "m/s", "mm/s", "floor", "velocity of a floor relative to the ground"),
+    "a_floor": Role("Floor acceleration", "a", "m/s^2", "g", "floor", "acceleration of a floor"),
+    "force_ext": Role("External force", "p", "N", "kN", "floor", "sum of the external forces on a floor"),
+    "error": Role("Tracking error", "e", "m", "mm", "station", "d_c - d_m", derived=True),
+    "ti": Role(
+        "Tracking indicator", "TI", "m^2", "mm^2", "station", "0.5 (A - TA) of d_m over d_c; grows under lag", derived=True
+    ),
+    "d_alpha": Role("Adaptation", "Δα", "1", "1", "station", "change that an adaptive compensator makes", derived=True),
+    "energy_error": Role(
+        "Energy error", "E", "J", "kN*m", "station", "work of r along d_c less along d_m; falls under lag", derived=True
+    ),
+}
+RECORDED = (
+    "x_cmd",
+    "x_comp",
+    "x_meas",
+    "f_meas",
+    "error",
+    "ti",
+    "d_alpha",
+    "energy_error",
+)  # of a station, in the loop's order
+
+INPUTS, FLOORS = ("ag", "force_ext"), ("x_floor",)  # what moves a structure, and how it moves
+
+
+def key(role: str, number: int | None) -> str:
+    """The key of a channel: `ag`, `x_meas.1`."""
+    return f"{role}.{number}" if CHANNELS[role].counts else role
 
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """One recorded column. `unit` is SI, `shown` for people, SI = factor * shown; `group`: s1, s2, ..., floors, input."""
+    """One recorded column: its role in `CHANNELS`, its station or floor (None where there is one), its label."""
 
-    key: str
+    role: str
+    number: int | None
     label: str
-    unit: str
-    shown: str
-    group: str
+
+    @property
+    def key(self) -> str:
+        return key(self.role, self.number)
+
+    @property
+    def unit(self) -> str:
+        return CHANNELS[self.role].unit
+
+    @property
+    def shown(self) -> str:
+        return CHANNELS[self.role].shown
 
     @property
     def shown_label(self) -> str:
@@ -38,24 +119,41 @@ class Channel:
 
     @property
     def factor(self) -> float:
+        """SI value of one shown unit."""
         return units.factor(self.shown)
 
+    @property
+    def heading(self) -> str:
+        """The heading of a column in shown units: `x_cmd.1 (mm)`."""
+        return self.key if self.shown == "1" else f"{self.key} ({self.shown})"
+
     def as_dict(self) -> dict[str, Any]:
-        return {**asdict(self), "shown_label": self.shown_label, "factor": self.factor}
+        """JSON form."""
+        return {
+            "key": self.key,
+            "role": self.role,
+            "number": self.number,
+            "label": self.label,
+            "unit": self.unit,
+            "shown": self.shown,
+            "shown_label": self.shown_label,
+            "factor": self.factor,
+        }
 
 
 def channels(plan: Plan) -> tuple[Channel, ...]:
-    """Columns in the order of the compiled loop: inputs (ground acceleration, forces on floors), floors, stations."""
+    """Columns in the order of the compiled loop: ground acceleration, forces on floors, floors, stations."""
     found = []
     if not plan.driven:
-        found.append(Channel("ag", "Ground acceleration", "m/s^2", "g", "input"))
-        for number, force in enumerate(plan.forces, start=1):
-            found.append(Channel(f"force{number}", f"Force on floor {force.floor}", "N", "kN", "input"))
-        for floor in range(1, len(plan.assembled().floors) + 1):
-            found.append(Channel(f"floor{floor}.x", f"Floor {floor} displacement", "m", "mm", "floors"))
+        found.append(Channel("ag", None, CHANNELS["ag"].label))
+        found += [Channel("force_ext", floor, f"Force on floor {floor}") for floor in pushed(plan)]
+        floors = len(plan.assembled().floors)
+        found += [Channel("x_floor", floor, f"Floor {floor} displacement") for floor in range(1, floors + 1)]
     for number, station in enumerate(plan.stations, start=1):
-        found += [
-            Channel(f"s{number}.{key}", f"{station.name}: {label}", unit, shown, f"s{number}")
-            for key, label, unit, shown in _STATION
-        ]
+        found += [Channel(role, number, f"{station.name}: {CHANNELS[role].label}") for role in RECORDED]
     return tuple(found)
+
+
+def columns(channels: tuple[Channel, ...], *roles: str) -> list[int]:
+    """The columns of all channels of these roles, in their order."""
+    return [number for number, channel in enumerate(channels) if channel.role in roles]

@@ -13,7 +13,7 @@ from rths_engine.parts.ground_motions import Motion
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import Trip
 from rths_engine.results import metrics
-from rths_engine.results.channels import Channel
+from rths_engine.results.channels import FLOORS, INPUTS, Channel, columns, key
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Result:
         return len(self.signals) * self.dt
 
     def signal(self, key: str) -> Array:
-        """The column named `key` (`s1.x_cmd`), SI."""
+        """The column named `key` (`x_cmd.1`), SI."""
         column: Array = self.signals[:, [channel.key for channel in self.channels].index(key)]
         return column
 
@@ -52,13 +52,13 @@ class Result:
             "elapsed_s": self.elapsed_s,
             "simulated_s": self.simulated_s,
             "stations": list(self._stations(largest_input)),
-            "floors_peak_mm": [float(np.max(np.abs(x), initial=0.0)) * 1e3 for x in self._group("floors").T],
+            "floors_peak_mm": [float(np.max(np.abs(x), initial=0.0)) * 1e3 for x in self._columns(*FLOORS).T],
             "input_energy_kNm": None if largest_input is None else largest_input * 1e-3,
         }
 
     def _stations(self, largest_input: float | None) -> Iterator[dict[str, Any]]:
         for number, station in enumerate(self.plan.stations, start=1):
-            x_cmd, x_meas, f_meas = (self.signal(f"s{number}.{key}") for key in ("x_cmd", "x_meas", "f_meas"))
+            x_cmd, x_meas, f_meas = (self.signal(key(role, number)) for role in ("x_cmd", "x_meas", "f_meas"))
             measures = metrics.station_measures(x_cmd, x_meas, f_meas, self.dt)
             yield measures.shown(station.name, metrics.energy_error_ratio(measures.mee, station.dampers, largest_input))
 
@@ -67,8 +67,8 @@ class Result:
         loads = metrics.floor_loads(self.plan)
         if loads is None:
             return None
-        energy = metrics.input_energy(loads, self._group("input"), self._group("floors"), self.history[0, 0])
+        energy = metrics.input_energy(loads, self._columns(*INPUTS), self._columns(*FLOORS), self.history[0, 0])
         return float(np.max(energy, initial=0.0))
 
-    def _group(self, group: str) -> Array:
-        return self.signals[:, [number for number, channel in enumerate(self.channels) if channel.group == group]]
+    def _columns(self, *roles: str) -> Array:
+        return self.signals[:, columns(self.channels, *roles)]

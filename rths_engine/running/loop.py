@@ -15,6 +15,7 @@ import numpy as np
 from rths_engine.foundation.kernel import compiled, entry
 from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR
 from rths_engine.parts.structures.assembled import Members
+from rths_engine.results.channels import RECORDED
 from rths_engine.running.dispatch import (
     actuate,
     compensate,
@@ -33,8 +34,6 @@ from rths_engine.running.solve import solve
 # memory of a station between substeps
 X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, X_TRUE, V_TRUE, X_SENT, X_END, WAVES = range(13)
 MEMORY = WAVES + SIZE  # the last ones are oscillation.half_waves'
-# columns a station records
-STATION_COLUMNS = ("x_cmd", "x_comp", "x_meas", "f_meas", "error", "ti", "d_alpha", "energy_error")
 # parts of a station
 COMPENSATOR, ACTUATOR, SPECIMEN = range(3)
 
@@ -73,6 +72,7 @@ class Setup(NamedTuple):
     members: Members
     loads: Any  # (I, DOF), forces by a unit of each input: -M @ iota for the ground acceleration
     inputs: Any  # (steps + 1, I) at the integration steps
+    columns: Any  # (I), the column of signals that records an input; forces on one floor share one
     floors: Any  # DOF of the floors
     drifts: Any  # L (S, DOF)
     drive: Any  # (steps + 1, S), added to L x
@@ -104,7 +104,10 @@ class LeftOut(NamedTuple):
 
 
 class Record(NamedTuple):
-    """What a run writes. Columns of signals: inputs, floors, stations; trip: station from 0, value, bound, substep from 1."""
+    """What a run writes.
+
+    Columns of signals: ground, forces on floors, floors, stations; trip: station from 0, value, bound, substep from 1.
+    """
 
     signals: Any  # (Q, channels)
     history: Any  # (steps + 1, 2, floors), x and v
@@ -214,7 +217,8 @@ def integrate(i, setup, state, left_out, residual, work, x_next):
 def advance(first, last, setup, state, left_out, record):
     """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
     x, n, floors, inputs = state.x, setup.n, setup.floors, setup.loads.shape[0]
-    stations, width = setup.dampers.size, len(STATION_COLUMNS)
+    stations, width = setup.dampers.size, len(RECORDED)
+    recorded = setup.columns.max() + 1 if inputs else 0
     residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
         integrate(i, setup, state, left_out, residual, work, x_next)
@@ -227,14 +231,16 @@ def advance(first, last, setup, state, left_out, record):
             done = i * n + q - 1
             share = q / n
             row = record.signals[done]
+            for k in range(recorded):
+                row[k] = -0.0  # to which every number adds as itself, 0.0 and -0.0 too
             for k in range(inputs):
-                row[k] = setup.inputs[i, k] + share * (setup.inputs[i + 1, k] - setup.inputs[i, k])
+                row[setup.columns[k]] += setup.inputs[i, k] + share * (setup.inputs[i + 1, k] - setup.inputs[i, k])
             for f in range(floors.size):
                 a = floors[f]
-                row[inputs + f] = x[a] + share * (x_next[a] - x[a])
+                row[recorded + f] = x[a] + share * (x_next[a] - x[a])
             for j in range(stations):
                 x_cmd = command[j, 0] + share * (command[j, 1] - command[j, 0])
-                start = inputs + floors.size + j * width
+                start = recorded + floors.size + j * width
                 time, own_row = (done + 1) * setup.dt, row[start : start + width]
                 broken, value = _substep(j, setup, state, left_out, x_cmd, setup.noise[done, j], time, own_row)
                 if broken > 0:

@@ -34,6 +34,6 @@ def rows(results: Mapping[int, Result]) -> list[Row]:
 
 def drifts_percent(result: Result) -> list[float]:
     """Peak drift of each storey over its height, %."""
-    floors = np.array([np.zeros(len(result.signals)), *(result.signal(f"floor{floor}.x") for floor in (1, 2))])
+    floors = np.array([np.zeros(len(result.signals)), *(result.signal(f"x_floor.{floor}") for floor in (1, 2))])
     peaks = np.max(np.abs(np.diff(floors, axis=0)), axis=1)
     return [float(peak) / height * 100 for peak, height in zip(peaks, HEIGHTS, strict=True)]

@@ -163,11 +163,11 @@ def test_every_plot_of_figures_8_and_9_is_there_with_units_on_its_axes(fourth: t
     axes = [(spec["x"], spec["y"]) for spec in page.specs]
     for wanted in (
         ("Time, s", "Displacement, mm"),
-        ("Measured displacement, mm", "Damper force, kN"),
+        ("Measured displacement, mm", "Measured force, kN"),
         ("Time, s", "Tracking error, mm"),
         ("Time, s", "Tracking indicator, mm²"),
         ("Time, s", "Energy error, kN·m"),
-        ("Time, s", "Δα"),
+        ("Time, s", "Adaptation"),
         ("Command displacement, mm", "Measured displacement, mm"),
     ):
         assert axes.count(wanted) >= 2, wanted
@@ -177,7 +177,7 @@ def test_every_plot_of_figures_8_and_9_is_there_with_units_on_its_axes(fourth: t
 def test_plots_keep_the_extremes_of_the_recording_in_shown_units(fourth: tuple[Recording, str]) -> None:
     recording, html = fourth
     spec = next(spec for spec in Page(html).specs if spec["y"] == "Tracking error, mm")
-    drawn, error = unpacked(spec["traces"][0]["y"]), recording.signal("s1.error") * 1e3
+    drawn, error = unpacked(spec["traces"][0]["y"]), recording.signal("error.1") * 1e3
     assert (drawn.min(), drawn.max()) == pytest.approx((error.min(), error.max()), rel=1e-6)  # float32
     assert unpacked(spec["traces"][0]["x"])[-1] == pytest.approx(recording.time[-1], rel=1e-6)
     assert len(drawn) < len(error) / 10

@@ -182,7 +182,7 @@ def test_a_finished_run_gives_measures_recording_csv_report_and_plan(client: Tes
     assert len(hdf5.content) == run["recording"]["size"]
     assert hdf5.headers["etag"] == f'"{run["recording"]["sha256"]}"'
     lines = client.get(f"{RUNS}/{run_id}/recording.csv").text.splitlines()
-    assert lines[0].startswith("t (s),ag (g),floor1.x (mm),floor2.x (mm),s1.x_cmd (mm)")
+    assert lines[0].startswith("t (s),ag (g),x_floor.1 (mm),x_floor.2 (mm),x_cmd.1 (mm)")
     assert len(lines) == 1 + 2050  # 205 integration steps cover 2 s
     assert float(lines[1].split(",")[0]) == pytest.approx(1 / 1024)
     assert "<html" in client.get(f"{RUNS}/{run_id}/report.html").text

@@ -185,9 +185,9 @@ def test_live_values_are_those_of_the_recording(service: Service, data: Path) ->
         schema, whole, _ = watch(socket)
     values = np.frombuffer(whole, "<f4").reshape(-1, len(schema["channels"]), 3)
     recorded = load(data / "recordings" / f"{run_id}.h5")
-    column = [channel["key"] for channel in schema["channels"]].index("s1.x_meas")
+    column = [channel["key"] for channel in schema["channels"]].index("x_meas.1")
     bucket = schema["bucket"]
-    assert values[:, column, 2] == pytest.approx(recorded.signal("s1.x_meas")[bucket - 1 :: bucket] * 1e3, rel=1e-6, abs=1e-9)
+    assert values[:, column, 2] == pytest.approx(recorded.signal("x_meas.1")[bucket - 1 :: bucket] * 1e3, rel=1e-6, abs=1e-9)
 
 
 def test_an_unknown_run_is_refused_with_a_reason(service: Service) -> None:

@@ -31,7 +31,7 @@ def test_every_kind_of_test_has_a_template_under_a_heading_of_its_own() -> None:
 
 def test_the_mr_damper_dissipates_more_in_larger_cycles(results: dict[str, Result]) -> None:
     result = results["specimen-mr-damper"]
-    x, force = result.signal("s1.x_meas"), result.signal("s1.f_meas")
+    x, force = result.signal("x_meas.1"), result.signal("f_meas.1")
     work = np.concatenate([[0.0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(x))])
     twelve = np.diff([work[min(round(end * 1024), len(work) - 1)] for end in np.arange(0, 61, 12)])
     assert len(twelve) == 5 and np.all(np.diff(twelve) > 0)
@@ -39,13 +39,13 @@ def test_the_mr_damper_dissipates_more_in_larger_cycles(results: dict[str, Resul
 
 def test_the_swept_actuator_lags_ever_more(results: dict[str, Result]) -> None:
     result = results["actuator-sweep"]
-    error = np.abs(result.signal("s1.error"))
+    error = np.abs(result.signal("error.1"))
     assert np.all(np.diff([part.max() for part in np.array_split(error, 5)[:4]]) > 0)  # the last fades out
 
 
 def test_the_released_building_swings_in_its_first_period_and_decays_by_its_damping(results: dict[str, Result]) -> None:
     result = results["structure-free-vibration"]
-    roof, period = result.signal("floor3.x"), float(result.plan.periods()[0])
+    roof, period = result.signal("x_floor.3"), float(result.plan.periods()[0])
     rising = np.flatnonzero((roof[:-1] < 0) & (roof[1:] >= 0)) * result.dt
     # crossings are read to a substep; the higher modes, 2 % too, have gone after the first five cycles
     assert np.diff(rising)[5:20].mean() == pytest.approx(period / np.sqrt(1 - 0.02**2), rel=2e-3)

@@ -34,10 +34,10 @@ def test_a_specimen_with_an_ideal_actuator_follows_the_drive_and_gives_its_force
     result = run.result("completed", 0.0)
     time = np.arange(1, run.total + 1) * run.dt
     x = 0.02 * Sine(**SINE).sample(time)
-    assert [channel.key for channel in run.channels][:2] == ["s1.x_cmd", "s1.x_comp"]
-    assert result.signal("s1.x_meas") == pytest.approx(x, abs=1e-15)
+    assert [channel.key for channel in run.channels][:2] == ["x_cmd.1", "x_comp.1"]
+    assert result.signal("x_meas.1") == pytest.approx(x, abs=1e-15)
     velocity = np.diff(x, prepend=0.0) / run.dt
-    assert result.signal("s1.f_meas") == pytest.approx(2.0e6 * x + 3.0e4 * velocity, rel=1e-12, abs=1e-9)
+    assert result.signal("f_meas.1") == pytest.approx(2.0e6 * x + 3.0e4 * velocity, rel=1e-12, abs=1e-9)
     assert result.summary()["floors_peak_mm"] == []
     assert run.total == 8 * 1024
 
@@ -53,7 +53,7 @@ def test_an_actuator_tracks_its_command_with_its_own_lag() -> None:
     time = np.arange(1, run.total + 1)[middle] * run.dt
     expected = 0.02 * np.abs(gain) * np.sin(2 * np.pi * 0.5 * time + np.angle(gain))
     # the memory of the rise decays as exp(-t / 29 ms)
-    assert run.result("completed", 0.0).signal("s1.x_meas")[middle] == pytest.approx(expected, abs=0.02 * 1e-6)
+    assert run.result("completed", 0.0).signal("x_meas.1")[middle] == pytest.approx(expected, abs=0.02 * 1e-6)
 
 
 def test_a_test_without_a_structure_has_no_periods_and_no_digest_of_one() -> None:
@@ -67,7 +67,7 @@ def test_a_constant_force_holds_a_storey_at_force_over_stiffness() -> None:
     force = {"floor": 2, "amplitude": 5.0e4, "shape": {"kind": "step", "delay": 0.0, "rise": 2.0, "duration": 30.0}}
     plan = make(building([1e5, 1e5], [2e7, 1e7], 0.1), STILL, 0.01, test="structure", forces=[force])
     run = completed(plan)
-    assert [channel.key for channel in run.channels] == ["ag", "force1", "floor1.x", "floor2.x"]
+    assert [channel.key for channel in run.channels] == ["ag", "force_ext.2", "x_floor.1", "x_floor.2"]
     # 10 % damping over 30 s: what the rise set off has decayed below rounding of the tolerance
     assert run.signals[-1] == pytest.approx([0.0, 5.0e4, 5.0e4 / 2e7, 5.0e4 * (1 / 2e7 + 1 / 1e7)], rel=1e-6)
 

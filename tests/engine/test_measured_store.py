@@ -147,7 +147,7 @@ def test_a_runs_recording_is_a_measured_one(tmp_path: Path) -> None:
     run, found = recording.load(tmp_path / "run.h5"), load(tmp_path / "run.h5")
     assert (found.dt, found.test, found.title) == (run.dt, "hybrid", plan.name)
     np.testing.assert_allclose(found.time, run.time)
-    same = {"ag": "ag", "x_floor.2": "floor2.x", "x_cmd.1": "s1.x_cmd", "x_comp.2": "s2.x_comp", "f_meas.2": "s2.f_meas"}
+    same = {"ag": "ag", "x_floor.2": "x_floor.2", "x_cmd.1": "x_cmd.1", "x_comp.2": "x_comp.2", "f_meas.2": "f_meas.2"}
     for key, own in same.items():
         role, _, number = key.partition(".")
         np.testing.assert_array_equal(found.get(role, int(number or 1)), run.signal(own))

@@ -9,6 +9,7 @@ import pytest
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.results import metrics
+from rths_engine.results.channels import FLOORS, INPUTS, columns
 from rths_engine.running.run import Run
 from tests.engine.plans import building, completed, make, shaking
 
@@ -111,8 +112,8 @@ def test_input_energy_is_what_the_undamped_structure_holds_at_the_end() -> None:
 def energies(run: Run) -> tuple[Array, Array, Array, Array]:
     loads = metrics.floor_loads(run.plan)
     assert loads is not None
-    groups = [[number for number, one in enumerate(run.channels) if one.group == group] for group in ("input", "floors")]
-    return loads, *(run.signals[:, columns] for columns in groups), run.history[0, 0]
+    inputs, floors = (run.signals[:, columns(run.channels, *roles)] for roles in (INPUTS, FLOORS))
+    return loads, inputs, floors, run.history[0, 0]
 
 
 def test_mass_that_the_ground_moves_off_the_floors_leaves_the_input_energy_unknown() -> None:

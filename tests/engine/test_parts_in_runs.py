@@ -36,8 +36,8 @@ def test_every_part_runs_in_the_loop_beside_every_other() -> None:
     assert np.isfinite(run.signals).all()
     result = run.result("completed", 0.0)
     for number in range(1, len(stations) + 1):
-        assert np.ptp(result.signal(f"s{number}.x_meas")) > 1e-3
-        assert np.ptp(result.signal(f"s{number}.f_meas")) > 100.0
+        assert np.ptp(result.signal(f"x_meas.{number}")) > 1e-3
+        assert np.ptp(result.signal(f"f_meas.{number}")) > 100.0
 
 
 @pytest.mark.parametrize("specimen", ["mr_damper", "linear", "elastomeric"])

@@ -63,13 +63,13 @@ def test_a_specimen_in_the_loop_is_the_specimen_replayed() -> None:
         )
     )
     result = simulate(plan, LIBRARY)
-    x = result.signal("s1.x_meas")
+    x = result.signal("x_meas.1")
     from_rest = np.concatenate([[0.0], x])
     replayed = replay.specimen(MrDamper(), effects, from_rest, np.ones(len(from_rest)), result.dt)[1:]
     # the loop centres the play at its first sample, the replay a substep before, at rest
-    assert result.signal("s1.f_meas") == pytest.approx(replayed, abs=1e-6 * np.abs(replayed).max())
+    assert result.signal("f_meas.1") == pytest.approx(replayed, abs=1e-6 * np.abs(replayed).max())
     plain = simulate(read_plan(driven("specimen", station={"specimen": {"kind": "mr_damper"}})), LIBRARY)
-    assert np.abs(plain.signal("s1.f_meas") - replayed).max() > 0.1 * np.abs(replayed).max()
+    assert np.abs(plain.signal("f_meas.1") - replayed).max() > 0.1 * np.abs(replayed).max()
 
 
 def test_a_storey_with_cubic_stiffness_settles_where_its_law_says() -> None:
@@ -78,7 +78,7 @@ def test_a_storey_with_cubic_stiffness_settles_where_its_law_says() -> None:
     plan = make(
         building([1e5], [2e7], 0.1), {"kind": "none"}, 0.01, test="structure", forces=[force], structure_physics=[cubic]
     )
-    x = simulate(plan, LIBRARY).signal("floor1.x")[-1]
+    x = simulate(plan, LIBRARY).signal("x_floor.1")[-1]
     assert 2e7 * x + 5e10 * x**3 == pytest.approx(4.0e5, rel=1e-6)  # 10 % damping over 30 s
 
 
@@ -90,7 +90,7 @@ def test_a_floor_heavier_than_its_model_has_a_longer_period() -> None:
 def test_a_ground_motion_scaled_wrongly_shakes_a_linear_test_as_much_more() -> None:
     plain = simulate(hybrid({}), LIBRARY)
     more = simulate(hybrid({}, motion_physics=[{"kind": "scale_error", "share": 0.1}]), LIBRARY)
-    assert more.signal("floor2.x") == pytest.approx(1.1 * plain.signal("floor2.x"), abs=1e-9)
+    assert more.signal("x_floor.2") == pytest.approx(1.1 * plain.signal("x_floor.2"), abs=1e-9)
 
 
 def test_a_plan_with_effects_survives_yaml() -> None:

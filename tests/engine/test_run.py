@@ -80,7 +80,7 @@ def energy_residual(dt: float) -> float:
     ag = ground(np.minimum(np.arange(len(x)) * dt, DURATION))
     stride = slice(1, None, 2)
     result = run.result("completed", 0.0)
-    forces = np.stack([result.signal(f"s{j}.f_meas")[stride] for j in (1, 2)], axis=1)
+    forces = np.stack([result.signal(f"f_meas.{j}")[stride] for j in (1, 2)], axis=1)
     forces = DAMPERS * np.concatenate([np.zeros((1, 2)), forces]) @ run.plan.drifts()
 
     def work(power: np.ndarray) -> np.ndarray:
@@ -121,7 +121,7 @@ def mr_plan(**limits: float) -> Plan:
 @pytest.mark.parametrize(("limit", "unit"), [("displacement", 1.0), ("velocity", 1024.0), ("force", 1.0)])
 def test_a_trip_ends_the_run_in_the_first_substep_over_the_limit(limit: str, unit: float) -> None:
     free = simulate(mr_plan(), LIBRARY)
-    signal = {"displacement": "s2.x_cmd", "velocity": "s2.x_cmd", "force": "s2.f_meas"}[limit]
+    signal = {"displacement": "x_cmd.2", "velocity": "x_cmd.2", "force": "f_meas.2"}[limit]
     values = free.signal(signal)
     if limit == "velocity":
         values = np.diff(values, prepend=0.0) * unit
@@ -187,17 +187,17 @@ def test_the_seed_decides_the_noise() -> None:
 
 def test_the_loop_records_the_indicator_and_energy_error_of_its_own_signals() -> None:
     result = simulate(mr_plan(), LIBRARY)
-    x_cmd, x_meas, f_meas = (result.signal(f"s1.{key}") for key in ("x_cmd", "x_meas", "f_meas"))
+    x_cmd, x_meas, f_meas = (result.signal(f"{key}.1") for key in ("x_cmd", "x_meas", "f_meas"))
     indicator = metrics.tracking_indicator(x_cmd, x_meas)
     energy = metrics.energy_error(x_cmd, x_meas, f_meas)
-    assert result.signal("s1.ti") == pytest.approx(indicator, rel=1e-9, abs=1e-15)  # order of summation
-    assert result.signal("s1.energy_error") == pytest.approx(energy, rel=1e-9, abs=1e-9)
-    assert result.signal("s1.error") == pytest.approx(x_cmd - x_meas)
+    assert result.signal("ti.1") == pytest.approx(indicator, rel=1e-9, abs=1e-15)  # order of summation
+    assert result.signal("energy_error.1") == pytest.approx(energy, rel=1e-9, abs=1e-9)
+    assert result.signal("error.1") == pytest.approx(x_cmd - x_meas)
 
 
 def test_the_command_ramps_in_equal_substeps() -> None:
     result = simulate(mr_plan(), LIBRARY)
-    moves = np.diff(result.signal("s1.x_cmd"), prepend=0.0).reshape(-1, 10)
+    moves = np.diff(result.signal("x_cmd.1"), prepend=0.0).reshape(-1, 10)
     assert np.max(np.abs(moves - moves[:, :1])) < 1e-15
 
 
@@ -207,11 +207,11 @@ def test_the_second_storey_force_acts_on_both_floors() -> None:
     data["structure"]["damping_ratio"] = 0.0
     run = Run(read_plan(data), LIBRARY)
     run.advance(200)
-    force = 2 * run.result("cancelled", 0).signal("s1.f_meas")[-1]
+    force = 2 * run.result("cancelled", 0).signal("f_meas.1")[-1]
     assert run.plan.drifts().T @ [force] == pytest.approx([-force, force])
 
 
 def test_a_structure_alone_runs_without_stations() -> None:
     run = completed(make(STRUCTURE, shaking(ground(np.arange(300) * 0.01), 0.01), 0.005))
-    assert [channel.key for channel in run.channels] == ["ag", "floor1.x", "floor2.x"]
+    assert [channel.key for channel in run.channels] == ["ag", "x_floor.1", "x_floor.2"]
     assert np.max(np.abs(run.signals[:, 2])) > 0.01

@@ -1,8 +1,9 @@
 """Input energy E_I(t) = sum_i 0.5 (F[i] + F[i+1]) . (x[i+1] - x[i]) with F = -M iota a_g + p, J: what ground and forces put in.
 
 It is -sum (M iota a_g) . v dt relative to the ground (Uang and Bertero 1990, EESD 19, 77-90) by the trapezoidal rule over x, as
-CR's v is half a step off. `inputs` (samples, 1 + forces): a_g (m/s^2) and floor forces (N); `floors` (samples, floors): x
-relative to the ground (m); `loads` (1 + forces, floors): F by a unit of each input; `start` (floors): x at t = 0 (m).
+CR's v is half a step off. `inputs` (samples, inputs): a_g (m/s^2) and the force on each floor that has one (N); `floors`
+(samples, floors): x relative to the ground (m); `loads` (inputs, floors): F by a unit of each input; `start` (floors): x at
+t = 0 (m).
 
 The hybrid simulation energy error, as a number: HSEE = n E / max E_I, the energy error E of one damper at its largest magnitude
 with its sign, n equal dampers a station; Mosqueda, Stojadinovic and Mahin (2007), J. Struct. Eng. 133, 1140-1148, without the
@@ -14,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.planning.loads import loads
+from rths_engine.planning.loads import columns, loads
 from rths_engine.planning.plan import Plan
 
 # chosen; see docs/decisions/0023
@@ -22,18 +23,21 @@ MASSLESS = 1e-9  # of the largest load: rounding of a condensation
 
 
 def floor_loads(plan: Plan) -> Array | None:
-    """`loads` of a plan; None without a structure, and where the ground moves mass off the floors, which is not recorded."""
+    """(inputs, floors): forces on the floors by a unit of each recorded input.
+
+    None without a structure, and where the ground moves mass off the floors, whose motion is not recorded.
+    """
     if plan.driven:
         return None
     built = plan.assembled()
-    every = loads(plan, built)
+    every = loads(plan, built)[np.unique(columns(plan), return_index=True)[1]]
     floors = list(built.floors)
     elsewhere = np.delete(every, floors, axis=1)
     return every[:, floors] if np.max(np.abs(elsewhere), initial=0.0) <= MASSLESS * np.max(np.abs(every)) else None
 
 
 def input_energy(loads: Array, inputs: Array, floors: Array, start: Array, before: Array | None = None) -> Array:
-    """E_I (J) after each sample; `before` (1, 1 + forces): inputs at `start`, else as after the first sample."""
+    """E_I (J) after each sample; `before` (1, inputs): inputs at `start`, else as after the first sample."""
     inputs = np.concatenate([inputs[:1] if before is None else before, inputs])
     force = 0.5 * (inputs[1:] + inputs[:-1]) @ loads
     return np.cumsum(np.sum(force * np.diff(floors, axis=0, prepend=start[None, :]), axis=1))

@@ -13,7 +13,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.planning.plan import Plan
-from rths_engine.results.channels import Channel
+from rths_engine.results.channels import FLOORS, INPUTS, Channel, columns, key
 from rths_engine.results.metrics.correlation import RunningCorrelation
 from rths_engine.results.metrics.energy import energy_error_ratio, floor_loads, input_energy
 from rths_engine.results.metrics.frequency import RunningFrequency
@@ -27,8 +27,8 @@ class RunningMeasures:
     def __init__(self, plan: Plan, channels: tuple[Channel, ...], start: Array):
         self.names = [station.name for station in plan.stations]
         self.dampers = [station.dampers for station in plan.stations]
-        columns = {channel.key: number for number, channel in enumerate(channels)}
-        self._stations = [_Station(columns, f"s{number}", plan.substep) for number in range(1, len(self.names) + 1)]
+        places = {channel.key: number for number, channel in enumerate(channels)}
+        self._stations = [_Station(places, number, plan.substep) for number in range(1, len(self.names) + 1)]
         self._input = _Input(floor_loads(plan), channels, start)
 
     @np.errstate(over="ignore", invalid="ignore")
@@ -55,8 +55,8 @@ class _Input:
     def __init__(self, loads: Array | None, channels: tuple[Channel, ...], start: Array):
         self.largest = None if loads is None else 0.0
         self._loads = loads
-        self._inputs = [number for number, channel in enumerate(channels) if channel.group == "input"]
-        self._floors = [number for number, channel in enumerate(channels) if channel.group == "floors"]
+        self._inputs = columns(channels, *INPUTS)
+        self._floors = columns(channels, *FLOORS)
         self._start, self._total = start, 0.0
         self._before: Array | None = None
 
@@ -72,9 +72,9 @@ class _Input:
 class _Station:
     """Sums and extremes of one station."""
 
-    def __init__(self, columns: dict[str, int], group: str, dt: float):
-        keys = ("x_cmd", "x_meas", "f_meas", "ti", "energy_error")
-        self._columns = [columns[f"{group}.{key}"] for key in keys]
+    def __init__(self, places: dict[str, int], number: int, dt: float):
+        roles = ("x_cmd", "x_meas", "f_meas", "ti", "energy_error")
+        self._columns = [places[key(role, number)] for role in roles]
         self._frequency, self._correlation = RunningFrequency(dt), RunningCorrelation(dt)
         self._count, self._lowest, self._highest = 0, math.inf, -math.inf
         self._error_power = self._command_power = 0.0

@@ -41,7 +41,7 @@ export function buildCharts(host, store, plan) {
   const sections = plan.stations.map((/** @type {any} */ station, /** @type {number} */ i) => {
     const wanted = shown.charts.filter((name) => name !== "d_alpha" || station.compensator.kind !== "none");
     const charts = wanted.map((name) => {
-      const chart = stationChart(view, CHARTS[name], `s${i + 1}`, series);
+      const chart = stationChart(view, CHARTS[name], i + 1, series);
       if (shown.large[name]) chart.figure.element.classList.add(shown.large[name]);
       return chart;
     });
@@ -54,17 +54,17 @@ export function buildCharts(host, store, plan) {
   return { view, tiles };
 }
 
-/** @param {View} view @param {any} chart @param {string} group @param {(key: string, label: string, i: number) => any} series */
-function stationChart(view, { title, keys, labels, x, y, alike }, group, series) {
-  if (x) return new LoopChart(view, title, series(`${group}.${x[0]}`, x[1], 0), series(`${group}.${y[0]}`, y[1], 0), alike);
-  const lines = keys.map((/** @type {string} */ key, /** @type {number} */ j) => series(`${group}.${key}`, labels[j], j));
+/** @param {View} view @param {any} chart @param {number} number @param {(key: string, label: string, i: number) => any} series */
+function stationChart(view, { title, keys, labels, x, y, alike }, number, series) {
+  if (x) return new LoopChart(view, title, series(`${x[0]}.${number}`, x[1], 0), series(`${y[0]}.${number}`, y[1], 0), alike);
+  const lines = keys.map((/** @type {string} */ key, /** @type {number} */ j) => series(`${key}.${number}`, labels[j], j));
   if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // seen behind the measured line
   return new TimeChart(view, title, lines[0].unit, lines);
 }
 
 /** Floor displacements, of a tall structure some; large where nothing else is measured. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {HTMLElement} tiles @param {boolean} alone */
 function structure(view, store, series, tiles, alone) {
-  const floors = store.channels.filter((channel) => channel.group === "floors");
+  const floors = store.channels.filter((channel) => channel.role === "x_floor");
   if (!floors.length) return null;
   const count = Math.min(floors.length, MOST_FLOORS);
   const some = Array.from({ length: count }, (_, i) => Math.round(((i + 1) * floors.length) / count) - 1);
@@ -78,7 +78,7 @@ function structure(view, store, series, tiles, alone) {
 /** What moves the structure: the ground, and forces on floors. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {any} plan */
 function inputs(view, store, series, plan) {
   const still = plan.motion.kind === "none";
-  const channels = store.channels.filter((channel) => channel.group === "input" && !(still && channel.key === "ag"));
+  const channels = store.channels.filter(({ role }) => role === "force_ext" || (role === "ag" && !still));
   if (!channels.length) return null;
   return section("Excitation", null, channels.map((channel) => {
     const line = series(channel.key, "", 0);

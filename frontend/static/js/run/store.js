@@ -1,7 +1,7 @@
 // @ts-check
 
 /**
- * @typedef {{key: string, label: string, unit: string, group: string}} Channel
+ * @typedef {{key: string, role: string, number: number | null, label: string, unit: string}} Channel
  * @typedef {{run: any, attempt: number, dt: number, bucket: number, buckets: number, channels: Channel[]}} Schema
  */
 

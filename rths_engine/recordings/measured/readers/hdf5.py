@@ -17,7 +17,7 @@ from rths_engine.recordings.measured.readers import tree
 from rths_engine.recordings.measured.table import Table, refuse_many
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
-_RUN = "rths-recording/1"
+_RUN = "rths-recording/"
 
 
 def looks_like(raw: bytes) -> bool:
@@ -30,7 +30,7 @@ def read(raw: bytes) -> Table:
     try:
         with h5py.File(io.BytesIO(raw), "r") as file:
             matlab = raw.startswith(b"MATLAB 7.3")
-            nodes = _run(file) if file.attrs.get("schema") == _RUN else _group(file, matlab, tree.DEEPEST)
+            nodes = _run(file) if str(file.attrs.get("schema")).startswith(_RUN) else _group(file, matlab, tree.DEEPEST)
             return tree.table(nodes, "MATLAB v7.3" if matlab else "HDF5")
     except MeasuredError:
         raise

@@ -1,0 +1,12 @@
+"""The generated tables by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.documents import outputs
+
+TABLES: dict[str, Callable[[], str]] = {
+    "imported channels": outputs.imported_channels,
+    "channels": outputs.channels,
+}
