@@ -10,7 +10,7 @@ from app.live.frames import HEADER, MOST_BUCKETS, Decimator, FrameStore, bucket_
 from app.live.hub import Hub
 from rths_engine.results.channels import Channel
 
-CHANNELS = (Channel("a", "A", "m", "mm", "s1"), Channel("b", "B", "N", "N", "s1"))
+CHANNELS = (Channel("x_cmd", 1, "A"), Channel("d_alpha", 1, "B"))
 
 
 def unpacked(frame: bytes) -> tuple[int, np.ndarray]:

@@ -21,7 +21,7 @@ from app.worker.link import Link, Telling
 from rths_engine.results.channels import Channel
 from tests.browser.service import until
 
-CHANNELS = (Channel("a", "A", "m", "mm", "s1"), Channel("b", "B", "N", "N", "s1"))
+CHANNELS = (Channel("x_cmd", 1, "A"), Channel("d_alpha", 1, "B"))
 RUN = "0" * 36
 TOTAL = 900
 
