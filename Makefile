@@ -14,7 +14,7 @@ PYTEST ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone check docs bench prove browser opensees lock clean
+.PHONY: setup run test test-clone check docs migration bench prove browser opensees lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -42,6 +42,10 @@ check: setup
 	$(BIN)/lint-imports
 	$(BIN)/codespell -D -
 	$(BIN)/python -m app.npm_parts check
+
+# A migration to the models as they are now: make migration MESSAGE="measure of ..."
+migration: setup
+	$(BIN)/python -m app.new_migration "$(MESSAGE)"
 
 # Write the generated tables into docs/*.md: app/documents.
 docs: setup

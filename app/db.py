@@ -66,10 +66,10 @@ def migrate(url: str) -> None:
     command.upgrade(alembic_config(url), "head")
 
 
-def alembic_config(url: str) -> Config:
-    """Alembic's configuration for the database at `url`."""
+def alembic_config(url: str, folder: Path | None = None) -> Config:
+    """Alembic's configuration for the database at `url`, with the migrations in `folder` (by default the product's)."""
     config = Config()
-    config.set_main_option("script_location", str(MIGRATIONS).replace("%", "%%"))
+    config.set_main_option("script_location", str(folder or MIGRATIONS).replace("%", "%%"))
     config.attributes["url"] = url
     return config
 

@@ -10,10 +10,12 @@ from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db import Base
 from app.jobs.tables import Job
+from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
+from rths_engine.results.measures import of
 
 
 class Run(Job, Base):
-    """One test: its plan, how it went and where its recording is."""
+    """One test: its plan, how it went, its measures and where its recording is."""
 
     __tablename__ = "run"
     __table_args__ = tuple(sa.Index(f"ix_run_{name}", name) for name in ("submitted_by", "submitted_at", "finished_at"))
@@ -28,8 +30,6 @@ class Run(Job, Base):
     duration_s: Mapped[float]
     elapsed_s: Mapped[float | None]
     simulated_s: Mapped[float | None]
-    floors_peak_mm: Mapped[list[float | None] | None] = mapped_column(sa.JSON)
-    input_energy_kNm: Mapped[float | None]
     recording_sha256: Mapped[str | None] = mapped_column(sa.String(64))
     recording_size: Mapped[int | None] = mapped_column(sa.BigInteger)
     stations: Mapped[list[RunStation]] = relationship(
@@ -43,26 +43,30 @@ class Run(Job, Base):
 
 
 class RunStation(Base):
-    """Measures of one station of a run (docs/measures.md); null where one is not defined or came out as no finite number."""
+    """One station of a run. Its measures have a column each, null where a measure is not defined or not finite."""
 
     __tablename__ = "run_station"
 
     run_number: Mapped[int] = mapped_column(sa.ForeignKey("run.number", ondelete="CASCADE"), primary_key=True)
     number: Mapped[int] = mapped_column(primary_key=True)
     name: Mapped[str] = mapped_column(sa.String(80))
-    mte_mm: Mapped[float | None]
-    rms_percent: Mapped[float | None]
-    mti_mm2: Mapped[float | None]
-    mee_kNm: Mapped[float | None]
-    peak_stroke_mm: Mapped[float | None]
-    peak_force_kN: Mapped[float | None]
-    fei_delay_ms: Mapped[float | None]
-    fei_amplitude: Mapped[float | None]
-    nrms_percent: Mapped[float | None]
-    peak_error_percent: Mapped[float | None]
-    delay_ms: Mapped[float | None]
-    energy_error_percent: Mapped[float | None]
     run: Mapped[Run] = relationship(back_populates="stations")
+
+    def measure(self, key: str) -> float | None:
+        """The measure named `key`, in its shown unit."""
+        value: float | None = getattr(self, key)
+        return value
+
+
+def _add_columns(model: type[Base], scope: type[Measure], kind: type[sa.types.TypeEngine[Any]]) -> None:
+    """A column for each measure of the scope."""
+    for one in of(scope):
+        setattr(model, one.key, mapped_column(kind, nullable=True))
+
+
+_add_columns(RunStation, StationMeasure, sa.Double)
+_add_columns(Run, FloorMeasure, sa.JSON)
+_add_columns(Run, RunMeasure, sa.Double)
 
 
 class RawFile(Base):

@@ -6,8 +6,6 @@ KINDS = {
     "actuator": "Test of an actuator",
     "structure": "Test of a structure alone",
 }
-# without a structure there is no energy to be fed into it
-SILENT = {"specimen": ("mti_mm2", "mee_kNm", "energy_error_percent"), "actuator": ("mee_kNm", "energy_error_percent")}
 # verdict of a diagnosis -> what it says
 VERDICTS = {
     "consistent": "The recording is what the plan's models simulate, up to noise.",

@@ -2,32 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from app.shown import SILENT
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.templates import PAPER
+from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
+from rths_engine.results.measures import of
 
-# field of a station's summary -> heading with unit, decimals
-COLUMNS = {
-    "mte_mm": ("MTE mm", 2),
-    "rms_percent": ("RMS %", 2),
-    "mti_mm2": ("MTI mm²", 1),
-    "mee_kNm": ("MEE kN·m", 2),
-    "peak_stroke_mm": ("Stroke mm", 1),
-    "peak_force_kN": ("Force kN", 1),
-}
-BEYOND = {
-    "fei_delay_ms": ("FEI delay ms", 2),
-    "fei_amplitude": ("FEI amplitude", 4),
-    "delay_ms": ("Delay ms", 2),
-    "nrms_percent": ("NRMSE %", 2),
-    "peak_error_percent": ("Peak error %", 2),
-    "energy_error_percent": ("HSEE %", 2),
-}
-LEAST_NAME = 8
+LEAST_NAME, LEAST_CELL, GAP = 8, 12, 2  # characters
 
 
 def text(plan: Plan, summary: dict[str, Any], out: Path | None) -> str:
@@ -40,47 +24,42 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
     if summary["trip"]:
         yield summary["trip"]["sentence"]
     yield f"{summary['simulated_s']:.2f} s simulated in {summary['elapsed_s']:.2f} s"
-    stations = summary["stations"]
-    columns, beyond = (_telling(plan, table) for table in (COLUMNS, BEYOND))
-    if stations:
+    if summary["stations"]:
+        measures = of(StationMeasure, plan.test)
+        yield from _table(plan, summary, [one for one in measures if not one.further], paper=True)
+        yield from _table(plan, summary, [one for one in measures if one.further], paper=False)
         yield ""
-        width = max(LEAST_NAME, *(len(station["name"]) for station in stations))
-        yield _row("Station", [heading for heading, _ in columns.values()], width)
-        for number, station in enumerate(stations):
-            yield _row(station["name"], _cells(station, columns), width)
-            paper = _paper(plan, number)
-            if paper:
-                yield _row("  paper", paper, width)
-        yield ""
-        yield _row("Station", [heading for heading, _ in beyond.values()], width)
-        for station in stations:
-            yield _row(station["name"], _cells(station, beyond), width)
-        yield ""
-    if summary["floors_peak_mm"]:
-        peaks = ", ".join(f"floor {number} {peak:.1f}" for number, peak in enumerate(summary["floors_peak_mm"], start=1))
-        yield f"Peak displacement, mm: {peaks}"
-    if summary["input_energy_kNm"]:
-        yield f"Input energy, kN·m: {summary['input_energy_kNm']:.1f}"
+    for floor in of(FloorMeasure, plan.test):
+        values = enumerate(summary[floor.key], start=1)
+        yield f"{floor.heading}: {', '.join(f'floor {number} {floor.text(value)}' for number, value in values)}"
+    for whole in of(RunMeasure, plan.test):
+        yield f"{whole.heading}: {whole.text(summary[whole.key])}"
     if out:
         yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
 
 
-def _telling(plan: Plan, table: dict[str, tuple[str, int]]) -> dict[str, tuple[str, int]]:
-    return {field: column for field, column in table.items() if field not in SILENT.get(plan.test, ())}
+def _table(plan: Plan, summary: dict[str, Any], measures: Sequence[Measure], paper: bool) -> Iterator[str]:
+    """Measures of each station; beneath each, with `paper`, those published for it."""
+    stations = summary["stations"]
+    first = max(LEAST_NAME, *(len(station["name"]) for station in stations))
+    widths = [GAP + max(LEAST_CELL, len(one.heading)) for one in measures]
+    yield ""
+    yield _row("Station", [one.heading for one in measures], first, widths)
+    for number, station in enumerate(stations):
+        yield _row(station["name"], [one.text(station[one.key]) for one in measures], first, widths)
+        published = _published(plan, number, measures) if paper else []
+        if published:
+            yield _row("  paper", published, first, widths)
 
 
-def _row(name: str, cells: list[str], width: int) -> str:
-    return f"{name:{width}}" + "".join(f"{cell:>14}" for cell in cells)
+def _row(name: str, cells: list[str], first: int, widths: list[int]) -> str:
+    return f"{name:{first}}" + "".join(f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
 
 
-def _cells(station: dict[str, Any], columns: dict[str, tuple[str, int]]) -> list[str]:
-    return ["–" if station[field] is None else f"{station[field]:z.{digits}f}" for field, (_, digits) in columns.items()]
-
-
-def _paper(plan: Plan, station: int) -> list[str]:
+def _published(plan: Plan, station: int, measures: Sequence[Measure]) -> list[str]:
     """The paper's measures of a station, or nothing: another plan, or its test was unstable."""
     row = PAPER.get(plan.template or "")
-    if row is None or row.mte_mm is None:
+    pairs = [getattr(row, one.key, None) for one in measures]
+    if not any(pairs):
         return []
-    published = [getattr(row, field, None) for field in COLUMNS]
-    return [f"{pair[station]:g}" if pair and station < len(pair) else "–" for pair in published]
+    return [f"{pair[station]:g}" if pair and station < len(pair) else "–" for pair in pairs]

@@ -8,10 +8,11 @@ from rths_engine import table4 as engine
 from rths_engine.foundation.units import STANDARD_GRAVITY
 from rths_engine.parts.ground_motions import Motion
 from rths_engine.parts.ground_motions.scaling import Factor
-from rths_engine.table4.comparison import CALIBRATED, published, stable
+from rths_engine.results.measures import measure
+from rths_engine.table4.comparison import CALIBRATED, MEASURES, published, stable
 
-# field -> heading, decimals
-COLUMNS = {"mte_mm": ("MTE mm", 1), "rms_percent": ("RMS %", 1), "mti_mm2": ("MTI mm²", 1), "mee_kNm": ("MEE kN·m", 1)}
+# field -> heading, decimals as published
+COLUMNS = {key: (measure(key).heading, 1) for key in MEASURES}
 WIDTH = 19
 
 

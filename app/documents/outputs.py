@@ -1,11 +1,16 @@
-"""Tables of what a test gives: channels."""
+"""Tables of what a test gives: measures and channels, and the glossary."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 from app.documents.markdown import code, table
 from rths_engine.foundation.units import pretty
 from rths_engine.recordings.measured.roles import ROLES
 from rths_engine.results.channels import CHANNELS
+from rths_engine.results.glossary import glossary
+from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
+from rths_engine.results.measures import of
 
 
 def imported_channels() -> str:
@@ -30,3 +35,25 @@ def channels() -> str:
         for name, role in CHANNELS.items()
     ]
     return table(["key", "channel", "symbol", "SI unit", "shown in", "N counts", "kind", "meaning"], rows)
+
+
+def measures(further: bool) -> str:
+    """The measures of a station: those in the first table of a result, or the further ones."""
+    return _measures([one for one in of(StationMeasure) if one.further == further])
+
+
+def measures_of_tests() -> str:
+    """The measures of floors and of whole tests."""
+    return _measures([*of(FloorMeasure), *of(RunMeasure)])
+
+
+def terms() -> str:
+    """The glossary."""
+    return table(["term", "symbol", "unit", "meaning"], glossary())
+
+
+def _measures(some: Iterable[Measure]) -> str:
+    rows = [
+        (one.label, code(one.key), one.formula, one.shown_label, ", ".join(one.tests), one.meaning, one.source) for one in some
+    ]
+    return table(["measure", "key", "formula", "unit", "tests", "meaning", "source"], rows)

@@ -9,4 +9,8 @@ from app.documents import outputs
 TABLES: dict[str, Callable[[], str]] = {
     "imported channels": outputs.imported_channels,
     "channels": outputs.channels,
+    "measures": lambda: outputs.measures(further=False),
+    "further measures": lambda: outputs.measures(further=True),
+    "measures of floors and tests": outputs.measures_of_tests,
+    "glossary": outputs.terms,
 }

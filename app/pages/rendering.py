@@ -11,6 +11,10 @@ from fastapi.responses import HTMLResponse
 from fastapi.templating import Jinja2Templates
 from jinja2 import Undefined
 
+from app.models import Run
+from rths_engine.results.measure import Measure
+from rths_engine.results.measures import MEASURES
+
 FRONTEND = Path(__file__).parents[2] / "frontend"
 HEADERS = {
     "Content-Security-Policy": (
@@ -72,8 +76,32 @@ def pace(plan: dict[str, Any]) -> str:
     return "real time" if planned["factor"] == 1 else f"{planned['factor']:g} × real time"
 
 
+def listed_measures() -> list[Measure]:
+    """The measures in lists of runs."""
+    return [one for one in MEASURES if one.listed]
+
+
+def measured(run: Run, one: Measure) -> str:
+    """A measure of a run in a list: of each station, the largest of the floors, or of the whole test."""
+    if one.scope == "station":
+        return " / ".join(one.text(station.measure(one.key)) for station in run.stations) or "–"
+    value = getattr(run, one.key)
+    if one.scope == "floor":
+        value = max((peak for peak in value or [] if peak is not None), default=None)
+    return one.text(value)
+
+
 templates = Jinja2Templates(directory=FRONTEND / "templates")
-templates.env.filters |= {"fixed": fixed, "brief": brief, "ago": ago, "clock": clock, "kind": kind, "pace": pace}
+templates.env.filters |= {
+    "fixed": fixed,
+    "brief": brief,
+    "ago": ago,
+    "clock": clock,
+    "kind": kind,
+    "pace": pace,
+    "measured": measured,
+}
+templates.env.globals["listed_measures"] = listed_measures
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:

@@ -12,14 +12,11 @@ from app.pages.rendering import page
 from app.pages.table4_chart import chart
 from app.table4.dependency import Table4
 from rths_engine import table4 as engine
+from rths_engine.results.measures import measure
+from rths_engine.table4.comparison import MEASURES as PUBLISHED
 
-# measure -> heading with unit, decimals
-MEASURES = {
-    "mte_mm": ("MTE, mm", 1),
-    "rms_percent": ("RMS, %", 1),
-    "mti_mm2": ("MTI, mm²", 1),
-    "mee_kNm": ("MEE, kN·m", 1),
-}
+# measure -> heading, decimals as published
+MEASURES = {key: (measure(key).heading, 1) for key in PUBLISHED}
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
 

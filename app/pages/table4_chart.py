@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from app.table4.schemas import SimulationOut
+from rths_engine.results.measures import measure
+from rths_engine.table4.comparison import RATIOS
 
-SHAPES = {"mte_mm": "circle", "rms_percent": "square", "mti_mm2": "diamond"}
+SHAPES = dict(zip(RATIOS, ("circle", "square", "diamond"), strict=True))
 WIDTH, HEIGHT = 720, 260
 LEFT, RIGHT, TOP, BOTTOM = 50, 12, 12, 30
 LARGEST = 4.0  # factor at the edge; marks beyond lie on it
@@ -54,10 +56,9 @@ def chart(simulations: Sequence[SimulationOut]) -> Chart | None:
                 if not ours:
                     continue
                 x = LEFT + slot * (place + (1 + k + 3.5 * j) / 7.5)
-                words = (
-                    f"Simulation {one.simulation}, station {j + 1}, {field[:3].upper()}: {abs(ours / paper):.2f} of the paper's"
-                )
-                marks.append(Mark(x, _height(abs(ours / paper)), shape, j + 1, words))
+                ratio, label = abs(ours / paper), measure(field).label
+                words = f"Simulation {one.simulation}, station {j + 1}, {label}: {ratio:.2f} of the paper's"
+                marks.append(Mark(x, _height(ratio), shape, j + 1, words))
     return Chart(marks, [(_height(tick), f"{tick:.2g}") for tick in TICKS], labels) if marks else None
 
 

@@ -27,7 +27,10 @@ def template(name: str, plans: Plans) -> dict[str, Any]:
 
 @router.get("/schema")
 def schema(plans: Plans) -> dict[str, Any]:
-    """JSON schema of a plan; each number says its unit, the unit shown to people and the factor between them."""
+    """JSON schema of a plan: each number says its unit, the unit shown to people and the factor between them.
+
+    Beside it `measures` and `channels` declare what a test gives, and `glossary` explains the terms.
+    """
     return plans.schema()
 
 

@@ -15,6 +15,9 @@ from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning import plan_yaml, templates
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import plan_to_yaml, read_plan
+from rths_engine.results.channels import CHANNELS
+from rths_engine.results.glossary import glossary
+from rths_engine.results.measures import MEASURES
 
 LARGEST_YAML = 1_000_000  # bytes; YAML is read at some 50 kB/s
 
@@ -39,7 +42,13 @@ class PlanService:
         return {"name": name, "plan": templates.template(name).as_dict(), "paper": asdict(paper) if paper else None}
 
     def schema(self) -> dict[str, Any]:
-        return Plan.model_json_schema()
+        """JSON Schema of a plan; beside it the tables of measures and channels, and the glossary."""
+        return {
+            **Plan.model_json_schema(),
+            "measures": [one.as_dict() for one in MEASURES],
+            "channels": {name: role.as_dict() for name, role in CHANNELS.items()},
+            "glossary": [term._asdict() for term in glossary()],
+        }
 
     def check(self, data: Any) -> dict[str, Any]:
         """The plan as understood, with its digest and what it amounts to. Raises PlanError or MotionError."""

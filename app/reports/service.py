@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from datetime import datetime
 from typing import Any
 
@@ -10,30 +9,11 @@ from app.reports import page
 from app.reports.excitation import excitation
 from app.reports.figures import Figures, Panel, station_panels
 from app.reports.plan_tables import Group, groups
-from app.shown import KINDS, SILENT
+from app.reports.results import results
+from app.shown import KINDS
 from rths_engine.parts.ground_motions import MotionLibrary
-from rths_engine.planning.plan import Plan
-from rths_engine.planning.templates import PAPER
 from rths_engine.recordings.run_file import Recording
 from rths_engine.results.metrics.decay import free_decay
-
-Measure = tuple[str, str, str, int]  # field of the summary, heading, what it is, decimals
-_MEASURES = (
-    ("mte_mm", "MTE, mm", "maximum tracking error", 2),
-    ("rms_percent", "RMS, %", "root mean square tracking error", 2),
-    ("mti_mm2", "MTI, mm²", "maximum tracking indicator", 1),
-    ("mee_kNm", "MEE, kN·m", "maximum energy error", 2),
-    ("peak_stroke_mm", "Peak stroke, mm", "largest measured displacement", 1),
-    ("peak_force_kN", "Peak force, kN", "largest measured force of one damper", 1),
-)
-_BEYOND = (
-    ("fei_delay_ms", "FEI delay, ms", "generalised delay by the frequency evaluation index", 2),
-    ("fei_amplitude", "FEI amplitude", "generalised amplitude by the frequency evaluation index", 4),
-    ("delay_ms", "Delay, ms", "lag of the largest cross-correlation of command and measured displacement", 2),
-    ("nrms_percent", "NRMSE, %", "root mean square tracking error over the range of the command", 2),
-    ("peak_error_percent", "Peak error, %", "largest tracking error over the largest command", 2),
-    ("energy_error_percent", "HSEE, %", "energy error of the station's dampers over the input energy", 2),
-)
 
 
 def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrary | None = None) -> str:
@@ -49,24 +29,14 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
         verdict=_verdict(run, recording),
         facts=_facts(run, recording),
         kind=KINDS[recording.plan.test],
-        measures=_telling(_MEASURES, recording.plan),
-        beyond=_telling(_BEYOND, recording.plan),
-        results=_results(recording),
-        floors_peak=recording.summary["floors_peak_mm"],
-        input_energy=recording.summary.get("input_energy_kNm"),
+        results=results(recording),
         excitation=excitation(recording, motions or MotionLibrary(None), figures),
         stations=stations,
         floors=_floors(recording, figures),
         decay=_decay(recording),
         parts=_parts(recording),
         origin=_origin(run, recording),
-        fixed=_fixed,
     )
-
-
-def _telling(measures: Sequence[Measure], plan: Plan) -> list[Measure]:
-    """Those that say something in the plan's kind of test."""
-    return [measure for measure in measures if measure[0] not in SILENT.get(plan.test, ())]
 
 
 def _verdict(run: dict[str, Any], recording: Recording) -> tuple[str, str]:
@@ -92,20 +62,6 @@ def _facts(run: dict[str, Any], recording: Recording) -> list[tuple[str, str]]:
         ("Template", recording.plan.template or "none"),
     ]
     return facts + ([("Notes", recording.plan.notes)] if recording.plan.notes else [])
-
-
-def _results(recording: Recording) -> list[tuple[str, dict[str, float], Any]]:
-    """Each station's name and measures, and the paper's as texts, or the word that stands there instead, or None."""
-    paper = PAPER.get(recording.plan.template or "")
-    rows: list[tuple[str, dict[str, float], Any]] = []
-    for index, station in enumerate(recording.summary["stations"]):
-        published: Any = None
-        if paper and index < 2:
-            values = {key: getattr(paper, key, None) for key, *_ in _MEASURES}
-            found = {key: _fixed(pair[index], 1) for key, pair in values.items() if pair is not None}
-            published = found or "unstable"
-        rows.append((station["name"], station, published))
-    return rows
 
 
 def _floors(recording: Recording, figures: Figures) -> list[Panel]:
@@ -162,11 +118,6 @@ def _origin(run: dict[str, Any], recording: Recording) -> list[tuple[str, str]]:
         ("Recording (SHA-256)", str(stored.get("sha256", "–"))),
         ("Recording", f"{len(recording.signals)} substeps of {recording.dt * 1e3:.4g} ms, {len(recording.channels)} channels"),
     ]
-
-
-def _fixed(value: float | None, digits: int) -> str:
-    """With fixed decimals and a real minus; a dash where there is none."""
-    return "–" if value is None else f"{value:z.{digits}f}".replace("-", "−")
 
 
 def _clock(moment: str | None) -> str:

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator, model_valida
 from app.dependencies import Configured
 from app.jobs.states import State
 from app.runs.dependency import Runs
-from app.runs.exports import csv_parts, recording_path, report
+from app.runs.exports import csv_parts, measures_text, recording_path, report
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
 from rths_engine.foundation.errors import Issue, PlanError
@@ -72,7 +72,7 @@ def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
 
 @router.get("/runs")
 def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
-    """Runs by filter, order and page. `sort` takes a column, or a measure of a station such as `mte_mm:1`."""
+    """Runs by filter, order and page. `sort` takes a column, or a measure with the number of a station, `KEY:1`."""
     found, total = runs.listed(wanted.filter(), wanted.page())
     return RunList(runs=[RunOut.of(run) for run in found], total=total)
 
@@ -105,6 +105,14 @@ def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingR
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}.csv"'}
     return StreamingResponse(csv_parts(recording_path(run, configured)), media_type="text/csv", headers=headers)
+
+
+@router.get("/runs/{run_id}/measures.csv")
+def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
+    """The measures of an ended test as CSV, one a row: of what, key, label, value and unit."""
+    run = runs.get(run_id)
+    headers = {"Content-Disposition": f'attachment; filename="{run.id}-measures.csv"'}
+    return PlainTextResponse(measures_text(run), media_type="text/csv", headers=headers)
 
 
 @router.get("/runs/{run_id}/report.html")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,9 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from app.config import Settings
+from app.measures import rows as measured
 from app.models import Run
 from app.problems import Conflict
-from app.runs.schemas import RunDetail
+from app.runs.schemas import RunDetail, RunOut
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.recordings.run_file import load, rows
@@ -47,6 +49,18 @@ def _parts(channels: tuple[Channel, ...], dt: float, signals: Iterator[Array]) -
         text = io.BytesIO()
         np.savetxt(text, np.column_stack([time, part / factors]), fmt="%.9g", delimiter=",", newline="\r\n")
         yield text.getvalue()
+
+
+def measures_text(run: Run) -> str:
+    """The measures of a run as CSV. Raises Conflict while there is no result."""
+    if not run.recording_sha256:
+        raise Conflict(f"The test is {run.state} and has no measures.")
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(["station or floor", "key", "measure", "value", "unit"])
+    for what, one, value in measured(RunOut.of(run).model_dump(), run.test):
+        writer.writerow([what, one.key, one.label, "" if value is None else f"{value:.9g}", one.shown])
+    return text.getvalue()
 
 
 def report(run: Run, settings: Settings) -> str:

@@ -12,6 +12,8 @@ from app.jobs.service import NOBODY
 from app.jobs.states import State
 from app.models import Run, RunStation
 from app.runs.order import Outcome, RunOrder
+from rths_engine.results.measure import FloorMeasure, RunMeasure
+from rths_engine.results.measures import of
 
 
 class RunKind(Kind[Run, RunOrder, Outcome]):
@@ -33,8 +35,8 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         summary = _finite(result.summary)
         job.trip = summary["trip"]
         job.elapsed_s, job.simulated_s = summary["elapsed_s"], summary["simulated_s"]
-        job.floors_peak_mm = summary["floors_peak_mm"]
-        job.input_energy_kNm = summary["input_energy_kNm"]
+        for one in (*of(FloorMeasure), *of(RunMeasure)):
+            setattr(job, one.key, summary[one.key])
         job.recording_sha256, job.recording_size = result.recording_sha256, result.recording_size
         job.stations = [RunStation(number=number, **station) for number, station in enumerate(summary["stations"], start=1)]
         state = State(summary["status"])

@@ -11,6 +11,8 @@ from sqlalchemy.orm import Session, defer
 from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.models import Run, RunStation
+from rths_engine.results.measure import RunMeasure, StationMeasure
+from rths_engine.results.measures import of
 
 SORTS = {
     "number": Run.number,
@@ -22,8 +24,9 @@ SORTS = {
     "elapsed_s": Run.elapsed_s,
     "simulated_s": Run.simulated_s,
     "template": Run.template,
+    **{one.key: getattr(Run, one.key) for one in of(RunMeasure)},
 }
-MEASURES = tuple(column.name for column in RunStation.__table__.columns if isinstance(column.type, sa.Float))
+MEASURES = tuple(one.key for one in of(StationMeasure))
 
 
 @dataclass(frozen=True, slots=True)

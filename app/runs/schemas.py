@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from app.jobs.states import State
+from app.measures import fields
 from app.models import Run
 from app.text import Storable
+from rths_engine.results.measure import FloorMeasure, RunMeasure, StationMeasure
 
 
 class Submission(BaseModel):
@@ -30,24 +32,20 @@ class Person(BaseModel):
     by: Storable = Field("", max_length=80)
 
 
-class StationOut(BaseModel):
-    """Measures of one station, docs/measures.md."""
-
+class _Named(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
-    name: str
-    mte_mm: float | None
-    rms_percent: float | None
-    mti_mm2: float | None
-    mee_kNm: float | None
-    peak_stroke_mm: float | None
-    peak_force_kN: float | None
-    fei_delay_ms: float | None
-    fei_amplitude: float | None
-    nrms_percent: float | None
-    peak_error_percent: float | None
-    delay_ms: float | None
-    energy_error_percent: float | None
+    name: str = Field(description="name of the station")
+
+
+if TYPE_CHECKING:
+    _StationMeasured = _Named
+else:
+    _StationMeasured = create_model("StationMeasured", __base__=_Named, **fields(StationMeasure, float))
+
+
+class StationOut(_StationMeasured):
+    """One station: its measures in shown units, null where a measure is not defined or not known."""
 
 
 class RecordingOut(BaseModel):
@@ -57,9 +55,7 @@ class RecordingOut(BaseModel):
     size: int
 
 
-class RunOut(BaseModel):
-    """A run without its plan."""
-
+class _Known(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
     id: str
@@ -84,8 +80,19 @@ class RunOut(BaseModel):
     simulated_s: float | None
     duration_s: float
     stations: list[StationOut]
-    floors_peak_mm: list[float | None] | None
-    input_energy_kNm: float | None
+
+
+if TYPE_CHECKING:
+    _RunMeasured = _Known
+else:
+    _RunMeasured = create_model(
+        "RunMeasured", __base__=_Known, **fields(FloorMeasure, list[float | None]), **fields(RunMeasure, float)
+    )
+
+
+class RunOut(_RunMeasured):
+    """A run without its plan."""
+
     recording: RecordingOut | None = None
 
     @classmethod

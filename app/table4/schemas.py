@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict
+from typing import TYPE_CHECKING
+
+from pydantic import BaseModel, ConfigDict, create_model
 
 from app.runs.schemas import RunOut
+from rths_engine.table4.comparison import MEASURES
 
 Pair = tuple[float, float]
 
 
-class PaperOut(BaseModel):
-    """The published measures of a simulation that was stable, first and second station."""
-
+class _Paper(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
-    mte_mm: Pair
-    rms_percent: Pair
-    mti_mm2: Pair
-    mee_kNm: Pair
+
+if TYPE_CHECKING:
+    _Published = _Paper
+else:
+    _Published = create_model("Published", __base__=_Paper, **{key: (Pair, ...) for key in MEASURES})
+
+
+class PaperOut(_Published):
+    """The published measures of a simulation that was stable, first and second station."""
 
 
 class SimulationOut(BaseModel):

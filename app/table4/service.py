@@ -11,7 +11,7 @@ from app.runs.schemas import RunOut
 from app.runs.service import RunService
 from app.table4.schemas import PaperOut, SimulationOut, TableOut
 from rths_engine import table4 as engine
-from rths_engine.table4.comparison import CALIBRATED, MEASURES, stable
+from rths_engine.table4.comparison import CALIBRATED, FLOORS_PEAK, MEASURES, stable
 
 SHOWN = {State.COMPLETED, State.TRIPPED}
 
@@ -41,7 +41,7 @@ class Table4Service:
             signs=found.signs_right + len(found.signs_wrong),
             median_factor=found.median if found.factors else None,
             worst_factor=found.worst if found.factors else None,
-            floors_peak_mm=second.floors_peak_mm if second else None,
+            floors_peak_mm=getattr(second, FLOORS_PEAK) if second else None,
             floors_peak_mm_paper=list(engine.FLOORS_PEAK_MM),
         )
 

@@ -47,7 +47,7 @@ class _Telling:
     """Advances a run in chunks at its pace, sends frames and progress, and looks for a cancel between chunks."""
 
     def __init__(self, run: Any, attempt: int, line: Line):
-        from rths_engine.results.metrics import RunningMeasures
+        from rths_engine.results.running import RunningMeasures
 
         self.run, self.line = run, line
         self.elapsed, self.measured = 0.0, 0

@@ -1,9 +1,9 @@
 """The recording, `rths-recording/2`: one HDF5 file a run, complete or absent.
 
-`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel, with the attributes `keys` and `units`
-of the columns; `/history` (steps + 1, 2, floors) with
-x and v at the integration steps; `/plan` JSON text; attributes `schema`, `summary`, `channels`, `motion` (JSON), `dt` (s),
-`total` (substeps of the whole test), `code_version`, `digest`.
+`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; its attributes `keys` and `units` name
+the columns. `/history` (steps + 1, 2, floors) with x and v at the integration steps. `/plan` JSON text. Attributes of the file:
+`schema`, `summary`, `measures` (declarations of the measures in `summary`), `channels`, `motion` (JSON), `dt` (s), `total`
+(substeps of the whole test), `code_version`, `digest`.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 from rths_engine.recordings import first_form
 from rths_engine.results.channels import CHANNELS, Channel
+from rths_engine.results.measures import MEASURES
 from rths_engine.results.result import Result
 
 SCHEMA = "rths-recording/2"
@@ -127,6 +128,7 @@ def _write(file: h5py.File, result: Result) -> None:
         summary=json.dumps(result.summary()),
         channels=json.dumps([channel.as_dict() for channel in result.channels]),
         motion=json.dumps(motion),
+        measures=json.dumps([one.as_dict() for one in MEASURES]),
     )
     file.create_dataset("plan", data=json.dumps(result.plan.as_dict()))
 

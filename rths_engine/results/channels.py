@@ -69,7 +69,7 @@ CHANNELS: dict[str, Role] = {
     "ti": Role(
         "Tracking indicator", "TI", "m^2", "mm^2", "station", "0.5 (A - TA) of d_m over d_c; grows under lag", derived=True
     ),
-    "d_alpha": Role("Adaptation", "Δα", "1", "1", "station", "change that an adaptive compensator makes", derived=True),
+    "d_alpha": Role("Adaptation Δα", "Δα", "1", "1", "station", "change that an adaptive compensator makes", derived=True),
     "energy_error": Role(
         "Energy error", "E", "J", "kN*m", "station", "work of r along d_c less along d_m; falls under lag", derived=True
     ),

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.ground_motions import Motion
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import Trip
-from rths_engine.results import metrics
-from rths_engine.results.channels import FLOORS, INPUTS, Channel, columns, key
+from rths_engine.results import measured
+from rths_engine.results.channels import Channel
+from rths_engine.results.signals import RunSignals
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,31 +42,12 @@ class Result:
         return column
 
     def summary(self) -> dict[str, Any]:
-        """JSON form: how the run ended, the measures of each station, floor peaks and the largest input energy."""
-        largest_input = self._largest_input()
+        """JSON form: how the run ended, and its measures in shown units."""
+        whole = RunSignals(self.plan, self.dt, self.channels, self.signals, self.history[0, 0])
         return {
             "status": self.status,
             "trip": self.trip.as_dict() if self.trip else None,
             "elapsed_s": self.elapsed_s,
             "simulated_s": self.simulated_s,
-            "stations": list(self._stations(largest_input)),
-            "floors_peak_mm": [float(np.max(np.abs(x), initial=0.0)) * 1e3 for x in self._columns(*FLOORS).T],
-            "input_energy_kNm": None if largest_input is None else largest_input * 1e-3,
+            **measured.of_run(whole),
         }
-
-    def _stations(self, largest_input: float | None) -> Iterator[dict[str, Any]]:
-        for number, station in enumerate(self.plan.stations, start=1):
-            x_cmd, x_meas, f_meas = (self.signal(key(role, number)) for role in ("x_cmd", "x_meas", "f_meas"))
-            measures = metrics.station_measures(x_cmd, x_meas, f_meas, self.dt)
-            yield measures.shown(station.name, metrics.energy_error_ratio(measures.mee, station.dampers, largest_input))
-
-    def _largest_input(self) -> float | None:
-        """The largest input energy (J); None where it is not known."""
-        loads = metrics.floor_loads(self.plan)
-        if loads is None:
-            return None
-        energy = metrics.input_energy(loads, self._columns(*INPUTS), self._columns(*FLOORS), self.history[0, 0])
-        return float(np.max(energy, initial=0.0))
-
-    def _columns(self, *roles: str) -> Array:
-        return self.signals[:, columns(self.channels, *roles)]

@@ -89,7 +89,7 @@ def test_json_is_one_object_with_the_measures_of_the_run(write: Write, capsys: p
 def test_the_table_names_units_and_the_papers_measures(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(write())]) == 0
     out = capsys.readouterr().out
-    for heading in ("MTE mm", "RMS %", "MTI mm²", "MEE kN·m", "Stroke mm", "Force kN"):
+    for heading in ("MTE, mm", "RMS, %", "MTI, mm²", "MEE, kN·m", "Peak stroke, mm", "Peak force, kN"):
         assert heading in out
     rows = [line.split()[1:] for line in out.splitlines() if line.startswith("  paper")]
     assert rows == [["0.8", "1.4", "11.8", "-2.6", "–", "–"], ["1.6", "2", "48.1", "-2.3", "–", "–"]]

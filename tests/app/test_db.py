@@ -72,7 +72,7 @@ def test_runs_measured_before_a_migration_keep_what_was_measured(tmp_path: Path)
     db.migrate(url)
     with db.unit_of_work(db.sessions(engine)) as session:
         station = session.scalars(sa.select(RunStation)).one()
-        assert (station.name, station.mte_mm, station.fei_delay_ms) == ("damper", 2.5, None)
+        assert (station.name, station.measure("mte_mm"), station.measure("fei_delay_ms")) == ("damper", 2.5, None)
     engine.dispose()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import subprocess
 import sys
@@ -72,16 +73,25 @@ def until(look: Callable[[], Any], good: Callable[[Any], bool], within_s: float 
     return found
 
 
+def importing(path: Path) -> dict[str, str]:
+    """The environment of a process of this project that imports from the folder `path` first."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(path), str(ROOT)])}
+
+
 @contextmanager
-def running(data: Path) -> Iterator[Service]:
-    """The service in a process of its own on a free port, its data in the folder `data`."""
+def running(data: Path, path: Path | None = None) -> Iterator[Service]:
+    """The service in a process of its own on a free port, its data in the folder `data`.
+
+    Its processes import what the folder `path` holds before they start, such as a module `sitecustomize`.
+    """
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     with (data / "service.log").open("wb") as log:
         folder = data / "rths"
         command = [sys.executable, "-m", "tests.browser.serve", str(folder), str(port)]
-        process = subprocess.Popen(command, cwd=ROOT, stdout=log, stderr=subprocess.STDOUT)
+        environment = importing(path) if path else None
+        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=log, stderr=subprocess.STDOUT)
         service = Service(f"http://127.0.0.1:{port}", folder, process.pid)
         try:
             until(lambda: _ready(service, process), bool, STARTED_WITHIN_S)

@@ -10,6 +10,8 @@ import pytest
 from rths_engine.foundation.arrays import Array
 from rths_engine.results import metrics
 from rths_engine.results.channels import FLOORS, INPUTS, columns
+from rths_engine.results.measured import of_station
+from rths_engine.results.signals import StationSignals
 from rths_engine.running.run import Run
 from tests.engine.plans import building, completed, make, shaking
 
@@ -75,14 +77,14 @@ def test_relative_errors_by_hand() -> None:
 
 @pytest.mark.parametrize("x_cmd", [UNMOVED, UNMOVED[:0]])
 def test_a_command_that_never_moved_has_no_relative_measure(x_cmd: Array) -> None:
-    shown = metrics.station_measures(x_cmd, x_cmd + 1e-6, x_cmd, DT).shown("still", None)
+    shown = of_station(StationSignals({"x_cmd": x_cmd, "x_meas": x_cmd + 1e-6, "f_meas": x_cmd}, DT))
     beyond = {"fei_delay_ms", "fei_amplitude", "nrms_percent", "peak_error_percent", "delay_ms", "energy_error_percent"}
     assert {name for name, value in shown.items() if value is None} == beyond
 
 
 def test_signals_beyond_every_bound_have_no_measure_and_no_warning() -> None:
     wild = tones([(1e300, 2.0, 0.0)])
-    shown = metrics.station_measures(wild, -wild, wild, DT).shown("wild", None)
+    shown = of_station(StationSignals({"x_cmd": wild, "x_meas": -wild, "f_meas": wild}, DT))
     assert shown["fei_amplitude"] is None and shown["nrms_percent"] is None
 
 

@@ -10,19 +10,19 @@ import pytest
 
 from rths_engine.planning import templates
 from rths_engine.planning.plan import Plan
-from rths_engine.results import metrics
 from rths_engine.results.metrics.frequency import RunningFrequency
+from rths_engine.results.running import RunningMeasures
 from rths_engine.running.run import Run
 from tests.engine.plans import LIBRARY
 
-# |running - whole|: rounding of sums in another order; the index's segments as metrics.running promises
+# |running - whole|: rounding of sums in another order; the index's segments as results.sums promises
 ROUNDING, INDEX = 1e-7, {"fei_amplitude": 0.01, "fei_delay_ms": 0.3}
 
 
 def told(plan: Plan, chunk: int) -> tuple[Run, list[dict[str, Any]]]:
     """The run, and what was told of it after each chunk."""
     run = Run(plan, LIBRARY)
-    running = metrics.RunningMeasures(plan, run.channels, run.history[0, 0])
+    running = RunningMeasures(plan, run.channels, run.history[0, 0])
     messages = []
     while not run.finished:
         running.take(run.signals[run.advance(chunk)])
@@ -61,7 +61,7 @@ def test_running_measures_end_as_those_of_the_whole_record(template: str, chunk:
 def test_running_measures_at_any_moment_are_those_of_the_record_until_then() -> None:
     plan = templates.template("table3-12")
     run = Run(plan, LIBRARY)
-    running = metrics.RunningMeasures(plan, run.channels, run.history[0, 0])
+    running = RunningMeasures(plan, run.channels, run.history[0, 0])
     for _ in range(3):
         running.take(run.signals[run.advance(700)])
         agree(run, running.shown())
@@ -70,7 +70,7 @@ def test_running_measures_at_any_moment_are_those_of_the_record_until_then() -> 
 def test_what_is_told_before_anything_moved_is_plain_json() -> None:
     plan = templates.template("table3-02")
     run = Run(plan, LIBRARY)
-    running = metrics.RunningMeasures(plan, run.channels, run.history[0, 0])
+    running = RunningMeasures(plan, run.channels, run.history[0, 0])
     shown = json.loads(json.dumps(running.shown(), allow_nan=False))
     assert shown["stations"][0]["fei_delay_ms"] is None and shown["stations"][0]["mte_mm"] == 0.0
 

@@ -1,11 +1,9 @@
-"""Measures of a test: one idea a file, each for a whole record; `running` has the same of a record that still grows."""
+"""Functions that measures are made of, one idea a file; `rths_engine.results.measures` is the table of measures."""
 
 from rths_engine.results.metrics.correlation import correlation_delay
 from rths_engine.results.metrics.energy import energy_error_ratio, floor_loads, input_energy
 from rths_engine.results.metrics.frequency import Evaluation, frequency_evaluation
 from rths_engine.results.metrics.relative import normalised_rms, peak_error
-from rths_engine.results.metrics.running import RunningMeasures
-from rths_engine.results.metrics.station import StationMeasures, station_measures
 from rths_engine.results.metrics.tracking import (
     energy_error,
     maximum_tracking_error,
@@ -16,8 +14,6 @@ from rths_engine.results.metrics.tracking import (
 
 __all__ = [
     "Evaluation",
-    "RunningMeasures",
-    "StationMeasures",
     "correlation_delay",
     "energy_error",
     "energy_error_ratio",
@@ -29,6 +25,5 @@ __all__ = [
     "peak_error",
     "rms_tracking_error",
     "signed_peak",
-    "station_measures",
     "tracking_indicator",
 ]

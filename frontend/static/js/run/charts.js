@@ -10,14 +10,14 @@ import { View } from "./view.js";
 const COLOURS = ["--line-1", "--line-2", "--line-3", "--line-4"];
 const MOST_FLOORS = 8;
 
-/** Charts of a station: signals against time by `keys`, or one signal (y) against another (x). */
+/** Charts of a station: signals against time by `keys`, or one signal (y) against another (x). A title is given where the label of the channel is none. */
 const CHARTS = {
   displacement: { title: "Displacement", keys: ["x_cmd", "x_meas"], labels: ["command", "measured"] },
-  force: { title: "Measured force", keys: ["f_meas"], labels: [""] },
-  error: { title: "Tracking error", keys: ["error"], labels: [""] },
-  ti: { title: "Tracking indicator TI", keys: ["ti"], labels: [""] },
-  d_alpha: { title: "Adaptation Δα", keys: ["d_alpha"], labels: [""] },
-  energy_error: { title: "Energy error", keys: ["energy_error"], labels: [""] },
+  force: { keys: ["f_meas"], labels: [""] },
+  error: { keys: ["error"], labels: [""] },
+  ti: { keys: ["ti"], labels: [""] },
+  d_alpha: { keys: ["d_alpha"], labels: [""] },
+  energy_error: { keys: ["energy_error"], labels: [""] },
   hysteresis: { title: "Force against displacement", x: ["x_meas", "displacement"], y: ["f_meas", "force"] },
   subspace: { title: "Synchronisation subspace", x: ["x_cmd", "command"], y: ["x_meas", "measured"], alike: true },
 };
@@ -29,10 +29,10 @@ const SHOWN = {
   actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "ti", "d_alpha"], large: { displacement: "wide" } },
 };
 
-/** Build the charts of a plan's test into `host`; the view draws them, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan */
-export function buildCharts(host, store, plan) {
+/** Build the charts of a plan's test into `host`; the view draws them, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan @param {{measures: import("./measures.js").Measure[], channels: Record<string, any>}} declared */
+export function buildCharts(host, store, plan, declared) {
   const view = new View(store);
-  const tiles = new Tiles(plan);
+  const tiles = new Tiles(plan, declared.measures);
   const series = (/** @type {string} */ key, /** @type {string} */ label, /** @type {number} */ i) => {
     const index = store.index(key);
     return { index, label, unit: store.channels[index].unit, colour: COLOURS[i % COLOURS.length] };
@@ -41,7 +41,8 @@ export function buildCharts(host, store, plan) {
   const sections = plan.stations.map((/** @type {any} */ station, /** @type {number} */ i) => {
     const wanted = shown.charts.filter((name) => name !== "d_alpha" || station.compensator.kind !== "none");
     const charts = wanted.map((name) => {
-      const chart = stationChart(view, CHARTS[name], i + 1, series);
+      const given = /** @type {any} */ (CHARTS[name]);
+      const chart = stationChart(view, { title: declared.channels[given.keys?.[0]]?.label, ...given }, i + 1, series);
       if (shown.large[name]) chart.figure.element.classList.add(shown.large[name]);
       return chart;
     });

@@ -1,6 +1,9 @@
 // @ts-check
 import { el } from "../dom.js";
 import { fixed, number, size, when } from "../format.js";
+import { of } from "./measures.js";
+
+/** @typedef {import("./measures.js").Measure} Measure */
 
 const KINDS = { hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone" };
 const ENDED = ["completed", "tripped", "cancelled", "failed"];
@@ -8,8 +11,8 @@ const ENDED = ["completed", "tripped", "cancelled", "failed"];
 /** @param {string} state */
 export const ended = (state) => ENDED.includes(state);
 
-/** What is known of a run besides its measures, as terms and their values. @param {any} run @returns {HTMLElement[]} */
-export function facts(run) {
+/** What is known of a run besides the measures in tables, as terms and their values. @param {any} run @param {Measure[]} measures @returns {HTMLElement[]} */
+export function facts(run, measures) {
   const rows = [
     ["Submitted", `${when(run.submitted_at)} by ${run.submitted_by || "unknown"}`],
     ["Started", when(run.started_at)],
@@ -21,13 +24,22 @@ export function facts(run) {
     ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or engine of the one before died)` : null],
     ["Digest of the plan", run.digest],
     ["Code version", run.code_version],
-    ["Floor peaks", run.stations?.length && run.floors_peak_mm?.length ? `${run.floors_peak_mm.map((/** @type {number} */ x) => fixed(x)).join(", ")} mm` : null],
+    ...(run.recording ? [...of(measures, "floor", run.test).map((one) => ofFloors(run, one)), ...of(measures, "run", run.test).map((one) => ofTest(run, one))] : []),
     ["Recording", run.recording && `${size(run.recording.size)}, SHA-256 ${run.recording.sha256}`],
   ];
   return rows
     .filter(([, value]) => value != null && value !== "" && value !== "–")
     .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
 }
+
+/** A measure of the floors, where no table shows it. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
+const ofFloors = (run, { key, label, decimals, shown_label }) => [
+  `${label} of floors`,
+  run.stations?.length && run[key]?.length ? `${run[key].map((/** @type {number} */ value) => fixed(value, decimals)).join(", ")} ${shown_label}` : null,
+];
+
+/** A measure of the whole test. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
+const ofTest = (run, { key, label, decimals, shown_label }) => [label, run[key] == null ? null : `${fixed(run[key], decimals)} ${shown_label}`];
 
 /** What moves the test. @param {any} plan @returns {[string, string | null][]} */
 function excitation({ motion, drive, forces = [], start }) {

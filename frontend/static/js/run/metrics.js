@@ -1,38 +1,50 @@
 // @ts-check
 import { el } from "../dom.js";
 import { fixed } from "../format.js";
-import { BEYOND, PAPERS, telling } from "./measures.js";
+import { heading, meaning, of } from "./measures.js";
 
 /** @typedef {import("./measures.js").Measure} Measure */
 
 /**
- * Tables of the measures of each station that say something in the kind of test: the paper's, and beneath each station the values
- * published, when the plan is one of its simulations; then the others. `paper` holds a pair of values a measure, or null where the
- * paper's test was unstable.
- * @param {any[]} stations @param {Record<string, any> | null} paper @param {string} test
+ * Tables of the measures of each station, and beneath each station the values published, when the plan is one of the paper's
+ * simulations; of a test without stations, a table of the measures of each floor. `paper` holds a pair of values a measure, or null
+ * where the paper's test was unstable.
+ * @param {any} run @param {Record<string, any> | null} paper @param {Measure[]} measures
  */
-export function metricsTables(stations, paper, test) {
+export function metricsTables(run, paper, measures) {
+  if (!run.stations.length) return [floorsTable(run, of(measures, "floor", run.test))];
+  const own = of(measures, "station", run.test);
   return [
-    stationsTable("Measures of each station", telling(PAPERS, test), stations, paper),
-    stationsTable("Further measures of each station", telling(BEYOND, test), stations, null),
+    stationsTable("Measures of each station", own.filter(({ further }) => !further), run.stations, paper),
+    stationsTable("Further measures of each station", own.filter(({ further }) => further), run.stations, null),
   ];
 }
 
-/** Largest floor displacements, where nothing else is measured. @param {number[]} peaks */
-export function floorsTable(peaks) {
-  const head = [el("th", { scope: "col" }, "Floor"), el("th", { class: "number", scope: "col" }, "Peak displacement, mm")];
-  return table("Peak displacement of each floor", head, peaks.map((peak, i) => row("", `Floor ${i + 1}`, [fixed(peak, 1)])));
+/** How many floors a run has measures of. @param {any} run @param {Measure[]} measures */
+export const floorCount = (run, measures) => Math.max(0, ...measures.filter(({ scope }) => scope === "floor").map(({ key }) => run[key]?.length ?? 0));
+
+/** @param {any} run @param {Measure[]} measures */
+function floorsTable(run, measures) {
+  const rows = Array.from({ length: floorCount(run, measures) }, (_, i) =>
+    row("", `Floor ${i + 1}`, measures.map(({ key, decimals }) => fixed(run[key]?.[i], decimals))),
+  );
+  return table("Measures of each floor", heads("Floor", measures), rows);
 }
 
 /** @param {string} name @param {Measure[]} measures @param {any[]} stations @param {Record<string, any> | null} paper */
 function stationsTable(name, measures, stations, paper) {
-  const head = measures.map(({ label, unit, long }) => el("th", { class: "number", scope: "col", title: long }, unit ? `${label}, ${unit}` : label));
   const rows = stations.flatMap((station, i) => [
     row(paper ? "measured" : "", station.name, measures.map(({ key, decimals }) => fixed(station[key], decimals))),
     ...(paper ? [row("paper", `Table IV, simulation ${paper.simulation}`, measures.map(({ key, decimals }) => ofPaper(paper, key, i, decimals)))] : []),
   ]);
-  return table(name, [el("th", { scope: "col" }, "Station"), ...head], rows);
+  return table(name, heads("Station", measures), rows);
 }
+
+/** @param {string} first @param {Measure[]} measures */
+const heads = (first, measures) => [
+  el("th", { scope: "col" }, first),
+  ...measures.map((one) => el("th", { class: "number", scope: "col", title: meaning(one) }, heading(one))),
+];
 
 /** @param {string} label @param {HTMLElement[]} head @param {any[]} rows */
 function table(label, head, rows) {

@@ -5,7 +5,7 @@ import { person } from "../person.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
-import { floorsTable, metricsTables } from "./metrics.js";
+import { floorCount, metricsTables } from "./metrics.js";
 import { Store } from "./store.js";
 
 const POLL_MS = 2000;
@@ -15,6 +15,8 @@ const id = byId("run").dataset.id;
 let run = null;
 /** @type {any} */
 let paper = null;
+/** @type {{measures: import("./measures.js").Measure[], channels: Record<string, any>}} */
+let declared = { measures: [], channels: {} };
 /** @type {Store | null} */
 let store = null;
 /** @type {import("./view.js").View | null} */
@@ -39,14 +41,14 @@ function show() {
   banner.hidden = !why;
   banner.textContent = why ?? "";
   banner.classList.toggle("bad", run.state !== "cancelled");
-  byId("facts").replaceChildren(...facts(run));
+  byId("facts").replaceChildren(...facts(run, declared.measures));
   showProgress(run);
   showActions();
-  const measured = ended(run.state) && run.recording && (run.stations?.length || run.floors_peak_mm?.length);
+  const measured = ended(run.state) && run.recording && (run.stations?.length || floorCount(run, declared.measures));
   byId("metrics").hidden = !measured;
   if (measured) {
     showTiles();
-    byId("metrics").replaceChildren(...(run.stations.length ? metricsTables(run.stations, paper, run.test) : [floorsTable(run.floors_peak_mm)]));
+    byId("metrics").replaceChildren(...metricsTables(run, paper, declared.measures));
   }
 }
 
@@ -70,7 +72,7 @@ function showActions() {
   byId("actions").replaceChildren(
     ...(ended(run.state) ? [] : [cancel]),
     ...(run.recording
-      ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("report.html", "Report")]
+      ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("measures.csv", "Measures, CSV"), download("report.html", "Report")]
       : []),
     download("plan.yaml", "Plan, YAML"),
     ...(run.test === "specimen" || run.test === "actuator" ? [] : [el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability")]),
@@ -103,7 +105,7 @@ const viewer = {
       attempt = schema.attempt;
       store = new Store(schema);
       view?.close();
-      ({ view, tiles } = buildCharts(byId("charts"), store, run.plan));
+      ({ view, tiles } = buildCharts(byId("charts"), store, run.plan, declared));
       byId("chart-controls").hidden = false;
       if (ended(run.state)) showTiles();
       showWindow();
@@ -155,6 +157,7 @@ document.addEventListener("themechange", () => view?.redraw());
 document.addEventListener("aborted", () => load().catch(complain));
 
 try {
+  declared = await api.get("/schema");
   await load();
   if (!ended(run.state) || run.recording) follow(id, viewer);
   poll();

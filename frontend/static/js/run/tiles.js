@@ -1,28 +1,27 @@
 // @ts-check
 import { el } from "../dom.js";
 import { fixed } from "../format.js";
-import { BEYOND, INPUT_ENERGY, PAPERS, telling } from "./measures.js";
+import { meaning, of } from "./measures.js";
 
 /** @typedef {import("./measures.js").Measure} Measure */
 
 /** The measures beside the charts, those so far while the test runs: a list for each station and one for the structure. */
 export class Tiles {
-  /** @param {any} plan */
-  constructor(plan) {
-    /** @type {List[]} */
-    this.stations = plan.stations.map(() => new List(telling([...PAPERS, ...BEYOND], plan.test)));
-    this.structure = new List([INPUT_ENERGY]);
+  /** @param {any} plan @param {Measure[]} measures */
+  constructor(plan, measures) {
+    this.stations = plan.stations.map(() => new List(of(measures, "station", plan.test)));
+    this.structure = new List(of(measures, "run", plan.test));
   }
 
-  /** @param {{stations: any[], input_energy_kNm: number | null}} measures */
+  /** Show the measures of a run, or of a running test so far. @param {{stations: any[]} & Record<string, any>} measures */
   show(measures) {
     measures.stations.forEach((station, i) => this.stations[i]?.show(station));
     this.structure.show(measures);
   }
 
-  /** Of an ended run the stations' measures stand in tables. */
+  /** Hide the measures of the stations, which stand in tables once the test has ended. */
   fold() {
-    this.stations.forEach((list) => (list.element.hidden = true));
+    this.stations.forEach((/** @type {List} */ list) => (list.element.hidden = true));
   }
 }
 
@@ -31,8 +30,8 @@ class List {
   constructor(measures) {
     this.measures = measures;
     this.values = measures.map(() => el("span", { class: "value" }, "–"));
-    const tiles = measures.map(({ label, unit, long }, i) =>
-      el("div", { title: long }, el("dt", {}, label), el("dd", {}, this.values[i], unit && ` ${unit}`)),
+    const tiles = measures.map((one, i) =>
+      el("div", { title: meaning(one) }, el("dt", {}, one.label), el("dd", {}, this.values[i], one.shown_label && ` ${one.shown_label}`)),
     );
     this.element = el("dl", { class: "tiles" }, ...tiles);
   }

@@ -1,0 +1,34 @@
+"""The engine's table of measures as fields of JSON, and as rows for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import Field
+
+from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
+from rths_engine.results.measures import of
+
+
+def fields(scope: type[Measure], kind: Any) -> dict[str, Any]:
+    """Fields of a pydantic model, one a measure of the scope: `kind` or null, with heading, unit and meaning."""
+    return {
+        one.key: (
+            kind | None,
+            Field(title=one.heading, description=f"{one.meaning}; {one.formula}", json_schema_extra={"unit": one.shown_label}),
+        )
+        for one in of(scope)
+    }
+
+
+def rows(run: Any, test: str) -> Iterator[tuple[str, Measure, float | None]]:
+    """Every measure that says something in the kind of test: of what, the measure, its shown value. `run` is JSON."""
+    for station in run["stations"]:
+        for one in of(StationMeasure, test):
+            yield station["name"], one, station.get(one.key)
+    for floor in of(FloorMeasure, test):
+        for number, value in enumerate(run.get(floor.key) or [], start=1):
+            yield f"Floor {number}", floor, value
+    for whole in of(RunMeasure, test):
+        yield "whole test", whole, run.get(whole.key)
