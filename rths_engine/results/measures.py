@@ -202,7 +202,7 @@ MEASURES: tuple[Measure, ...] = (
     ),
     FloorMeasure(
         key="floors_peak_mm",
-        label="Peak displacement",
+        label="Floor peak",
         symbol="max abs(x)",
         unit="m",
         shown="mm",

@@ -34,7 +34,7 @@ export function facts(run, measures) {
 
 /** A measure of the floors, where no table shows it. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
 const ofFloors = (run, { key, label, decimals, shown_label }) => [
-  `${label} of floors`,
+  label,
   run.stations?.length && run[key]?.length ? `${run[key].map((/** @type {number} */ value) => fixed(value, decimals)).join(", ")} ${shown_label}` : null,
 ];
 
