@@ -94,7 +94,7 @@ RUNS = {
             "Synchronisation subspace",
             "Tracking error",
             "Measured force",
-            "Tracking indicator TI",
+            "Tracking indicator",
         ],
     ),
     "structure-free-vibration": ("phone", ["Floor displacement relative to the ground"]),
