@@ -6,6 +6,7 @@ import { of } from "./measures.js";
 /** @typedef {import("./measures.js").Measure} Measure */
 
 const KINDS = { hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone" };
+const COMPUTED = ["hybrid", "structure"]; // kinds of test with a structure
 const ENDED = ["completed", "tripped", "cancelled", "failed"];
 
 /** @param {string} state */
@@ -24,7 +25,8 @@ export function facts(run, measures) {
     ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or engine of the one before died)` : null],
     ["Digest of the plan", run.digest],
     ["Code version", run.code_version],
-    ...(run.recording ? [...of(measures, "floor", run.test).map((one) => ofFloors(run, one)), ...of(measures, "run", run.test).map((one) => ofTest(run, one))] : []),
+    ...of(measures, "floor", run.test).map((one) => ofFloors(run, one)),
+    ...of(measures, "run", run.test).map((one) => ofTest(run, one)),
     ["Recording", run.recording && `${size(run.recording.size)}, SHA-256 ${run.recording.sha256}`],
   ];
   return rows
@@ -38,8 +40,11 @@ const ofFloors = (run, { key, label, decimals, shown_label }) => [
   run.stations?.length && run[key]?.length ? `${run[key].map((/** @type {number} */ value) => fixed(value, decimals)).join(", ")} ${shown_label}` : null,
 ];
 
-/** A measure of the whole test. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
-const ofTest = (run, { key, label, decimals, shown_label }) => [label, run[key] == null ? null : `${fixed(run[key], decimals)} ${shown_label}`];
+/** A measure of the whole test, where no tile of a structure shows it. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
+const ofTest = (run, { key, label, decimals, shown_label }) => [
+  label,
+  COMPUTED.includes(run.test) || run[key] == null ? null : `${fixed(run[key], decimals)} ${shown_label}`,
+];
 
 /** What moves the test. @param {any} plan @returns {[string, string | null][]} */
 function excitation({ motion, drive, forces = [], start }) {
