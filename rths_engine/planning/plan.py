@@ -31,6 +31,7 @@ from rths_engine.planning.kinds_of_test import DRIVEN, TESTS
 from rths_engine.planning.motion import NoMotion, PlannedMotion
 from rths_engine.planning.safety import Limits
 
+# chosen; see docs/decisions/0023
 COMPUTED: dict[str, Any] = {"tests": ["hybrid", "structure"]}
 TESTED: dict[str, Any] = {"tests": ["hybrid", *DRIVEN], "one_in": [*DRIVEN]}
 ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}

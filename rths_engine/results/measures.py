@@ -21,6 +21,7 @@ TABLE_IV = "Chen and Ricles (2012), EESD 41, 549-569, equation (10)"
 RIASCOS = "Riascos, Ou and Dyke, Hybrid Simulation Current Assessment Measures (2014)"
 GUO = "Guo, Chen, Xu and Christenson (2014)"
 
+# factors and digits are those of the display, the source of each measure is its field: docs/measures.md
 MEASURES: tuple[Measure, ...] = (
     StationMeasure(
         key="mte_mm",
