@@ -31,3 +31,12 @@ def test_a_stale_table_is_written_anew_and_the_rest_is_left_alone() -> None:
 
 def test_a_bar_in_a_cell_does_not_end_it() -> None:
     assert table(["a"], [["x | y\nz"]]) == "| a |\n| --- |\n| x \\| y z |"
+
+
+def test_the_fields_of_a_verdict_are_listed_with_type_and_unit() -> None:
+    rows = {line.split("|")[1].strip(): line for line in TABLES["fields of a verdict"]().splitlines()}
+    assert "| [number, number] | stated in `unit` |" in rows["`effects[].parameters[].ci90`"]
+    assert "| list of [number, number] | s |" in rows["`where.times_s`"]
+    assert "| list of lists of texts |  |" in rows["`indistinguishable`"]
+    assert "| object or null |  |" in rows["`next_test`"] and "`next_test.signal`" in rows
+    assert "list of numbers, some null" in TABLES["fields of the plots"]()

@@ -42,7 +42,7 @@ class RthsError(Exception):
 def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:
     """The error with its inputs under other names.
 
-    With `heldout.0` -> `--holdout other.h5`, an issue at `heldout.0` and below is reported at `--holdout other.h5`. The
+    With `heldout.0` -> `Held-out recording 1`, an issue at `heldout.0` and below is reported at `Held-out recording 1`. The
     command line and the service each have their own names for their inputs.
     """
 

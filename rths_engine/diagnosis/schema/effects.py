@@ -41,7 +41,7 @@ class Candidate(Form):
 
     effects: tuple[str, ...] = field("Effects as component/id; empty for the planned model")
     probability: float = field("Probability among the models that were fitted", NUMBERS, ge=0, le=1)
-    delta_bic: float = field("BIC above that of the best candidate", NUMBERS)
+    delta_bic: float = field("BIC above the smallest of the models that were fitted", NUMBERS)
     heldout_nrmse: float | None = field(
         "RMS error on held-out data over the RMS of the recorded signal about its mean; null where the simulation runs away",
         NUMBERS,

@@ -27,5 +27,9 @@ class Unexplained(Form):
         "RMS of the residual beyond the noise over the RMS of the recorded signal about its mean; null where it is not finite",
         NUMBERS,
     )
-    formula: str | None = field("Law of what remains, in whitened SI signals; null where none was fitted")
+    formula: str | None = field(
+        "Law of what remains; null where none was fitted. Coefficients in the SI unit of the compared signal, of a structure "
+        "in 1 % of the storey's largest elastic force; x, v, a and f over their largest values; E and t are the shares of the "
+        "dissipated energy and of the duration"
+    )
     words: str = field("The same in words")
