@@ -65,12 +65,12 @@ class RunSignals:
         column: Array = self.signals[:, [channel.key for channel in self.channels].index(key)]
         return column
 
-    @property
+    @cached_property
     def inputs(self) -> Array:
         """(samples, inputs): ground acceleration (m/s^2) and the force on each floor that has one (N)."""
         return self.signals[:, columns(self.channels, *INPUTS)]
 
-    @property
+    @cached_property
     def floors(self) -> Array:
         """(samples, floors): displacements relative to the ground (m)."""
         return self.signals[:, columns(self.channels, *FLOORS)]

@@ -72,7 +72,6 @@ class Setup(NamedTuple):
     members: Members
     loads: Any  # (I, DOF), forces by a unit of each input: -M @ iota for the ground acceleration
     inputs: Any  # (steps + 1, I) at the integration steps
-    columns: Any  # (I), the column of signals that records an input; forces on one floor share one
     floors: Any  # DOF of the floors
     drifts: Any  # L (S, DOF)
     drive: Any  # (steps + 1, S), added to L x
@@ -104,12 +103,9 @@ class LeftOut(NamedTuple):
 
 
 class Record(NamedTuple):
-    """What a run writes.
+    """What a run writes. Columns of signals: inputs, floors, stations; trip: station from 0, value, bound, substep from 1."""
 
-    Columns of signals: ground, forces on floors, floors, stations; trip: station from 0, value, bound, substep from 1.
-    """
-
-    signals: Any  # (Q, channels)
+    signals: Any  # (Q, inputs + floors + columns of the stations)
     history: Any  # (steps + 1, 2, floors), x and v
     trip: Any  # (4)
 
@@ -218,7 +214,6 @@ def advance(first, last, setup, state, left_out, record):
     """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
     x, n, floors, inputs = state.x, setup.n, setup.floors, setup.loads.shape[0]
     stations, width = setup.dampers.size, len(RECORDED)
-    recorded = setup.columns.max() + 1 if inputs else 0
     residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
         integrate(i, setup, state, left_out, residual, work, x_next)
@@ -231,16 +226,14 @@ def advance(first, last, setup, state, left_out, record):
             done = i * n + q - 1
             share = q / n
             row = record.signals[done]
-            for k in range(recorded):
-                row[k] = -0.0  # to which every number adds as itself, 0.0 and -0.0 too
             for k in range(inputs):
-                row[setup.columns[k]] += setup.inputs[i, k] + share * (setup.inputs[i + 1, k] - setup.inputs[i, k])
+                row[k] = setup.inputs[i, k] + share * (setup.inputs[i + 1, k] - setup.inputs[i, k])
             for f in range(floors.size):
                 a = floors[f]
-                row[recorded + f] = x[a] + share * (x_next[a] - x[a])
+                row[inputs + f] = x[a] + share * (x_next[a] - x[a])
             for j in range(stations):
                 x_cmd = command[j, 0] + share * (command[j, 1] - command[j, 0])
-                start = recorded + floors.size + j * width
+                start = inputs + floors.size + j * width
                 time, own_row = (done + 1) * setup.dt, row[start : start + width]
                 broken, value = _substep(j, setup, state, left_out, x_cmd, setup.noise[done, j], time, own_row)
                 if broken > 0:

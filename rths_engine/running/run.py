@@ -7,11 +7,13 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.ground_motions import Motion, MotionLibrary
 from rths_engine.planning import motion
+from rths_engine.planning.loads import columns
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS, Trip
 from rths_engine.results.channels import Channel, channels
@@ -60,7 +62,10 @@ class Run:
             x[:], v[:] = initial
         self._state = loop.State(x, v, carry, plastic, parts, memory)
         self._left_out = left_out(plan, built)
-        self._record = loop.Record(self.signals, self.history, np.zeros(4))
+        self._columns = columns(plan)
+        shared = len(self._columns) - len(set(self._columns.tolist()))
+        written = np.zeros((self.total, len(self.channels) + shared)) if shared else self.signals
+        self._record = loop.Record(written, self.history, np.zeros(4))
         self.history[0] = x[self._setup.floors], v[self._setup.floors]
 
     @property
@@ -75,6 +80,8 @@ class Run:
         last = min(self._step + steps, self._steps)
         broken, self.done = loop.advance(self._step, last, self._setup, self._state, self._left_out, self._record)
         self._step = last
+        if self._record.signals is not self.signals:
+            self.signals[before : self.done] = _summed(self._record.signals[before : self.done], self._columns)
         if broken:
             self.trip = self._tripped(broken - 1)
         return slice(before, self.done)
@@ -109,6 +116,14 @@ def simulate(plan: Plan, motions: MotionLibrary | None = None) -> Result:
     start = time.perf_counter()
     run.advance(run.total)
     return run.result("tripped" if run.trip else "completed", time.perf_counter() - start)
+
+
+def _summed(rows: Array, columns: NDArray[np.int64]) -> Array:
+    """What the loop wrote, with the inputs of one column added; the other columns follow as they are."""
+    inputs = np.full((len(rows), columns.max() + 1), -0.0)  # to which every number adds as itself, 0.0 and -0.0 too
+    for k, column in enumerate(columns):
+        inputs[:, column] += rows[:, k]
+    return np.hstack([inputs, rows[:, len(columns) :]])
 
 
 def _noise(plan: Plan, total: int) -> Array:

@@ -15,7 +15,7 @@ from rths_engine.parts.integrators.scheme import Scheme
 from rths_engine.parts.physics.effect import STOREY
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.parts.structures.assembled import Assembled
-from rths_engine.planning.loads import columns, loads
+from rths_engine.planning.loads import loads
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS
 from rths_engine.running import loop
@@ -44,7 +44,6 @@ def setup(plan: Plan, built: Assembled, scheme: Scheme, inputs: Array, drive: Ar
         members=built.members,
         loads=loads(plan, built),
         inputs=inputs,
-        columns=columns(plan),
         floors=np.array(built.floors, dtype=np.int64),
         drifts=built.drifts[[station.storey - 1 for station in plan.stations]],
         drive=drive,
