@@ -16,7 +16,7 @@ import pytest
 from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
-from app.config import Settings
+from app.config import Settings, from_environment
 from app.jobs import queue as durable
 from app.jobs.hold import Hold
 from app.jobs.kind import Kind
@@ -24,9 +24,8 @@ from app.jobs.service import MOST_ATTEMPTS, JobService
 from app.jobs.states import IllegalTransition, State
 from app.worker.kinds import KINDS
 from tests.app.third_kind import COUNTS, DIES, REFUSED, Count, Other
-from tests.browser.service import until
+from tests.browser.service import DATABASE_URL, ENVIRONMENT, ROOT, until
 
-ROOT = Path(__file__).parents[2]
 LONG = 100_000
 PATIENCE_S = 60  # two busy cores; a dead worker is noticed after 6 s
 
@@ -62,7 +61,7 @@ class Counts:
     @contextmanager
     def worker(self, name: str) -> Iterator[subprocess.Popen[bytes]]:
         command = [sys.executable, "-m", "tests.app.third_kind", str(self.settings.data), name]
-        process = subprocess.Popen(command, cwd=ROOT)
+        process = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT)
         try:
             yield process
         finally:
@@ -72,7 +71,7 @@ class Counts:
 
 @contextmanager
 def counts_in(data: Path) -> Iterator[Counts]:
-    settings = Settings(data=data).prepared()
+    settings = from_environment(data=data, database_url=DATABASE_URL).prepared()
     db.migrate(settings.url)
     durable.migrate(settings.url)
     engine = db.connect(settings.url)
@@ -87,6 +86,17 @@ def counts_in(data: Path) -> Iterator[Counts]:
 def worked(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Counts]:
     with counts_in(tmp_path_factory.mktemp("counts")) as counts, counts.worker("first"):
         yield counts
+
+
+def test_another_worker_takes_it_over_when_its_worker_was_killed(tmp_path: Path) -> None:
+    with counts_in(tmp_path) as counts:
+        with counts.worker("doomed") as doomed:
+            count = counts.submit(300)
+            counts.under_way(count)
+            os.kill(doomed.pid, signal.SIGKILL)
+        with counts.worker("second"):
+            found = counts.ended(count)
+    assert (found.state, found.attempt, found.worker, found.counted) == (State.COMPLETED, 2, "second", 300)
 
 
 def test_it_runs_to_its_end_and_its_result_is_stored(worked: Counts) -> None:
@@ -128,17 +138,6 @@ def test_it_does_not_wait_while_the_queue_is_held_unless_it_is_declared_so(worke
     finally:
         with db.unit_of_work(worked.maker) as session:
             Hold(session).release()
-
-
-def test_another_worker_takes_it_over_when_its_worker_was_killed(tmp_path: Path) -> None:
-    with counts_in(tmp_path) as counts:
-        with counts.worker("doomed") as doomed:
-            count = counts.submit(300)
-            counts.under_way(count)
-            os.kill(doomed.pid, signal.SIGKILL)
-        with counts.worker("second"):
-            found = counts.ended(count)
-    assert (found.state, found.attempt, found.worker, found.counted) == (State.COMPLETED, 2, "second", 300)
 
 
 @pytest.mark.parametrize("kind", [*KINDS, COUNTS], ids=lambda kind: kind.name)

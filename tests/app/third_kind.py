@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from sqlalchemy.orm import DeclarativeBase, Mapped
 
-from app.config import Settings
+from app.config import Settings, from_environment
 from app.db import Base
 from app.jobs.kind import Ending, Kind
 from app.jobs.order import Order
@@ -77,7 +77,7 @@ def main(data: str, name: str) -> None:
     from app.worker.main import work
 
     kinds: list[Kind[Any, Any, Any]] = [COUNTS]
-    work(Settings(data=Path(data)).prepared(), "ws://127.0.0.1:1", name, kinds)
+    work(from_environment(data=Path(data)).prepared(), "ws://127.0.0.1:1", name, kinds)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The whole service for a browser test: `python -m tests.browser.serve DATA PORT`."""
+"""The whole service for a browser test: `python -m tests.browser.serve DATA PORT`, on RTHS_DATABASE_URL where it is set."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from pathlib import Path
 
 import uvicorn
 
-from app.config import Settings
+from app.config import from_environment
 from app.main import create_app
 
 if __name__ == "__main__":
     data, port = Path(sys.argv[1]), int(sys.argv[2])
-    uvicorn.run(create_app(Settings(data=data, port=port)), host="127.0.0.1", port=port, log_level="warning")
+    uvicorn.run(create_app(from_environment(data=data, port=port)), host="127.0.0.1", port=port, log_level="warning")

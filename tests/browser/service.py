@@ -17,6 +17,9 @@ import httpx
 STARTED_WITHIN_S = 240  # compiling the engine's loop for the first time, on a busy machine, included
 ENDED = {"completed", "tripped", "cancelled", "failed"}
 ROOT = Path(__file__).parents[2]
+DATABASE_URL = os.environ.get("RTHS_TEST_DATABASE_URL", "")
+"""Database of whole services in tests, such as postgresql://...; by default SQLite in the data folder."""
+ENVIRONMENT = {**os.environ, "RTHS_DATABASE_URL": DATABASE_URL}
 
 
 class Service:
@@ -75,7 +78,7 @@ def until(look: Callable[[], Any], good: Callable[[Any], bool], within_s: float 
 
 def importing(path: Path) -> dict[str, str]:
     """The environment of a process of this project that imports from the folder `path` first."""
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(path), str(ROOT)])}
+    return {**ENVIRONMENT, "PYTHONPATH": os.pathsep.join([str(path), str(ROOT)])}
 
 
 @contextmanager
@@ -90,7 +93,7 @@ def running(data: Path, path: Path | None = None) -> Iterator[Service]:
     with (data / "service.log").open("wb") as log:
         folder = data / "rths"
         command = [sys.executable, "-m", "tests.browser.serve", str(folder), str(port)]
-        environment = importing(path) if path else None
+        environment = importing(path) if path else ENVIRONMENT
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=log, stderr=subprocess.STDOUT)
         service = Service(f"http://127.0.0.1:{port}", folder, process.pid)
         try:
