@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from argparse import Namespace
 
-from app.cli.run_input import plan_at
+from app.cli.run_input import model_at
 from app.reports.diagnosis import report_html
 from app.shown import VERDICTS
 from rths_engine.diagnosis.pictures import pictures
@@ -23,7 +23,7 @@ def diagnose(given: Namespace) -> None:
     for option, path in (("--json", given.json), ("--report", given.report)):
         if path and not path.parent.is_dir():
             raise PlanError(Issue(option, "there is no such folder", str(path.parent), "make it first"))
-    plan = plan_at(given.plan)
+    plan = model_at(given.plan).plan
     heldout = [opening.load(path) for path in given.holdout]
     more = [opening.load(path) for path in given.more]
     try:

@@ -16,7 +16,7 @@ from tqdm import tqdm
 
 from app.cli.main import DONE, FAILED, INTERRUPTED, UNUSABLE
 from app.cli.result import text
-from app.cli.run_input import check_folder, read_plan
+from app.cli.run_input import check_folder, read_model
 from app.cli.settings import settings
 from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
@@ -34,8 +34,7 @@ def run(given: Namespace) -> int:
     try:
         if given.out:
             check_folder(given.out)
-        plan = read_plan(given)
-        test = Run(plan, MotionLibrary(settings(given).motions))
+        test = Run(read_model(given), MotionLibrary(settings(given).motions))
     except RthsError as error:
         return _failed(error.issues, given.json, UNUSABLE)
     with Interrupt() as interrupt:
@@ -48,7 +47,7 @@ def run(given: Namespace) -> int:
     except OSError as error:
         return _failed([Issue("--out", f"the recording was not stored: {error}", str(given.out))], given.json, FAILED)
     summary = result.summary()
-    print(json.dumps(summary) if given.json else text(plan, summary, given.out))
+    print(json.dumps(summary) if given.json else text(test.plan, summary, given.out))
     return INTERRUPTED if status == "cancelled" else DONE
 
 

@@ -10,33 +10,34 @@ from pathlib import Path
 
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.foundation.part import validated
+from rths_engine.planning.model import Model
 from rths_engine.planning.motion import FileMotion
-from rths_engine.planning.plan import Plan
 from rths_engine.planning.plan_yaml import LARGEST
-from rths_engine.planning.reading import plan_from_yaml
+from rths_engine.planning.reading import model_from_yaml
 
 STANDARD_INPUT = "-"
 
 
-def read_plan(given: Namespace) -> Plan:
-    """Raises PlanError with every issue."""
-    plan = plan_at(given.plan)
+def read_model(given: Namespace) -> Model:
+    """The model of the plan to run. Raises PlanError with every issue."""
+    model = model_at(given.plan)
+    plan = model.plan
     if given.record and plan.driven:
         raise PlanError(Issue("--record", f"is not used: a test of one {plan.test} follows its drive", fix="leave it out"))
     if given.record:
         motion = {"kind": "file", "path": given.record, "unit": given.record_unit, "dt": given.record_dt}
-        return _with_motion(plan, validated(FileMotion, {**motion, "scale": plan.motion.scale}))
+        return model.changed(motion=validated(FileMotion, {**motion, "scale": plan.motion.scale}))
     if given.record_unit or given.record_dt:
         raise PlanError(Issue("--record", "is needed with --record-unit and --record-dt", fix="name the record's file"))
     if isinstance(plan.motion, FileMotion) and given.plan != STANDARD_INPUT:
         beside = str(Path(given.plan).parent / plan.motion.path)
-        return _with_motion(plan, plan.motion.model_copy(update={"path": beside}))
-    return plan
+        return model.changed(motion=plan.motion.model_copy(update={"path": beside}))
+    return model
 
 
-def plan_at(path: str) -> Plan:
-    """The plan of a YAML file; - is standard input. Raises PlanError with every issue."""
-    return plan_from_yaml(_text(path))
+def model_at(path: str) -> Model:
+    """The model of the plan in a YAML file; - is standard input. Raises PlanError with every issue."""
+    return model_from_yaml(_text(path))
 
 
 def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> None:
@@ -59,7 +60,3 @@ def _text(path: str) -> str:
         raise PlanError(Issue("PLAN.yaml", "is no text in UTF-8", path, "give a plan as `rths plan` prints it")) from None
     except OSError as error:
         raise PlanError(Issue("PLAN.yaml", f"can't be read: {error.strerror}", path, "`rths plan NAME` prints one")) from None
-
-
-def _with_motion(plan: Plan, motion: FileMotion) -> Plan:
-    return plan.model_copy(update={"motion": motion})

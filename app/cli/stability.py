@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from app.cli.run_input import plan_at
+from app.cli.run_input import model_at
 from rths_engine import stability as engine
 from rths_engine.stability import published
 
 
 def stability(given: Namespace) -> None:
     """`rths stability`: print the stability of a plan, or the published limit where no plan is given."""
-    found = _published() if given.plan is None else engine.summary(plan_at(given.plan))
+    found = _published() if given.plan is None else engine.summary(model_at(given.plan))
     print(json.dumps(found) if given.json else _limit(found) if given.plan is None else _text(found))
 
 

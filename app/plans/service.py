@@ -55,7 +55,7 @@ class PlanService:
         found = checked(data, self.motions)
         plan, shaken = found.plan, found.plan.motion.kind != "none"
         summary = {
-            "periods_s": found.periods.tolist(),
+            "periods_s": found.model.periods.tolist(),
             "steps": found.steps,
             "duration_s": found.duration_s,
             "pga": found.pga if shaken else None,
@@ -94,5 +94,5 @@ def _warnings(checked: Checked) -> list[str]:
             found.append(f"{station.name}: the force limit is above the actuator's force capacity and can't trip.")
         if station.limits.velocity > station.actuator.velocity_limit:
             found.append(f"{station.name}: the velocity limit is above what the actuator can reach.")
-    unstable = stability.warning(plan)
+    unstable = stability.warning(checked.model)
     return [*found, unstable] if unstable else found

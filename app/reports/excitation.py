@@ -11,6 +11,7 @@ from rths_engine.foundation.errors import MotionError
 from rths_engine.foundation.units import STANDARD_GRAVITY
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
 from rths_engine.planning.checks import peaks
+from rths_engine.planning.model import Model
 from rths_engine.recordings.run_file import Recording
 
 _PERIODS = np.concatenate([[0.0], np.geomspace(0.02, 4.0, 160)])  # s
@@ -71,7 +72,7 @@ def _start(recording: Recording) -> Section:
 
 def _ground(recording: Recording, motions: MotionLibrary, figures: Figures) -> Section:
     plan = recording.plan
-    period = float(plan.periods()[0])
+    period = float(Model(plan).periods[0])
     panels = [figures.against_time("Ground acceleration", "Ground acceleration", [("ag", "Ground acceleration")])]
     try:
         unscaled = plan.motion.unscaled(motions)

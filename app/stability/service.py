@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rths_engine import stability
-from rths_engine.planning.reading import read_plan
+from rths_engine.planning.reading import read_model
 
 POINTS = 31
 
@@ -15,5 +15,5 @@ class StabilityService:
 
     def predict(self, data: Any) -> dict[str, Any]:
         """Radius, verdict, modes, delay margins and the map (null for fewer than two stations). Raises PlanError."""
-        plan = read_plan(data)
-        return {"name": plan.name, **stability.summary(plan), "map": stability.mapped(plan, POINTS)}
+        model = read_model(data)
+        return {"name": model.plan.name, **stability.summary(model), "map": stability.mapped(model, POINTS)}

@@ -26,13 +26,12 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     """Execute a run and save its recording. Raises Refused where its plan cannot be executed."""
     from rths_engine.foundation.errors import RthsError
     from rths_engine.parts.ground_motions import MotionLibrary
-    from rths_engine.planning.reading import read_plan
+    from rths_engine.planning.reading import read_model
     from rths_engine.recordings.run_file import save
     from rths_engine.running.run import Run
 
     try:
-        plan = read_plan(order.plan)
-        run = Run(plan, MotionLibrary(order.motions))
+        run = Run(read_model(order.plan), MotionLibrary(order.motions))
     except RthsError as error:
         raise Refused(str(error)) from None
     telling = _Telling(run, order.attempt, line)
@@ -51,7 +50,7 @@ class _Telling:
 
         self.run, self.line = run, line
         self.elapsed, self.measured = 0.0, 0
-        self.measures = RunningMeasures(run.plan, run.channels, run.history[0, 0])
+        self.measures = RunningMeasures(run.model, run.channels, run.history[0, 0])
         bucket = bucket_size(run.total)
         self.decimator = Decimator(run.channels, bucket)
         line.show(schema(attempt, run.dt, bucket, run.total, run.channels))

@@ -8,6 +8,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.planning.excitation import FloorForce
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
@@ -65,9 +66,9 @@ def _structure(plan: Plan, recording: Measured) -> list[Replayed]:
     first = (n * rows[0] - rows[n - 1]) / (n - 1) if n > 1 else rows[0]
     inputs = np.vstack([first, rows[n - 1 :: n]])
     held = [np.concatenate([[0.0], recording.get("f_meas", number)[n - 1 :: n]]) for number in stations]
-    plan = plan.model_copy(update={"forces": tuple(FloorForce(floor=floor) for floor, _ in forces)})
-    x = replay.structure(plan, inputs, np.column_stack(held))
-    commands = x @ plan.drifts().T
+    model = Model(plan.model_copy(update={"forces": tuple(FloorForce(floor=floor) for floor, _ in forces)}))
+    x = replay.structure(model, inputs, np.column_stack(held))
+    commands = x @ model.drifts.T
     found = []
     for number in stations:
         real = recording.get("x_cmd", number)[n - 1 :: n]

@@ -27,6 +27,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RecordingError
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 from rths_engine.parts.physics.sensor.channel import Reading
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
@@ -174,7 +175,7 @@ def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, 
     Floors that were not measured follow the first mode.
     """
     count = len(plan.structure.assemble().floors)
-    period = float(plan.periods()[0])
+    period = float(Model(plan).periods[0])
     few = max(8, min(recording.samples, round(FIRST_MOMENTS * period / recording.dt)))
     time = np.arange(few) * recording.dt
     x, v, moving = [0.0] * count, [0.0] * count, False

@@ -12,6 +12,7 @@ from rths_engine.foundation.errors import Issue
 from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.planning.excitation import Drive
 from rths_engine.planning.kinds_of_test import DRIVEN
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 
 # chosen; see docs/decisions/0023
@@ -19,10 +20,11 @@ LONGEST = 3600.0  # s, of a drive or a force
 MOST_MOMENTS = 100_000  # of a drive that are looked at
 
 
-def issues(plan: Plan) -> Iterator[Issue]:
-    """Everything wrong between the fields, by what the plan's kind of test needs."""
+def issues(model: Model) -> Iterator[Issue]:
+    """Everything wrong between the fields of the model's plan, by what its kind of test needs."""
+    plan = model.plan
     lasting = list(_too_long(plan))
-    yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(plan))
+    yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(model))
     yield from _names(plan)
     yield from _capacity(plan)
 
@@ -88,11 +90,12 @@ def peaks(drive: Drive, duration: float, rate: float) -> tuple[float, float]:
     return float(np.max(np.abs(now))), float(np.max(np.abs(now - before))) * rate
 
 
-def _computed(plan: Plan) -> Iterator[Issue]:
+def _computed(model: Model) -> Iterator[Issue]:
+    plan = model.plan
     if plan.structure.kind == "none":
         yield Issue("structure", "this kind of test computes a structure", "none", "choose one")
         return
-    beyond = list(_beyond(plan))
+    beyond = list(_beyond(model))
     if beyond:  # the structure can't be assembled with such effects
         yield from beyond
         return
@@ -109,24 +112,25 @@ def _computed(plan: Plan) -> Iterator[Issue]:
     if not math.isclose(dt * rate, n, rel_tol=1e-9):
         fix = f"with {n} substeps at {rate:g} Hz the step is {n / rate:.9g} s"
         yield Issue("integrator.dt", f"is {dt * rate:.6g} controller steps, but a step has {n} substeps", dt, fix)
-    yield from _stable(plan)
-    yield from _places(plan)
+    yield from _stable(model)
+    yield from _places(model)
 
 
-def _beyond(plan: Plan) -> Iterator[Issue]:
-    floors = len(plan.structure.assemble().floors)
-    for index, effect in enumerate(plan.structure_physics):
+def _beyond(model: Model) -> Iterator[Issue]:
+    floors = len(model.bare.floors)
+    for index, effect in enumerate(model.plan.structure_physics):
         storey = getattr(effect, "storey", 1)
         if storey > floors:
             where = f"structure_physics.{index}.storey"
             yield Issue(where, f"the structure has {floors} storeys", storey, f"give 1 to {floors}")
 
 
-def _stable(plan: Plan) -> Iterator[Issue]:
+def _stable(model: Model) -> Iterator[Issue]:
+    plan = model.plan
     bound = plan.integrator.stable_up_to
     if math.isinf(bound):
         return
-    built, title = plan.assembled(), plan.integrator.title
+    built, title = model.built, plan.integrator.title
     massless = int(np.sum(~built.mass.any(axis=0)))
     if massless:
         problem = f"has {massless} degrees of freedom without mass, which {title.lower()} can't integrate"
@@ -141,8 +145,8 @@ def _stable(plan: Plan) -> Iterator[Issue]:
         yield Issue("integrator.dt", problem, plan.integrator.dt, fix)
 
 
-def _places(plan: Plan) -> Iterator[Issue]:
-    built = plan.assembled()
+def _places(model: Model) -> Iterator[Issue]:
+    plan, built = model.plan, model.built
     floors, storeys = len(built.floors), len(built.drifts)
     for index, station in enumerate(plan.stations):
         if station.storey > storeys:

@@ -6,10 +6,8 @@ import hashlib
 import json
 from typing import Annotated, Any, ClassVar, Literal
 
-import numpy as np
 from pydantic import ConfigDict, Field
 
-from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, Value, quantity
 from rths_engine.parts.actuators import Actuator
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
@@ -17,14 +15,11 @@ from rths_engine.parts.compensators import Compensator
 from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.parts.integrators import Integrator
 from rths_engine.parts.integrators.cr import CrIntegrator
-from rths_engine.parts.integrators.scheme import Scheme
 from rths_engine.parts.physics import ActuatorEffect, InputEffect, SensorEffect, SpecimenEffect, StructureEffect
-from rths_engine.parts.physics.effect import MATRICES, PART, Effect, amended
+from rths_engine.parts.physics.effect import PART, Effect, amended
 from rths_engine.parts.specimens import Specimen
 from rths_engine.parts.specimens.mr_damper import MrDamper
 from rths_engine.parts.structures import Structure
-from rths_engine.parts.structures.assembled import Assembled
-from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.parts.structures.no_structure import NoStructure
 from rths_engine.planning.excitation import Drive, FloorForce, Start
 from rths_engine.planning.kinds_of_test import DRIVEN, TESTS
@@ -168,34 +163,3 @@ class Plan(Value):
         """Until when (s) ground motion, forces or drive move it."""
         forces = (force.shape.duration for force in self.forces)
         return max(0.0 if self.motion.kind == "none" else record, self.drive.shape.duration, *forces)
-
-    def assembled(self) -> Assembled:
-        """The structure with what effects change of its matrices. Raises PlanError."""
-        built = self.structure.assemble()
-        for effect in self.structure_physics:
-            if effect.hook == MATRICES:
-                built = effect.assembled(built)
-        return built
-
-    def drifts(self) -> Array:
-        """L (stations, DOF): row j takes displacements to the stroke of station j."""
-        rows = self.assembled().drifts
-        return rows[[station.storey - 1 for station in self.stations]]
-
-    def scheme(self) -> Scheme:
-        """The integrator's scheme from M, C and the initial K with the stations' equivalents. Raises PlanError."""
-        built = self.assembled()
-        damping, stiffness = built.damping.copy(), built.stiffness.copy()
-        for station, drift in zip(self.stations, self.drifts(), strict=True):
-            outer = station.dampers * np.outer(drift, drift)
-            damping += station.equivalent_damping * outer
-            stiffness += station.equivalent_stiffness * outer
-        return self.integrator.build(built.mass, damping, stiffness)
-
-    def periods(self) -> Array:
-        """Natural periods (s) of the analytical substructure, the first mode's first."""
-        built = self.assembled()
-        if not len(built.mass):
-            return np.zeros(0)
-        periods: Array = 2 * np.pi / circular_frequencies(built.mass, built.stiffness)
-        return periods

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from rths_engine.foundation import units
 from rths_engine.planning.loads import pushed
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 
 
@@ -141,13 +142,15 @@ class Channel:
         }
 
 
-def channels(plan: Plan) -> tuple[Channel, ...]:
+def channels(planned: Plan | Model) -> tuple[Channel, ...]:
     """Columns in the order of the compiled loop: ground acceleration, forces on floors, floors, stations."""
+    model = Model.of(planned)
+    plan = model.plan
     found = []
     if not plan.driven:
         found.append(Channel("ag", None, CHANNELS["ag"].label))
         found += [Channel("force_ext", floor, f"Force on floor {floor}") for floor in pushed(plan)]
-        floors = len(plan.assembled().floors)
+        floors = len(model.built.floors)
         found += [Channel("x_floor", floor, f"Floor {floor} displacement") for floor in range(1, floors + 1)]
     for number, station in enumerate(plan.stations, start=1):
         found += [Channel(role, number, f"{station.name}: {CHANNELS[role].label}") for role in RECORDED]

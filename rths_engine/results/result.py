@@ -7,6 +7,7 @@ from typing import Any
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.ground_motions import Motion
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import Trip
 from rths_engine.results import measured
@@ -21,7 +22,7 @@ class Result:
     `total` is the number of substeps of the whole test, recorded or not.
     """
 
-    plan: Plan
+    model: Model
     motion: Motion
     status: str
     trip: Trip | None
@@ -31,6 +32,10 @@ class Result:
     channels: tuple[Channel, ...]
     signals: Array
     history: Array
+
+    @property
+    def plan(self) -> Plan:
+        return self.model.plan
 
     @property
     def simulated_s(self) -> float:
@@ -43,7 +48,7 @@ class Result:
 
     def summary(self) -> dict[str, Any]:
         """JSON form: how the run ended, and its measures in shown units."""
-        whole = RunSignals(self.plan, self.dt, self.channels, self.signals, self.history[0, 0])
+        whole = RunSignals(self.model, self.dt, self.channels, self.signals, self.history[0, 0])
         return {
             "status": self.status,
             "trip": self.trip.as_dict() if self.trip else None,

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.results.channels import Channel
 from rths_engine.results.measure import RunMeasure, StationMeasure
@@ -17,9 +18,10 @@ from rths_engine.results.sums import RunSums
 class RunningMeasures:
     """Takes each new part of `Run.signals` (samples, channels) in order; `start`: the floors' displacements at t = 0 (m)."""
 
-    def __init__(self, plan: Plan, channels: tuple[Channel, ...], start: Array):
-        self.names = [station.name for station in plan.stations]
-        self._sums = RunSums(plan, channels, start)
+    def __init__(self, planned: Plan | Model, channels: tuple[Channel, ...], start: Array):
+        model = Model.of(planned)
+        self.names = [station.name for station in model.plan.stations]
+        self._sums = RunSums(model, channels, start)
 
     @np.errstate(over="ignore", invalid="ignore")
     def take(self, rows: Array) -> None:

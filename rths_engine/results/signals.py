@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.results import metrics
 from rths_engine.results.channels import FLOORS, INPUTS, RECORDED, Channel, columns, key
@@ -54,11 +55,15 @@ class StationSignals:
 class RunSignals:
     """The signals (samples, channels) of a test every `dt` (s); `start` (floors): displacements at t = 0 (m)."""
 
-    plan: Plan
+    model: Model
     dt: float
     channels: tuple[Channel, ...]
     signals: Array
     start: Array
+
+    @property
+    def plan(self) -> Plan:
+        return self.model.plan
 
     def signal(self, key: str) -> Array:
         """The column named `key` (`x_cmd.1`). Raises ValueError where there is none."""
@@ -78,7 +83,7 @@ class RunSignals:
     @cached_property
     def largest_input(self) -> float | None:
         """The largest input energy (J); None where it is not known."""
-        loads = metrics.floor_loads(self.plan)
+        loads = self.model.floor_loads
         if loads is None:
             return None
         return float(np.max(metrics.input_energy(loads, self.inputs, self.floors, self.start), initial=0.0))

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.model import Model
 from rths_engine.results import metrics
 from rths_engine.results.channels import FLOORS, INPUTS, Channel, columns, key
 from rths_engine.results.metrics.correlation import RunningCorrelation
@@ -27,16 +27,16 @@ class RunSums:
     `start` (floors): displacements at t = 0 (m).
     """
 
-    def __init__(self, plan: Plan, channels: tuple[Channel, ...], start: Array):
-        self._loads = metrics.floor_loads(plan)
+    def __init__(self, model: Model, channels: tuple[Channel, ...], start: Array):
+        self._loads = model.floor_loads
         self.largest_input = None if self._loads is None else 0.0
         self._inputs, self._floors = columns(channels, *INPUTS), columns(channels, *FLOORS)
         self._last, self._total = start, 0.0
         self._before: Array | None = None
         places = {channel.key: column for column, channel in enumerate(channels)}
         self.stations = [
-            StationSums(self, [places[key(role, number)] for role in _READ], plan.substep, station.dampers)
-            for number, station in enumerate(plan.stations, start=1)
+            StationSums(self, [places[key(role, number)] for role in _READ], model.plan.substep, station.dampers)
+            for number, station in enumerate(model.plan.stations, start=1)
         ]
 
     def take(self, rows: Array) -> None:

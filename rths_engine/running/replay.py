@@ -11,6 +11,7 @@ from rths_engine.foundation.kernel import entry
 from rths_engine.foundation.part import Part
 from rths_engine.parts import actuators, compensators, specimens
 from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PART, PISTON, SERIES, X_SENSOR, Effect, amended
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.running import loop, starting
 from rths_engine.running.dispatch import (
@@ -60,20 +61,20 @@ def compensator(part: Part, x_cmd: Array, x_meas: Array, dt: float) -> Array:
     return sent
 
 
-def structure(plan: Plan, inputs: Array, reactions: Array) -> Array:
-    """Displacements (steps + 1, DOF), m, of the plan's structure under inputs and the stations' forces.
+def structure(planned: Plan | Model, inputs: Array, reactions: Array) -> Array:
+    """Displacements (steps + 1, DOF), m, of a plan's structure under inputs and the stations' forces.
 
     The inputs (steps + 1, 1 + forces) are the ground acceleration (m/s^2) and the forces on floors (N); the stations' forces
     are (steps + 1, stations), N.
     """
-    built, scheme = plan.assembled(), plan.scheme()
-    stations = len(plan.stations)
-    held, parts = setup(plan, built, scheme, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
-    x, v, carry = starting.state(plan.start, built, scheme, plan.step, inputs[0] @ held.loads)
-    state = loop.State(x, v, carry, np.zeros((len(built.members.dofs), 3)), parts, np.zeros((stations, loop.MEMORY)))
+    model = Model.of(planned)
+    stations = len(model.plan.stations)
+    held, parts = setup(model, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
+    x, v, carry = starting.state(model, inputs[0] @ held.loads)
+    state = loop.State(x, v, carry, np.zeros((len(model.built.members.dofs), 3)), parts, np.zeros((stations, loop.MEMORY)))
     history: Array = np.empty((len(inputs), len(x)))
     history[0] = x
-    _structure(held, state, left_out(plan, built), reactions, history)
+    _structure(held, state, left_out(model), reactions, history)
     return history
 
 

@@ -14,6 +14,7 @@ from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.ground_motions import Motion, MotionLibrary
 from rths_engine.planning import motion
 from rths_engine.planning.loads import columns
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS, Trip
 from rths_engine.results.channels import Channel, channels
@@ -33,9 +34,12 @@ class Run:
     Raises PlanError or MotionError when the plan can't be run; nothing has happened then.
     """
 
-    def __init__(self, plan: Plan, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None):
-        self.plan = plan
-        self.motion: Motion = motion.scaled(plan.motion, motions, plan.periods())
+    def __init__(
+        self, planned: Plan | Model, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None
+    ):
+        self.model = model = Model.of(planned)
+        self.plan = plan = model.plan
+        self.motion: Motion = motion.scaled(plan.motion, motions, model.periods)
         self.dt = plan.substep
         self.trip: Trip | None = None
         self.done = 0
@@ -43,25 +47,24 @@ class Run:
         n, dt = plan.substeps, plan.step
         self._steps = _steps(plan.length(self.motion.duration), dt)
         self.total = self._steps * n
-        built = plan.assembled()
+        built = model.built
         stations = len(plan.stations)
-        self.channels: tuple[Channel, ...] = channels(plan)
+        self.channels: tuple[Channel, ...] = channels(model)
         if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
             problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
             raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
         self.signals: Array = np.zeros((self.total, len(self.channels)))
         self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
-        scheme = plan.scheme()
         times = np.arange(self._steps + 1) * dt
         drive = np.repeat(plan.drive.sample(times)[:, None], stations, axis=1)
-        self._setup, parts = setup(plan, built, scheme, _inputs(plan, self.motion, times), drive, _noise(plan, self.total))
+        self._setup, parts = setup(model, _inputs(plan, self.motion, times), drive, _noise(plan, self.total))
         memory = np.zeros((stations, loop.MEMORY))
         plastic = np.zeros((len(built.members.dofs), 3))
-        x, v, carry = starting.state(plan.start, built, scheme, dt, self._setup.inputs[0] @ self._setup.loads)
+        x, v, carry = starting.state(model, self._setup.inputs[0] @ self._setup.loads)
         if initial:
             x[:], v[:] = initial
         self._state = loop.State(x, v, carry, plastic, parts, memory)
-        self._left_out = left_out(plan, built)
+        self._left_out = left_out(model)
         self._columns = columns(plan)
         shared = len(self._columns) - len(set(self._columns.tolist()))
         written = np.zeros((self.total, len(self.channels) + shared)) if shared else self.signals
@@ -90,7 +93,7 @@ class Run:
         """What was recorded so far, with its measures. `status` is completed, tripped or cancelled."""
         steps = self.done // self.plan.substeps
         return Result(
-            plan=self.plan,
+            model=self.model,
             motion=self.motion,
             status=status,
             trip=self.trip,
@@ -110,9 +113,9 @@ class Run:
         return Trip(station + 1, name, kind, float(found[1]), float(found[2]), LIMITS[kind][1], substep * self.dt, substep)
 
 
-def simulate(plan: Plan, motions: MotionLibrary | None = None) -> Result:
+def simulate(planned: Plan | Model, motions: MotionLibrary | None = None) -> Result:
     """Run a plan to its end as fast as the machine can."""
-    run = Run(plan, motions or MotionLibrary(None))
+    run = Run(planned, motions or MotionLibrary(None))
     start = time.perf_counter()
     run.advance(run.total)
     return run.result("tripped" if run.trip else "completed", time.perf_counter() - start)

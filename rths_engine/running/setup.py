@@ -9,13 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.factor import factorised
 from rths_engine.parts import actuators, compensators, specimens
-from rths_engine.parts.integrators.scheme import Scheme
 from rths_engine.parts.physics.effect import STOREY
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
-from rths_engine.parts.structures.assembled import Assembled
-from rths_engine.planning.loads import loads
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS
 from rths_engine.running import loop
@@ -24,28 +21,29 @@ from rths_engine.running.dispatch import stacked
 from rths_engine.running.restoring import rows
 
 
-def setup(plan: Plan, built: Assembled, scheme: Scheme, inputs: Array, drive: Array, noise: Array) -> tuple[loop.Setup, Array]:
+def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop.Setup, Array]:
     """What stays the same during a run, and the states of the stations' parts at its start (3, stations, widest).
 
     inputs (steps + 1, I), drive (steps + 1, stations), noise (substeps, stations, 2).
     """
+    plan, built, scheme = model.plan, model.built, model.scheme
     codes, parameters, parts = _built(plan)
     stations = len(plan.stations)
     held = loop.Setup(
         n=plan.substeps,
         dt_step=plan.step,
         dt=plan.substep,
-        factor=factorised(scheme.effective),
+        factor=model.factor,
         held=rows(np.zeros_like(scheme.effective) if scheme.held is None else scheme.held),
         weight=scheme.weight,
         shift=scheme.shift,
         damping=rows(built.damping),
         elastic=rows(built.elastic),
         members=built.members,
-        loads=loads(plan, built),
+        loads=model.loads,
         inputs=inputs,
         floors=np.array(built.floors, dtype=np.int64),
-        drifts=built.drifts[[station.storey - 1 for station in plan.stations]],
+        drifts=model.drifts,
         drive=drive,
         dampers=np.array([float(station.dampers) for station in plan.stations]),
         codes=codes,
@@ -72,8 +70,9 @@ def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
     return codes, _padded(built, 0), _padded(built, 1)
 
 
-def left_out(plan: Plan, built: Assembled) -> loop.LeftOut | None:
+def left_out(model: Model) -> loop.LeftOut | None:
     """The plan's left-out effects as the loop takes them; None where the plan has none."""
+    plan, built = model.plan, model.built
     against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
     if not against and not any(station.physics for station in plan.stations):
         return None

@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.parts.integrators.scheme import Scheme
 from rths_engine.parts.structures.assembled import Assembled
-from rths_engine.planning.excitation import Start
+from rths_engine.planning.model import Model
 
 
-def state(start: Start, built: Assembled, scheme: Scheme, dt: float, force: Array) -> tuple[Array, Array, Array]:
+def state(model: Model, force: Array) -> tuple[Array, Array, Array]:
     """x, v and c of the scheme before step 0, under the external `force` (N) of step 0. Each (n,).
 
     With A[0] = inv(D + E) R[0] the scheme would step x[1] = x[0] + dt v[0] + (1 + s) dt^2 A[0]. From rest v stays zero;
     else it is moved by -(1/2 + s) dt A[0], so that x[1] = x[0] + dt v[0] + dt^2/2 A[0].
     """
+    start, built, scheme, dt = model.plan.start, model.built, model.scheme, model.plan.step
     x, v = (_following(built, given) for given in (start.displacement, start.velocity))
     remembers = scheme.held is not None
     carry = np.zeros_like(x)

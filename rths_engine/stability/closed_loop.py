@@ -10,6 +10,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.stability import station as stations
 from rths_engine.stability import structure
@@ -37,10 +38,11 @@ class ClosedLoop:
     is linearised. Source: Chen and Ricles (2012), EESD 41, 549-569, section 2, with the ramp (8) lifted over its substeps.
     """
 
-    def __init__(self, plan: Plan):
-        self.plan = plan
+    def __init__(self, planned: Plan | Model):
+        self.model = model = Model.of(planned)
+        self.plan = plan = model.plan
         self.dt = plan.step
-        self._structure = structure.linear(plan)
+        self._structure = structure.linear(model)
         self._own = [self.station(j) for j in range(len(plan.stations))]
 
     def station(self, j: int, added: float = 0.0) -> Lifted:
@@ -93,7 +95,7 @@ class ClosedLoop:
         adaptive = [station.name for station in self.plan.stations if station.compensator.kind == "aic"]
         if adaptive:
             found.append(f"The adaptive compensation of {', '.join(adaptive)} is held at its start value.")
-        if len(self.plan.structure.assemble().members.dofs):
+        if len(self.model.built.members.dofs):
             found.append("The frame's members are taken before yielding.")
         if any(station.physics for station in self.plan.stations) or self.plan.structure_physics:
             found.append("Left-out physics that the plan adds to its models is not in the prediction.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rths_engine.foundation.errors import PlanError
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.stability.closed_loop import ClosedLoop, Mode, stable
 from rths_engine.stability.margins import Map, delay_map, margin
@@ -14,14 +15,16 @@ NO_LOOP: dict[str, Any] = {"radius": None, "stable": None, "least_damped": None,
 ALONE = "No station: these are the modes of the structure under its integrator, with the damping that the integrator adds."
 
 
-def summary(plan: Plan) -> dict[str, Any]:
+def summary(planned: Plan | Model) -> dict[str, Any]:
     """Radius, verdict, modes and delay margins as one JSON object (SI); without radius and verdict where there is no loop."""
+    model = Model.of(planned)
+    plan = model.plan
     if plan.driven:
         return {
             **NO_LOOP,
             "notes": [f"A test of {ARTICLE[plan.test]} {plan.test} follows its drive: no loop that could be unstable."],
         }
-    loop = ClosedLoop(plan)
+    loop = ClosedLoop(model)
     radius, modes = loop.radius(), loop.modes()
     return {
         "radius": radius,
@@ -33,11 +36,12 @@ def summary(plan: Plan) -> dict[str, Any]:
     }
 
 
-def mapped(plan: Plan, points: int) -> dict[str, Any] | None:
+def mapped(planned: Plan | Model, points: int) -> dict[str, Any] | None:
     """The radius over the delays of the first two stations; None for fewer."""
-    if plan.driven or len(plan.stations) < 2:
+    model = Model.of(planned)
+    if model.plan.driven or len(model.plan.stations) < 2:
         return None
-    found: Map = delay_map(ClosedLoop(plan), points=points)
+    found: Map = delay_map(ClosedLoop(model), points=points)
     axes = [
         {"station": axis.station + 1, "label": axis.label, "present": axis.present, "values": axis.values.tolist()}
         for axis in (found.first, found.second)
@@ -45,12 +49,13 @@ def mapped(plan: Plan, points: int) -> dict[str, Any] | None:
     return {"axes": axes, "radius": found.radius.tolist()}
 
 
-def warning(plan: Plan) -> str | None:
+def warning(planned: Plan | Model) -> str | None:
     """Sentences for a plan whose closed loop is predicted unstable about rest or can't be; None for any other."""
-    if not plan.stations or plan.driven:
+    model = Model.of(planned)
+    if not model.plan.stations or model.plan.driven:
         return None
     try:
-        loop = ClosedLoop(plan)
+        loop = ClosedLoop(model)
     except PlanError as error:
         return f"Stability is not predicted: the {error.issues[0].where} {error.issues[0].problem}."
     radius = loop.radius()

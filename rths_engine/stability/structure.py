@@ -11,7 +11,7 @@ from scipy.linalg import lu_factor, lu_solve
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.model import Model
 
 # chosen; see docs/decisions/0023
 MOST = 300  # numbers that the structure may be reduced to: the eigenvalues of the loop are computed some hundred times
@@ -33,9 +33,9 @@ class LinearStructure:
     d: Array
 
 
-def linear(plan: Plan) -> LinearStructure:
-    """The plan's structure under its integrator. Raises PlanError when it is a mechanism or has too many motions."""
-    built, drifts, dt, scheme = plan.assembled(), plan.drifts(), plan.step, plan.scheme()
+def linear(model: Model) -> LinearStructure:
+    """A plan's structure under its integrator. Raises PlanError when it is a mechanism or has too many motions."""
+    built, drifts, dt, scheme = model.built, model.drifts, model.plan.step, model.scheme
     factor = lu_factor(scheme.effective)
     dof, weight = len(built.mass), scheme.weight
 

@@ -14,6 +14,7 @@ from app.reports.service import report_html
 from app.runs.exports import csv_parts
 from rths_engine.planning import templates
 from rths_engine.planning.examples import EXAMPLES
+from rths_engine.planning.model import Model
 from rths_engine.planning.reading import plan_to_yaml
 from rths_engine.recordings.run_file import Recording
 from tests.app.test_reports import RUN, Page, recorded
@@ -78,7 +79,7 @@ def test_an_actuators_report_shows_measured_against_commanded(reports: dict[str,
 def test_a_free_vibration_tells_period_and_damping(reports: dict[str, tuple[Recording, Page]]) -> None:
     recording, page = reports["structure-free-vibration"]
     said = page.text.split("Period of the free decay ")[1]
-    assert float(said.split()[0]) == pytest.approx(recording.plan.periods()[0], rel=0.005)  # dt = T1 / 55: omega dt^2 / 24
+    assert float(said.split()[0]) == pytest.approx(Model(recording.plan).periods[0], rel=0.005)  # dt = T1 / 55: omega dt^2 / 24
     assert float(page.text.split("Damping ratio ")[1].split()[0]) == pytest.approx(2.0, rel=0.05)
 
 

@@ -19,6 +19,7 @@ from app.reports.service import report_html
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, spectral_acceleration
 from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.planning import templates
+from rths_engine.planning.model import Model
 from rths_engine.planning.motion import RecordMotion
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings import run_file as recordings
@@ -189,7 +190,7 @@ def test_the_spectrum_marks_t1_and_the_spectral_acceleration_of_the_scaled_recor
     motion = recording.plan.motion
     assert isinstance(motion, RecordMotion) and isinstance(motion.scale, Factor)
     record = MotionLibrary(None).get(motion.record).scaled(motion.scale.factor)
-    period = float(recording.plan.periods()[0])
+    period = float(Model(recording.plan).periods[0])
     assert mark["x"] == pytest.approx(period)
     assert mark["y"] == pytest.approx(spectral_acceleration(record, period) / 9.80665)
     text = Page(html).text

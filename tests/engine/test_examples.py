@@ -45,7 +45,7 @@ def test_the_swept_actuator_lags_ever_more(results: dict[str, Result]) -> None:
 
 def test_the_released_building_swings_in_its_first_period_and_decays_by_its_damping(results: dict[str, Result]) -> None:
     result = results["structure-free-vibration"]
-    roof, period = result.signal("x_floor.3"), float(result.plan.periods()[0])
+    roof, period = result.signal("x_floor.3"), float(result.model.periods[0])
     rising = np.flatnonzero((roof[:-1] < 0) & (roof[1:] >= 0)) * result.dt
     # crossings are read to a substep; the higher modes, 2 % too, have gone after the first five cycles
     assert np.diff(rising)[5:20].mean() == pytest.approx(period / np.sqrt(1 - 0.02**2), rel=2e-3)

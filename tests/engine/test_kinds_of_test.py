@@ -10,6 +10,7 @@ import pytest
 from rths_engine.foundation.errors import PlanError
 from rths_engine.planning import checks
 from rths_engine.planning.excitation import Drive
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import plan_from_yaml, plan_to_yaml, read_plan
 from rths_engine.planning.shapes import SHAPES, BandNoise, Chirp, IncreasingCycles, Samples, Sine, Step, Still, Triangle
@@ -58,7 +59,7 @@ def test_an_actuator_tracks_its_command_with_its_own_lag() -> None:
 
 def test_a_test_without_a_structure_has_no_periods_and_no_digest_of_one() -> None:
     plan = read_plan(driven("specimen"))
-    assert len(plan.periods()) == 0
+    assert len(Model(plan).periods) == 0
     assert plan.driven and plan.step == plan.substep
     assert plan_from_yaml(plan_to_yaml(plan)).digest == plan.digest
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rths_engine.foundation.errors import PlanError
+from rths_engine.planning.model import Model
 from rths_engine.planning.reading import plan_from_yaml, plan_to_yaml
 from tests.engine.plans import building, completed, make, shaking
 
@@ -40,7 +41,7 @@ def test_floors_influence_and_strokes_can_be_given() -> None:
     assert built.influence.tolist() == [1.0, 0.0]
     assert built.drifts.tolist() == [[1.0, -0.5]]
     condensed = 4.0e7 - 1.0e7**2 / 3.0e7
-    assert plan.periods() == pytest.approx([2 * np.pi / np.sqrt(condensed / 1e5)], rel=1e-12)
+    assert Model(plan).periods == pytest.approx([2 * np.pi / np.sqrt(condensed / 1e5)], rel=1e-12)
     completed(plan)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rths_engine.foundation.arrays import Array
+from rths_engine.planning.model import Model
 from rths_engine.results import metrics
 from rths_engine.results.channels import FLOORS, INPUTS, columns
 from rths_engine.results.measured import of_station
@@ -112,7 +113,7 @@ def test_input_energy_is_what_the_undamped_structure_holds_at_the_end() -> None:
 
 
 def energies(run: Run) -> tuple[Array, Array, Array, Array]:
-    loads = metrics.floor_loads(run.plan)
+    loads = run.model.floor_loads
     assert loads is not None
     inputs, floors = (run.signals[:, columns(run.channels, *roles)] for roles in (INPUTS, FLOORS))
     return loads, inputs, floors, run.history[0, 0]
@@ -122,9 +123,9 @@ def test_mass_that_the_ground_moves_off_the_floors_leaves_the_input_energy_unkno
     matrices = {"kind": "matrices", "mass": [[1e5, 0], [0, 1e5]], "stiffness": [[4e7, -2e7], [-2e7, 2e7]], "floors": [2]}
     partly = make({**matrices, "influence": [1.0, 1.0]}, shaking(np.ones(20), 0.01), 0.01)
     wholly = make({**matrices, "influence": [0.0, 1.0]}, shaking(np.ones(20), 0.01), 0.01)
-    assert metrics.floor_loads(partly) is None
+    assert Model(partly).floor_loads is None
     assert completed(partly).result("completed", 0.0).summary()["input_energy_kNm"] is None
-    assert metrics.floor_loads(wholly) is not None
+    assert Model(wholly).floor_loads is not None
 
 
 def test_the_energy_error_counts_every_damper_of_the_station_and_keeps_its_sign() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from rths_engine.foundation.errors import MotionError, PlanError
 from rths_engine.planning import templates
+from rths_engine.planning.model import Model
 from rths_engine.planning.reading import plan_from_yaml, plan_to_yaml, read_plan
 from rths_engine.running.run import Run
 from tests.engine.plans import LIBRARY
@@ -42,7 +43,7 @@ def test_yaml_says_the_unit_of_each_number() -> None:
 
 
 def test_table_iii_stands_on_the_papers_first_period() -> None:
-    assert templates.template("table3-01").periods()[0] == pytest.approx(1.48, rel=1e-9)
+    assert Model(templates.template("table3-01")).periods[0] == pytest.approx(1.48, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 from rths_engine.results import metrics
@@ -42,7 +43,7 @@ def reference(plan: Plan, times: np.ndarray) -> np.ndarray:
     """The continuous system: M a + C v + K x + L^T n (k y + c y') = -M ag with tau y' = L x - y."""
     built = plan.structure.assemble()
     mass, damping, stiffness = built.mass, built.damping, built.stiffness
-    drifts = plan.drifts()
+    drifts = Model(plan).drifts
 
     def slope(t: float, state: np.ndarray) -> np.ndarray:
         x, v, y = state[:2], state[2:4], state[4:]
@@ -81,7 +82,7 @@ def energy_residual(dt: float) -> float:
     stride = slice(1, None, 2)
     result = run.result("completed", 0.0)
     forces = np.stack([result.signal(f"f_meas.{j}")[stride] for j in (1, 2)], axis=1)
-    forces = DAMPERS * np.concatenate([np.zeros((1, 2)), forces]) @ run.plan.drifts()
+    forces = DAMPERS * np.concatenate([np.zeros((1, 2)), forces]) @ run.model.drifts
 
     def work(power: np.ndarray) -> np.ndarray:
         return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * dt)])
@@ -208,7 +209,7 @@ def test_the_second_storey_force_acts_on_both_floors() -> None:
     run = Run(read_plan(data), LIBRARY)
     run.advance(200)
     force = 2 * run.result("cancelled", 0).signal("f_meas.1")[-1]
-    assert run.plan.drifts().T @ [force] == pytest.approx([-force, force])
+    assert run.model.drifts.T @ [force] == pytest.approx([-force, force])
 
 
 def test_a_structure_alone_runs_without_stations() -> None:

@@ -19,6 +19,7 @@ from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.structure.damping_error import DampingError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import drift
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import plan_from_yaml
 from rths_engine.running import replay
@@ -105,7 +106,7 @@ class StructureModel:
 
     def __init__(self, case: Case) -> None:
         self.case, self.keys = case, list(case.truth["about"]["channels"])
-        built = case.plan.assembled()
+        built = Model(case.plan).built
         self.floors = built.floors
         storeys = range(1, len(built.floors) + 1)
         self.rows = [drift(built, storey) for storey in storeys]

@@ -24,6 +24,7 @@ from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.parts.structures.assembled import Assembled
 from rths_engine.planning.excitation import FloorForce, Start
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.running import replay
 
@@ -137,31 +138,34 @@ class Structure(Component):
             "start": _start(parts, data),
         }
         if data.stepped:
-            plan = self.plan.model_copy(update=update)
             n = data.substeps
-            at = self._floors(plan, _at_steps(inputs, n))
+            at = self._floors(self.model.changed(**update), _at_steps(inputs, n))
             share = np.arange(1, n + 1)[:, None] / n
             ramps = at[:-1, None] + share * (at[1:] - at[:-1])[:, None]
             moved: Array = ramps.reshape(-1, at.shape[1])
             return moved
         fine = self.finer(data)
-        plan = self.plan.model_copy(update={**update, "integrator": CrIntegrator(dt=data.dt / fine, substeps=1)})
+        model = self.model.changed(**update, integrator=CrIntegrator(dt=data.dt / fine, substeps=1))
         if fine > 1:
             at = np.arange(0, len(inputs) - 1 + 1e-9, 1 / fine)
             inputs = np.asarray(CubicSpline(np.arange(len(inputs)), inputs)(at))
-        return self._floors(plan, inputs)
+        return self._floors(model, inputs)
 
     def finer(self, data: StructureData) -> int:
         """Replay steps of a sample."""
         return 1 if data.stepped or len(self.built.mass) > FEW else int(np.ceil(data.dt / FINE - 1e-9))
 
-    def _floors(self, plan: Plan, inputs: Array) -> Array:
-        x = replay.structure(plan, inputs, np.zeros((len(inputs), len(plan.stations))))
+    def _floors(self, model: Model, inputs: Array) -> Array:
+        x = replay.structure(model, inputs, np.zeros((len(inputs), len(model.plan.stations))))
         return x[:, self.built.floors]  # what effects add comes behind
 
     @cached_property
-    def built(self) -> Any:
-        return self.plan.assembled()
+    def model(self) -> Model:
+        return Model(self.plan)
+
+    @property
+    def built(self) -> Assembled:
+        return self.model.built
 
     def _modal(self, parts: Sequence[Any]) -> list[AddedDamping]:
         own = [part.share * self.dampings[part.mode - 1] for part in parts if isinstance(part, ModeDamping)]

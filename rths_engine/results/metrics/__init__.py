@@ -1,7 +1,7 @@
 """Functions that measures are made of, one idea a file; `rths_engine.results.measures` is the table of measures."""
 
 from rths_engine.results.metrics.correlation import correlation_delay
-from rths_engine.results.metrics.energy import energy_error_ratio, floor_loads, input_energy
+from rths_engine.results.metrics.energy import energy_error_ratio, input_energy
 from rths_engine.results.metrics.frequency import Evaluation, frequency_evaluation
 from rths_engine.results.metrics.relative import normalised_rms, peak_error
 from rths_engine.results.metrics.tracking import (
@@ -17,7 +17,6 @@ __all__ = [
     "correlation_delay",
     "energy_error",
     "energy_error_ratio",
-    "floor_loads",
     "frequency_evaluation",
     "input_energy",
     "maximum_tracking_error",

@@ -15,25 +15,6 @@ from __future__ import annotations
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.planning.loads import columns, loads
-from rths_engine.planning.plan import Plan
-
-# chosen; see docs/decisions/0023
-MASSLESS = 1e-9  # of the largest load: rounding of a condensation
-
-
-def floor_loads(plan: Plan) -> Array | None:
-    """(inputs, floors): forces on the floors by a unit of each recorded input.
-
-    None without a structure, and where the ground moves mass off the floors, whose motion is not recorded.
-    """
-    if plan.driven:
-        return None
-    built = plan.assembled()
-    every = loads(plan, built)[np.unique(columns(plan), return_index=True)[1]]
-    floors = list(built.floors)
-    elsewhere = np.delete(every, floors, axis=1)
-    return every[:, floors] if np.max(np.abs(elsewhere), initial=0.0) <= MASSLESS * np.max(np.abs(every)) else None
 
 
 def input_energy(loads: Array, inputs: Array, floors: Array, start: Array, before: Array | None = None) -> Array:

@@ -14,6 +14,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import RecordingError
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.parts.physics.sensor.offset import DisplacementOffset
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 from rths_engine.recordings.measured import Measured, MeasuredChannel
@@ -142,7 +143,7 @@ def test_a_shaken_structure_begins_at_rest() -> None:
 
 def test_a_structure_let_go_begins_where_a_cubic_through_its_first_samples_does() -> None:
     """A cosine of 12.4 rad/s over 0.12 of its first period: the cubic errs by (w t)^4 / 24 / 70 or so of the amplitude."""
-    omega = float(2 * np.pi / structure_plan().periods()[0])
+    omega = float(2 * np.pi / Model(structure_plan()).periods[0])
     noise = 1e-5 * np.random.default_rng(1).standard_normal((2, 640))
     lower, upper = (size * np.cos(omega * TIME) + one for size, one in zip((0.01, 0.0162), noise, strict=True))
     _, data = of_structure(x_floor__1=lower, x_floor__2=upper)
@@ -153,7 +154,7 @@ def test_a_structure_let_go_begins_where_a_cubic_through_its_first_samples_does(
 
 def test_without_displacements_the_start_is_the_first_modes_at_minus_acceleration_over_omega_squared() -> None:
     """Golden ratio's mode of two equal storeys, 1 : 1.618."""
-    omega = float(2 * np.pi / structure_plan().periods()[0])
+    omega = float(2 * np.pi / Model(structure_plan()).periods[0])
     _, data = of_structure(a_floor__2=-(omega**2) * 0.0162 * np.cos(omega * TIME))
     assert data.released is not None
     assert data.released[0] == pytest.approx((0.0162 / 1.618034, 0.0162), rel=2e-3)  # of the cubic through 8 samples

@@ -13,6 +13,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.parts.physics.input.scale_error import GroundScaleError
 from rths_engine.parts.physics.structure.damping_error import DampingError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
+from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 from tests.engine.plans import building
@@ -94,7 +95,7 @@ def test_the_damping_of_each_mode_adds_up_to_that_of_the_structure() -> None:
     of = plan([1e4, 8e3, 5e3], [4e6, 3e6, 2e6])
     one = component(of)
     assert len(one.dampings) == FEW_MODES == 3
-    damping = of.assembled().damping
+    damping = Model(of).built.damping
     assert sum(one.dampings) == pytest.approx(damping, abs=1e-9 * float(np.max(np.abs(damping))))
 
 

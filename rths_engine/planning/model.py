@@ -1,0 +1,120 @@
+"""A plan with all that is computed from it before a run, each once: matrices, scheme, factor, loads, periods."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.factor import Factor, factorised
+from rths_engine.parts.integrators.scheme import Scheme
+from rths_engine.parts.physics.effect import MATRICES
+from rths_engine.parts.structures.assembled import Assembled
+from rths_engine.parts.structures.modes import circular_frequencies
+from rths_engine.planning.loads import columns, loads
+from rths_engine.planning.plan import Plan
+
+STRUCTURE = {"structure"}
+MATRICES_OF = STRUCTURE | {"structure_physics"}
+STEPPED = MATRICES_OF | {"stations", "integrator"}
+LOADED = MATRICES_OF | {"forces", "test"}
+# value of a model -> fields of the plan that it depends on
+DEPENDS = {
+    "bare": STRUCTURE,
+    "built": MATRICES_OF,
+    "drifts": MATRICES_OF | {"stations"},
+    "scheme": STEPPED,
+    "factor": STEPPED,
+    "loads": LOADED,
+    "floor_loads": LOADED,
+    "periods": MATRICES_OF,
+}
+# chosen; see docs/decisions/0023
+MASSLESS = 1e-9  # of the largest load: rounding of a condensation
+
+
+@dataclass(frozen=True)
+class Model:
+    """The numerical model of a plan: made once, and passed on to whatever runs or judges the plan.
+
+    n degrees of freedom, S stations, I inputs. Each value is computed when it is first asked for, and then kept. Raises
+    PlanError where the structure is a mechanism or an effect does not fit it.
+    """
+
+    plan: Plan
+
+    @classmethod
+    def of(cls, planned: Plan | Model) -> Model:
+        """The model of a plan; a model is its own."""
+        return planned if isinstance(planned, Model) else cls(planned)
+
+    def changed(self, **fields: Any) -> Model:
+        """The model of the plan with other fields, without computing again what does not depend on them."""
+        other = Model(self.plan.model_copy(update=fields))
+        kept = {name: value for name, value in vars(self).items() if name != "plan" and not fields.keys() & DEPENDS[name]}
+        vars(other).update(kept)
+        return other
+
+    @cached_property
+    def bare(self) -> Assembled:
+        """The structure as its own part describes it, without left-out effects."""
+        return self.plan.structure.assemble()
+
+    @cached_property
+    def built(self) -> Assembled:
+        """The structure with what effects change of its matrices."""
+        built = self.bare
+        for effect in self.plan.structure_physics:
+            if effect.hook == MATRICES:
+                built = effect.assembled(built)
+        return built
+
+    @cached_property
+    def drifts(self) -> Array:
+        """L (S, n): row j takes displacements to the stroke of station j."""
+        return self.built.drifts[[station.storey - 1 for station in self.plan.stations]]
+
+    @cached_property
+    def scheme(self) -> Scheme:
+        """The integrator's scheme from M, C and the initial K with the stations' equivalents."""
+        built = self.built
+        damping, stiffness = built.damping.copy(), built.stiffness.copy()
+        for station, drift in zip(self.plan.stations, self.drifts, strict=True):
+            outer = station.dampers * np.outer(drift, drift)
+            damping += station.equivalent_damping * outer
+            stiffness += station.equivalent_stiffness * outer
+        return self.plan.integrator.build(built.mass, damping, stiffness)
+
+    @cached_property
+    def factor(self) -> Factor:
+        """The scheme's matrix, factorised. Raises PlanError unless it is positive definite."""
+        return factorised(self.scheme.effective)
+
+    @cached_property
+    def loads(self) -> Array:
+        """(I, n): what a unit of each input does to the equations."""
+        return loads(self.plan, self.built)
+
+    @cached_property
+    def floor_loads(self) -> Array | None:
+        """(recorded inputs, floors): forces on the floors by a unit of each recorded input.
+
+        None without a structure, and where the ground moves mass off the floors, whose motion is not recorded.
+        """
+        if self.plan.driven:
+            return None
+        floors = list(self.built.floors)
+        every = self.loads[np.unique(columns(self.plan), return_index=True)[1]]
+        elsewhere = np.delete(every, floors, axis=1)
+        return every[:, floors] if np.max(np.abs(elsewhere), initial=0.0) <= MASSLESS * np.max(np.abs(every)) else None
+
+    @cached_property
+    def periods(self) -> Array:
+        """Natural periods (s) of the analytical substructure, the first mode's first."""
+        if not len(self.built.mass):
+            return np.zeros(0)
+        periods: Array = 2 * np.pi / circular_frequencies(self.built.mass, self.built.stiffness)
+        return periods
