@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Request
-from fastapi.responses import JSONResponse
+from typing import Literal
+
+from fastapi import APIRouter, Request, Response
+from pydantic import BaseModel
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.db import unit_of_work
@@ -13,14 +15,23 @@ from rths_engine import __version__
 router = APIRouter(tags=["health"])
 
 
-@router.get("/healthz")
-def health(request: Request) -> JSONResponse:
+class Health(BaseModel):
+    """What answers, and the program's version."""
+
+    database: Literal["ok", "silent"]
+    worker: Literal["alive", "silent", "unknown"]
+    version: str
+
+
+@router.get("/healthz", responses={503: {"model": Health, "description": "The database or every worker is silent"}})
+def health(request: Request, response: Response) -> Health:
     """200 while the database answers and a worker is alive, else 503."""
     try:
         with unit_of_work(request.app.state.sessions) as session:
             seen = Workers(session).last_beat()
     except SQLAlchemyError:
-        return JSONResponse({"database": "silent", "worker": "unknown", "version": __version__}, 503)
+        response.status_code = 503
+        return Health(database="silent", worker="unknown", version=__version__)
     beating = alive(seen)
-    body = {"database": "ok", "worker": "alive" if beating else "silent", "version": __version__}
-    return JSONResponse(body, 200 if beating else 503)
+    response.status_code = 200 if beating else 503
+    return Health(database="ok", worker="alive" if beating else "silent", version=__version__)

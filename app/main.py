@@ -12,7 +12,7 @@ from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
-from app import db, pages, problems
+from app import db, openapi, pages, problems
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
 from app.guard import Guard
@@ -51,6 +51,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = configured
     app.state.hub = Hub()
     problems.install(app)
+    openapi.install(app)
     for router in (runs, motions, plans, diagnoses, stability, table4, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)

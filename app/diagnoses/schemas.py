@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.jobs.states import State
+from app.openapi import PlanData
 from app.runs.schemas import RunOut
 from app.text import Storable
 from rths_engine.diagnosis.schema import Verdict
@@ -31,7 +31,7 @@ class Asked(BaseModel):
 
     recording: Source
     heldout: list[Source] = Field([], max_length=MOST_HELD_OUT)
-    plan: dict[str, Any] | str | None = None
+    plan: PlanData | str | None = None
     template: Storable | None = Field(None, max_length=80)
     plan_of_run: Storable | None = Field(None, max_length=36)
     level: float = Field(0.01, gt=0, le=0.5, description="rate of false alarms")
@@ -81,7 +81,7 @@ class DiagnosisOut(BaseModel):
 class DiagnosisDetail(DiagnosisOut):
     """A diagnosis with its plan and, once it is done, its verdict (`rths-diagnosis/1`)."""
 
-    plan: dict[str, Any]
+    plan: PlanData
     verdict: Verdict | None
 
 

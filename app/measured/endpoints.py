@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, File, Query, UploadFile
-from fastapi.responses import FileResponse, PlainTextResponse
+from fastapi.responses import FileResponse, PlainTextResponse, Response
 
 from app.measured import shown
 from app.measured.dependency import Recordings
 from app.measured.schemas import EarlierMapping, Import, Mapped, RecordingDetail, RecordingList, RecordingOut, Uploaded
+from app.openapi import file, told
 
 router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
 
@@ -38,13 +39,13 @@ def mappings(recordings: Recordings) -> dict[str, list[EarlierMapping]]:
     return {"mappings": recordings.mappings()}
 
 
-@router.post("/preview")
+@router.post("/preview", responses=told(404))
 def preview(asked: Annotated[Mapped, Body()], recordings: Recordings) -> dict[str, Any]:
     """The channels of an uploaded file by a mapping, decimated, with what the checks find; nothing is stored."""
     return recordings.preview(asked)
 
 
-@router.post("", status_code=201)
+@router.post("", status_code=201, responses=told(404))
 def add(asked: Annotated[Import, Body()], recordings: Recordings) -> RecordingDetail:
     """Import an uploaded file by a mapping, as JSON or as text in YAML."""
     return RecordingDetail.model_validate(recordings.import_(asked))
@@ -67,19 +68,19 @@ def one(recording_id: str, recordings: Recordings) -> RecordingDetail:
     return RecordingDetail.model_validate(recordings.get(recording_id))
 
 
-@router.get("/{recording_id}/preview")
+@router.get("/{recording_id}/preview", responses=told(409))
 def channels(recording_id: str, recordings: Recordings) -> dict[str, Any]:
     """The channels, decimated, in the units shown."""
     return recordings.channels(recording_id)
 
 
-@router.get("/{recording_id}/recording.h5")
+@router.get("/{recording_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))
 def hdf5(recording_id: str, recordings: Recordings) -> FileResponse:
     """The recording as HDF5."""
     return FileResponse(recordings.hdf5(recording_id), media_type="application/x-hdf5", filename=f"{recording_id}.h5")
 
 
-@router.get("/{recording_id}/raw")
+@router.get("/{recording_id}/raw", response_class=FileResponse, responses=file("application/octet-stream") | told(409))
 def raw(recording_id: str, recordings: Recordings) -> FileResponse:
     """The file as it was uploaded."""
     path, filename = recordings.raw(recording_id)
@@ -87,14 +88,14 @@ def raw(recording_id: str, recordings: Recordings) -> FileResponse:
     return FileResponse(path, media_type="application/octet-stream", filename=filename, headers=headers)
 
 
-@router.get("/{recording_id}/mapping.yaml")
+@router.get("/{recording_id}/mapping.yaml", response_class=Response, responses=file("application/yaml"))
 def mapping(recording_id: str, recordings: Recordings) -> PlainTextResponse:
     """The mapping of a recording as YAML, for files of the same layout."""
     headers = {"Content-Disposition": f'attachment; filename="{recording_id}.yaml"'}
     return PlainTextResponse(recordings.mapping_text(recording_id), media_type="application/yaml", headers=headers)
 
 
-@router.delete("/{recording_id}", status_code=204)
+@router.delete("/{recording_id}", status_code=204, response_class=Response, responses=told(409))
 def remove(recording_id: str, recordings: Recordings) -> None:
     """Remove a recording that nothing refers to, and the uploaded file when no other recording came from it."""
     recordings.remove(recording_id)

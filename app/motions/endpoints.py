@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, File, Form, UploadFile
+from fastapi.responses import Response
 
 from app.motions.dependency import Motions
 from app.motions.service import preview
+from app.openapi import told
 
 router = APIRouter(prefix="/api/v1/motions", tags=["ground motions"])
 Text = Annotated[str, Form(max_length=200)]
@@ -47,7 +49,7 @@ def shown(name: str, motions: Motions) -> dict[str, Any]:
     return motions.preview(name)
 
 
-@router.delete("/{name}", status_code=204)
+@router.delete("/{name}", status_code=204, response_class=Response, responses=told(422))
 def remove(name: str, motions: Motions) -> None:
     """Delete a ground motion that was added; bundled ones stay."""
     motions.remove(name)

@@ -6,11 +6,14 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Request
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import PlainTextResponse
+from fastapi.responses import PlainTextResponse, Response
 
+from app.openapi import PlanData, file
 from app.plans.dependency import Plans
+from app.plans.schemas import CheckOut, TemplateOut
 
 router = APIRouter(prefix="/api/v1", tags=["plans"])
+YAML: dict[str, Any] = {"requestBody": {"required": True, "content": {"application/yaml": {"schema": {"type": "string"}}}}}
 
 
 @router.get("/templates")
@@ -20,9 +23,9 @@ def templates(plans: Plans) -> dict[str, Any]:
 
 
 @router.get("/templates/{name}")
-def template(name: str, plans: Plans) -> dict[str, Any]:
+def template(name: str, plans: Plans) -> TemplateOut:
     """The plan of a template."""
-    return plans.template(name)
+    return TemplateOut(**plans.template(name))
 
 
 @router.get("/schema")
@@ -35,9 +38,9 @@ def schema(plans: Plans) -> dict[str, Any]:
 
 
 @router.post("/plans/check")
-def check(plan: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, Any]:
+def check(plan: Annotated[PlanData, Body()], plans: Plans) -> CheckOut:
     """Check a plan without queueing it."""
-    return plans.check(plan)
+    return CheckOut(**plans.check(plan))
 
 
 @router.post("/plans/drive")
@@ -46,13 +49,13 @@ def drive(data: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, An
     return plans.drive(data)
 
 
-@router.post("/plans/read")
-async def read(request: Request, plans: Plans) -> dict[str, Any]:
+@router.post("/plans/read", openapi_extra=YAML)
+async def read(request: Request, plans: Plans) -> PlanData:
     """Plan YAML as JSON."""
     return await run_in_threadpool(plans.read, await request.body())
 
 
-@router.post("/plans/write")
-def write(plan: Annotated[dict[str, Any], Body()], plans: Plans) -> PlainTextResponse:
+@router.post("/plans/write", response_class=Response, responses=file("application/yaml"))
+def write(plan: Annotated[PlanData, Body()], plans: Plans) -> PlainTextResponse:
     """Plan JSON as YAML."""
     return PlainTextResponse(plans.write(plan), media_type="application/yaml")

@@ -6,11 +6,12 @@ from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
-from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, StreamingResponse
+from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, Response, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from app.dependencies import Configured
 from app.jobs.states import State
+from app.openapi import file, told
 from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, measures_text, recording_path, report
 from app.runs.repository import Filter, Page
@@ -83,13 +84,13 @@ def one(run_id: str, runs: Runs) -> RunDetail:
     return RunDetail.of(runs.get(run_id))
 
 
-@router.post("/runs/{run_id}/cancel")
+@router.post("/runs/{run_id}/cancel", responses=told(409))
 def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
     """End a queued test now; a running one stops within a second and keeps what was recorded."""
     return RunOut.of(runs.cancel(run_id, person.by))
 
 
-@router.get("/runs/{run_id}/recording.h5")
+@router.get("/runs/{run_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))
 def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileResponse:
     """The recording of a run as HDF5."""
     run = runs.get(run_id)
@@ -99,7 +100,7 @@ def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileRespo
     )
 
 
-@router.get("/runs/{run_id}/recording.csv")
+@router.get("/runs/{run_id}/recording.csv", response_class=StreamingResponse, responses=file("text/csv") | told(409))
 def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingResponse:
     """The recording of a run as CSV."""
     run = runs.get(run_id)
@@ -107,7 +108,7 @@ def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingR
     return StreamingResponse(csv_parts(recording_path(run, configured)), media_type="text/csv", headers=headers)
 
 
-@router.get("/runs/{run_id}/measures.csv")
+@router.get("/runs/{run_id}/measures.csv", response_class=PlainTextResponse, responses=file("text/csv") | told(409))
 def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
     """The measures of an ended test as CSV, one a row: of what, key, label, value and unit."""
     run = runs.get(run_id)
@@ -115,13 +116,13 @@ def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
     return PlainTextResponse(measures_text(run), media_type="text/csv", headers=headers)
 
 
-@router.get("/runs/{run_id}/report.html")
+@router.get("/runs/{run_id}/report.html", response_class=HTMLResponse, responses=told(409))
 def report_html(run_id: str, runs: Runs, configured: Configured) -> HTMLResponse:
     """The report of a run: one HTML file that stands alone."""
     return HTMLResponse(report(runs.get(run_id), configured))
 
 
-@router.get("/runs/{run_id}/plan.yaml")
+@router.get("/runs/{run_id}/plan.yaml", response_class=Response, responses=file("application/yaml"))
 def plan_text(run_id: str, runs: Runs) -> PlainTextResponse:
     """The plan of a run as YAML."""
     run = runs.get(run_id)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from app.jobs.states import State
 from app.measures import fields
 from app.models import Run
+from app.openapi import PLAN, PlanData
 from app.text import Storable
 from rths_engine.results.measure import FloorMeasure, RunMeasure, StationMeasure
 
@@ -19,8 +20,8 @@ class Submission(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    plan: dict[str, Any] | None = None
-    plans: list[Any] | None = Field(None, max_length=500)
+    plan: PlanData | None = None
+    plans: list[Annotated[Any, PLAN]] | None = Field(None, max_length=500)
     submitted_by: Storable = Field("", max_length=80)
 
 
@@ -106,7 +107,7 @@ class RunOut(_RunMeasured):
 class RunDetail(RunOut):
     """A run with its plan."""
 
-    plan: dict[str, Any]
+    plan: PlanData
 
 
 class RunList(BaseModel):

@@ -9,13 +9,14 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body
 from fastapi.responses import Response
 
+from app.openapi import PLAN
 from app.stability.service import StabilityService
 
 router = APIRouter(tags=["plans"])
 
 
 @router.post("/api/v1/stability")
-def predict(plan: Annotated[Any, Body()]) -> dict[str, Any]:
+def predict(plan: Annotated[Any, PLAN, Body()]) -> dict[str, Any]:
     """Predicted stability of a plan about rest: spectral radius, modes, delay margins, and a map over two stations' delays."""
     return StabilityService().predict(plan)
 

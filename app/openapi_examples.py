@@ -1,0 +1,102 @@
+"""Examples in the OpenAPI description: requests that can be sent as they are, and answers made from their schemas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rths_engine.planning import templates
+from rths_engine.planning.reading import plan_to_yaml
+
+TEMPLATE = "linear-damper"
+RUN = "6f1c2f0e-3d5b-4c7a-9a51-0c8f2f6f7d10"
+RECORDING = "b2a4f4c8-5a0e-4a43-8d0c-51b7a0f4a9e3"
+SHA256 = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08"
+BY = {"by": "Ana Ruiz"}
+MAPPING = {
+    "schema": "rths-mapping/1",
+    "test": "specimen",
+    "channels": [
+        {"column": "Time (s)", "role": "t", "unit": "s"},
+        {"column": "Disp (mm)", "role": "x_meas", "number": 1, "unit": "mm"},
+        {"column": "Force (kN)", "role": "f_meas", "number": 1, "unit": "kN"},
+    ],
+}
+DRIVE = {"drive": {"amplitude": 0.02, "shape": {"kind": "sine", "frequency": 0.5}}, "controller_rate": 1024.0}
+
+
+def plan() -> dict[str, Any]:
+    """A plan as it is submitted."""
+    return templates.template(TEMPLATE).as_dict()
+
+
+# what a field of an answer shows; other fields are shown by the smallest value that their schema takes
+FIELDS: dict[str, Any] = {
+    "id": RUN,
+    "number": 12,
+    "name": "Linear damper",
+    "test": "hybrid",
+    "state": "queued",
+    "digest": SHA256,
+    "sha256": SHA256,
+    "raw_sha256": SHA256,
+    "code_version": "0.1.0",
+    "template": TEMPLATE,
+    "submitted_by": "Ana Ruiz",
+    "imported_by": "Ana Ruiz",
+    "duration_s": 40.0,
+    "level": 0.01,
+    "filename": "sine.csv",
+    "mapping": MAPPING,
+}
+REQUESTS: dict[str, Callable[[], Any]] = {
+    "POST /api/v1/runs": lambda: {"plan": plan(), "submitted_by": "Ana Ruiz"},
+    "POST /api/v1/runs/{run_id}/cancel": lambda: BY,
+    "POST /api/v1/abort": lambda: BY,
+    "POST /api/v1/plans/check": plan,
+    "POST /api/v1/plans/drive": lambda: DRIVE,
+    "POST /api/v1/plans/read": lambda: plan_to_yaml(templates.template(TEMPLATE)),
+    "POST /api/v1/plans/write": plan,
+    "POST /api/v1/stability": plan,
+    "POST /api/v1/table4": lambda: BY,
+    "POST /api/v1/recordings/preview": lambda: {"file": SHA256, "mapping": MAPPING},
+    "POST /api/v1/recordings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Sine test", "imported_by": "Ana Ruiz"},
+    "POST /api/v1/diagnoses": lambda: {"recording": {"run": RUN}, "level": 0.01, "submitted_by": "Ana Ruiz"},
+    "POST /api/v1/diagnoses/{diagnosis_id}/cancel": lambda: BY,
+    "POST /api/v1/diagnoses/{diagnosis_id}/simulations": lambda: BY,
+}
+
+
+def example(schema: dict[str, Any], schemas: dict[str, Any], name: str = "") -> Any:
+    """A value that the schema takes; `schemas` holds what its references name, `name` is the field it is for."""
+    if "$ref" in schema:
+        key = schema["$ref"].rpartition("/")[2]
+        return plan() if key == "Plan" else example(schemas[key], schemas, name)
+    if name in FIELDS and _takes(schema, FIELDS[name], schemas):
+        return FIELDS[name]
+    choices = schema.get("anyOf") or schema.get("oneOf")
+    if choices:
+        nothing = any(one.get("type") == "null" for one in choices)
+        return None if nothing else example(choices[0], schemas, name)
+    if "const" in schema or "enum" in schema:
+        return schema.get("const", schema.get("enum", [None])[0])
+    if schema.get("type") == "object":
+        return {key: example(inner, schemas, key) for key, inner in schema.get("properties", {}).items()}
+    if schema.get("type") == "array":
+        items = schema.get("prefixItems") or [schema.get("items", {})] * max(1, schema.get("minItems", 1))
+        return [example(one, schemas) for one in items]
+    return _plain(schema)
+
+
+def _takes(schema: dict[str, Any], value: Any, schemas: dict[str, Any]) -> bool:
+    """Whether the value is of one of the schema's types."""
+    kinds = {"string": str, "number": float, "integer": int, "object": dict}
+    found = [one for one in (schema, *schema.get("anyOf", ())) if isinstance(value, kinds.get(one.get("type", ""), ()))]
+    return any(value in one.get("enum", [value]) for one in found)
+
+
+def _plain(schema: dict[str, Any]) -> Any:
+    if schema.get("format") == "date-time":
+        return "2026-11-23T09:30:00Z"
+    low = schema.get("minimum", schema.get("exclusiveMinimum", -1) + 1)
+    return {"string": "text", "number": float(low), "integer": int(low), "boolean": False}.get(schema.get("type", ""))
