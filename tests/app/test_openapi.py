@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -36,7 +38,8 @@ def application(client: TestClient) -> FastAPI:
 
 
 def document() -> Any:
-    return create_app(Settings(embedded_worker=False)).openapi()
+    with TemporaryDirectory() as folder:
+        return create_app(Settings(data=Path(folder), embedded_worker=False)).openapi()
 
 
 def routes() -> list[str]:

@@ -12,12 +12,12 @@ from rths_engine.foundation.errors import PlanError, RthsError
 from rths_engine.foundation.part import validated
 from rths_engine.parts.ground_motions.units_in_text import ACCELERATION_UNITS, checked_unit
 from rths_engine.parts.physics.wording import said
-from rths_engine.planning import templates
-from rths_engine.planning.examples import EXAMPLES
 from rths_engine.planning.plan import Plan
 from rths_engine.recordings.measured.names import written_unit
 from rths_engine.recordings.measured.roles import UNITS as MEASURED
-from rths_engine.results.channels import channels
+from rths_engine.recordings.measured.roles import WITH_ZERO
+from rths_engine.results.channels import CHANNELS
+from rths_engine.results.measures import MEASURES
 
 NUMBERS = (0.4, -0.4, 1.5e-7, -3.25e8, 36007.0)  # in the unit shown
 FORMS = ("{:.6g}", "{:.3e}", "{:.4g}", "{!r}")
@@ -36,12 +36,13 @@ def quantities(schema: Any) -> Iterator[tuple[str, str]]:
             yield from quantities(one)
 
 
-def recorded() -> Iterator[tuple[str, str]]:
-    for name in EXAMPLES:
-        yield from ((one.unit, one.shown) for one in channels(templates.template(name)))
+def put_out() -> Iterator[tuple[str, str]]:
+    """Unit and unit shown of every channel and every measure; temperatures, with a zero of their own, are in columns only."""
+    yield from ((one.unit, one.shown) for one in CHANNELS.values() if one.shown not in WITH_ZERO)
+    yield from ((one.unit, one.shown) for one in MEASURES)
 
 
-PAIRS = sorted({*quantities(Plan.model_json_schema()), *recorded(), *((unit, unit) for unit in units.UNITS)})
+PAIRS = sorted({*quantities(Plan.model_json_schema()), *put_out(), *((unit, unit) for unit in units.UNITS)})
 
 
 @pytest.mark.parametrize(("unit", "shown"), PAIRS)
