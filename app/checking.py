@@ -1,4 +1,4 @@
-"""What must hold before a plan is queued: it can be read, its record is there, and its scaling and its size are possible."""
+"""Checks before a plan is queued: the plan is valid, its record exists, and its scaling and size are within bounds."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_model
 from rths_engine.results.channels import channels
 
-LARGEST_PEAK = 100 * STANDARD_GRAVITY  # far above any shaking, so that only a wrong unit or scale is refused
-LARGEST_RECORDING = 2_000_000_000  # bytes, as in the engine, which is not loaded here
+LARGEST_PEAK = 100 * STANDARD_GRAVITY  # far above any earthquake, so that only a wrong unit or scale is refused
+LARGEST_RECORDING = 2_000_000_000  # bytes; the same as the engine's, which is not imported here
 BYTES = 8  # of a recorded number
 
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """A plan that can be run, its record pinned by checksum, and what it amounts to; SI."""
+    """A valid plan with the checksum of its record, and its scale factor, PGA, duration and number of steps; SI."""
 
     model: Model
     scale_factor: float
@@ -41,13 +41,13 @@ class Checked:
 
 
 def checked(data: Any, motions: MotionLibrary) -> Checked:
-    """Raises PlanError or MotionError with every issue found; nothing of the server's files is read but its library."""
+    """Check a plan. Raises PlanError or MotionError with every issue; reads no file of the server except its records."""
     refuse_unstorable(data)
     model = read_model(data)
     plan = model.plan
     if isinstance(plan.motion, FileMotion):
-        fix = "upload the record and name it"
-        raise PlanError(Issue("motion.kind", "files are read by the command line only", plan.motion.path, fix))
+        fix = "upload the record and give its name"
+        raise PlanError(Issue("motion.kind", "only the command line reads a record from a path", plan.motion.path, fix))
     motion = plan.motion.unscaled(motions)
     if isinstance(plan.motion, RecordMotion):
         model = model.changed(motion=plan.motion.model_copy(update={"sha256": motion.sha256}))
@@ -61,16 +61,16 @@ def checked(data: Any, motions: MotionLibrary) -> Checked:
 def _scale_factor(plan: Plan, motion: Motion, periods: Array) -> float:
     if isinstance(plan.motion, FileMotion | NoMotion):
         return 1.0
-    _check_peak("motion", motion.pga, "give acceleration in m/s^2")
+    _check_peak("motion", motion.pga, "give the acceleration in m/s^2")
     with np.errstate(over="ignore", divide="ignore"):
         factor = float(plan.motion.scale.factor_for(motion, float(periods[0])))
-    _check_peak("motion.scale", motion.pga * factor, "scale it by less")
+    _check_peak("motion.scale", motion.pga * factor, "use a smaller scale")
     return factor
 
 
 def _check_peak(where: str, pga: float, fix: str) -> None:
     if not pga <= LARGEST_PEAK:
-        bound = f"peaks above {LARGEST_PEAK / STANDARD_GRAVITY:g} g"
+        bound = f"the peak ground acceleration is above {LARGEST_PEAK / STANDARD_GRAVITY:g} g"
         raise PlanError(Issue(where, bound, f"{pga / STANDARD_GRAVITY:.3g} g", fix))
 
 

@@ -17,9 +17,9 @@ LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Everything that differs between installations. All data lives in the folder `data`.
+    """Everything that differs between installations. All data is in the folder `data`; limits are in bytes.
 
-    `hosts` are the names browsers reach the service by where it is not its own address, as behind a proxy.
+    `hosts` are the host names that browsers use when they differ from `host`, for example behind a proxy.
     """
 
     data: Path = Path("rths-data")
@@ -51,23 +51,23 @@ class Settings:
         return self.data / "measured"
 
     def body_limit(self, path: str) -> int:
-        """Bytes that a request to an address may have: files of measurements are larger than anything else."""
+        """Largest body (bytes) of a request to an address: files of measurements have a limit of their own."""
         return self.measurements_limit if path.startswith("/api/v1/recordings") else self.upload_limit
 
     @property
     def known_hosts(self) -> frozenset[str]:
-        """Host names that a browser's request may name; empty where a network's names can't be known."""
+        """Host names that a browser's request may use; empty (any) where the service listens on a network without `hosts`."""
         return LOOPBACK | {self.host, *self.hosts} if self.host in LOOPBACK or self.hosts else frozenset()
 
     def prepared(self) -> Settings:
-        """The same settings with their folders made."""
+        """Create the folders; returns the same settings."""
         for folder in (self.data, self.recordings, self.motions, self.measured):
             folder.mkdir(parents=True, exist_ok=True)
         return self
 
 
 def from_environment(**given: Any) -> Settings:
-    """Settings from the variables in VARIABLES; `given` wins where it is not None. Raises RthsError."""
+    """Settings from the variables in VARIABLES; a value in `given` that is not None takes precedence. Raises RthsError."""
     found = {name: _read(key, convert) for name, (key, convert) in VARIABLES.items() if os.environ.get(key)}
     return replace(Settings(), **{**found, **{name: value for name, value in given.items() if value is not None}})
 
@@ -76,7 +76,7 @@ def _read(key: str, convert: Callable[[str], Any]) -> Any:
     try:
         return convert(os.environ[key])
     except ValueError:
-        raise RthsError(Issue(key, "needs a whole number", os.environ[key], "mend or unset the variable")) from None
+        raise RthsError(Issue(key, "needs a whole number", os.environ[key], "correct or unset the variable")) from None
 
 
 VARIABLES: dict[str, tuple[str, Callable[[str], Any]]] = {

@@ -1,4 +1,4 @@
-"""What is refused before any endpoint sees it: another site's page, bodies declared too large, and NUL in an address."""
+"""Requests that are refused before an endpoint sees them: from pages of other sites, too large, or with NUL in the address."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from app.problems import problem, too_large
 SAFE = {"GET", "HEAD", "OPTIONS"}
 NOT_ALLOWED = 4403
 ELSEWHERE = (
-    "Changes are taken only from this service's own pages and from programs. "
-    "Behind a proxy, keep the Host header and set RTHS_HOSTS to the name that browsers use."
+    "This service accepts changes from its own pages and from programs, not from pages of other sites. "
+    "If the service is behind a proxy, keep the Host header and set RTHS_HOSTS to the host name that browsers use."
 )
 
 
 class Guard:
-    """ASGI middleware. Programs send no Origin; a browser's must name the host it talks to, websockets included.
+    """ASGI middleware that compares the Origin of a request with its Host, websockets included.
 
-    The host must be one the service is known by (`Settings.known_hosts`), or a foreign name that resolves to this machine
-    would pass. Bodies that declare no length are counted by the framework (`max_body_size`).
+    Programs send no Origin. The Origin of a browser must equal the host of the request, and that host must be in
+    `Settings.known_hosts`: otherwise a foreign name that resolves to this machine would pass. The framework counts bodies that
+    declare no length (`max_body_size`).
     """
 
     def __init__(self, app: ASGIApp, settings: Settings):
@@ -42,7 +43,7 @@ class Guard:
 
     def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
         if "\0" in scope["path"] or b"%00" in scope["query_string"]:
-            return problem(400, "The address holds a NUL character.")
+            return problem(400, "The address has a NUL character.")
         if scope.get("method") in SAFE:
             return None
         if not self._own(headers):

@@ -1,4 +1,4 @@
-"""Errors as problem+json (RFC 9457): title, detail and, for each thing wrong, where, problem, value and fix."""
+"""Errors as problem+json (RFC 9457): title, detail and, for each error, where, problem, value and fix."""
 
 from __future__ import annotations
 
@@ -20,37 +20,37 @@ from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"
 TITLES = {
-    400: "The request can't be read",
-    403: "Not allowed from there",
+    400: "Bad request",
+    403: "Forbidden",
     404: "Not found",
-    405: "Not possible here",
-    409: "Not possible in this state",
-    413: "Too large",
-    415: "Of a kind that is not read",
-    422: "The input has mistakes",
-    500: "The service failed",
-    503: "Not able to now",
-}
+    405: "Method not allowed",
+    409: "Conflict",
+    413: "Payload too large",
+    415: "Unsupported media type",
+    422: "Unprocessable content",
+    500: "Internal server error",
+    503: "Service unavailable",
+}  # HTTP's own phrases: the type of a problem is about:blank
 FORMS = {"multipart/form-data", "application/x-www-form-urlencoded"}
 
 
 class NotFound(Exception):
-    """Something named in a request that does not exist."""
+    """A request names something that does not exist."""
 
 
 class Conflict(Exception):
-    """Something that can't be done as things are."""
+    """A request does not fit the present state of what it names."""
 
 
 def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None) -> Response:
-    """An answer in problem+json (RFC 9457)."""
-    title = TITLES.get(status, "Not possible")
+    """A response in problem+json (RFC 9457)."""
+    title = TITLES.get(status, "Error")
     body = {"type": "about:blank", "title": title, "status": status, "detail": detail, "errors": errors or []}
-    return Response(json.dumps(body), status, media_type=MEDIA_TYPE)  # ASCII, so that any text can be told back
+    return Response(json.dumps(body), status, media_type=MEDIA_TYPE)  # ASCII: holds any text
 
 
 def install(app: FastAPI) -> None:
-    """Every error of the application leaves as a problem."""
+    """Answer every error of the application with a problem."""
     app.add_exception_handler(RthsError, _input_error)
     app.add_exception_handler(RecordingError, lambda _, error: problem(409, f"{error}."))
     app.add_exception_handler(RequestValidationError, _request_error)
@@ -62,8 +62,9 @@ def install(app: FastAPI) -> None:
 
 
 def too_large(limit: int) -> Response:
-    """The answer 413 to a request larger than `limit` bytes."""
-    return problem(413, f"The request is larger than {limit / 1e6:g} MB, the most that is taken.")
+    """The response 413 to a request larger than `limit` bytes."""
+    fix = "Send a smaller file, or raise the limit in the settings of the service."
+    return problem(413, f"The request is larger than the limit of {limit / 1e6:g} MB. {fix}")
 
 
 def _input_error(_: Request, error: Exception) -> Response:
@@ -75,8 +76,8 @@ def _request_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
     expected = _expected_kind(request, error.body)
     if expected:
-        given = request.headers.get("content-type") or "no Content-Type"
-        return problem(415, f"The body has {given}; send it as {expected}.")
+        given = request.headers.get("content-type") or "missing"
+        return problem(415, f"The Content-Type of the body is {given}. Send {expected}.")
     issues = [_issue(detail, request) for detail in error.errors()]
     unread = any(detail["type"] == "json_invalid" for detail in error.errors())
     return problem(400 if unread else 422, "; ".join(str(issue) for issue in issues), [issue.as_dict() for issue in issues])
@@ -85,7 +86,7 @@ def _request_error(request: Request, error: Exception) -> Response:
 def _issue(detail: Any, request: Request) -> Issue:
     where = location.dotted(detail["loc"][1:], _kind_of_body(request) if detail["loc"][0] == "body" else Any)
     if detail["type"] == "json_invalid":
-        return Issue("", f"the body is no JSON: {detail['ctx']['error']} at character {detail['loc'][-1]}")
+        return Issue("", f"the body is not valid JSON: {detail['ctx']['error']} at character {detail['loc'][-1]}")
     given = detail["input"]
     value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
     message = str(detail["msg"]).removeprefix("Value error, ")
@@ -93,13 +94,16 @@ def _issue(detail: Any, request: Request) -> Issue:
 
 
 def _kind_of_body(request: Request) -> Any:
-    """The declared type of the JSON that the route takes."""
+    """The declared type of the JSON body of the route."""
     field = getattr(request.scope.get("route"), "body_field", None)
     return field.field_info.annotation if field else Any
 
 
 def _expected_kind(request: Request, body: Any) -> str | None:
-    """The content type to send where the body came as another: then it is there unparsed, or no form was found in it."""
+    """The content type to send, or None where the body has the right type.
+
+    With a wrong type the framework passes the body on unparsed, or as an empty form.
+    """
     if isinstance(body, bytes) and body:
         return "application/json"
     form = request.headers.get("content-type", "").partition(";")[0] in FORMS
@@ -111,28 +115,29 @@ def _http_error(request: Request, error: Exception) -> Response:
     if error.status_code == 413:
         return too_large(request.app.state.settings.body_limit(request.url.path))
     if error.status_code == 405:
-        return _not_possible(request)
+        return _method_not_allowed(request)
     response = problem(error.status_code, _detail(request, error))
     response.headers.update(error.headers or {})
     return response
 
 
-def _not_possible(request: Request) -> Response:
-    """Names the methods of every route at the address; the framework knows of the first only."""
+def _method_not_allowed(request: Request) -> Response:
+    """The response 405, with the methods of every route at the address; the framework lists those of the first route only."""
     path, described = request.url.path, request.app.openapi()["paths"]
     methods = {method.upper() for route, item in described.items() if compile_path(route)[0].match(path) for method in item}
     allowed = ", ".join(sorted(methods | ({"HEAD"} if "GET" in methods else set()))) or "GET, HEAD"
-    response = problem(405, f"{request.method} is not possible at {path}; {allowed} is.")
+    response = problem(405, f"{path} does not accept {request.method}. Methods allowed: {allowed}.")
     response.headers["Allow"] = allowed
     return response
 
 
 def _detail(request: Request, error: HTTPException) -> str:
-    """In words where the framework says its standard phrase."""
+    """The detail of an HTTP error; a sentence where the framework gives its standard phrase only."""
     words = {
         "Not Found": f"There is nothing at {request.url.path}.",
         "There was an error parsing the body": (
-            "The body can't be read: it is not UTF-8, nested too deeply, no whole form, or has a number of too many digits."
+            "The body can't be read: it is not UTF-8, is nested too deeply, is an incomplete form, "
+            "or has a number with too many digits."
         ),
     }
     return words.get(error.detail, error.detail)
@@ -147,4 +152,4 @@ def _database_error(request: Request, error: Exception) -> Response:
 
 def _unexpected(request: Request, error: Exception) -> Response:
     log.exception("%s %s failed", request.method, request.url.path, exc_info=error)
-    return problem(500, "The service met an error of its own; nothing was stored. Its log holds the details.")
+    return problem(500, "The service failed with an internal error; nothing was stored. Its log holds the details.")

@@ -1,4 +1,4 @@
-"""Text that every database, file and page can hold."""
+"""Text that every database, file and page can store."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pydantic import AfterValidator
 from rths_engine.foundation.errors import Issue, PlanError
 
 _UNSTORABLE = re.compile("[\x00\ud800-\udfff]")
-_PROBLEM = "holds a character that can't be stored (NUL or half of a surrogate pair)"
+_PROBLEM = "has a character that can't be stored (NUL or half of a surrogate pair)"
 
 
 def _storable(text: str) -> str:
@@ -24,7 +24,7 @@ Storable = Annotated[str, AfterValidator(_storable)]
 
 
 def refuse_unstorable(data: Any) -> None:
-    """Raises PlanError naming every text in `data`, keys included, that can't be stored."""
+    """Raise PlanError with an issue for every text in `data`, keys included, that can't be stored."""
     issues = tuple(_issues(data))
     if issues:
         raise PlanError(issues)
@@ -36,7 +36,7 @@ def _issues(data: Any) -> Iterator[Issue]:
         where, value = left.pop()
         if isinstance(value, str):
             if _UNSTORABLE.search(value):
-                yield Issue(where, _PROBLEM, value, "write it anew")
+                yield Issue(where, _PROBLEM, value, "remove the character")
         elif isinstance(value, dict):
             for key, inner in value.items():
                 path = f"{where}.{key}" if where else str(key)
@@ -46,5 +46,5 @@ def _issues(data: Any) -> Iterator[Issue]:
 
 
 def _nested(items: list[Any]) -> Iterator[tuple[int, Any]]:
-    """The items that can hold text; a record's samples can't."""
+    """The items that can hold text: no numbers, so that the samples of a record are skipped."""
     return ((index, item) for index, item in enumerate(items) if isinstance(item, str | dict | list))

@@ -1,4 +1,4 @@
-"""Rules of jobs of every kind: submit, start, cancel, end, take over. No SQL, no HTTP."""
+"""Rules of jobs of every kind: submit, start, cancel, end and take over. No SQL, no HTTP."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ NOBODY = "unnamed"
 
 
 class Queue(Protocol):
-    """The durable queue, as far as submitting needs it."""
+    """The part of the durable queue that submitting uses."""
 
     def enqueue(self, session: Session, kind: Kind[Any, Any, Any], ids: Sequence[str]) -> None: ...
 
 
 class JobService(Generic[Row, Result]):
-    """Every change of a job's state goes through here, and through TRANSITIONS."""
+    """Rules of the jobs of one kind. Every change of a job's state goes through this class and TRANSITIONS."""
 
     def __init__(self, session: Session, kind: Kind[Row, Any, Result], queue: Queue | None = None):
         table: Any = kind.table
@@ -35,7 +35,7 @@ class JobService(Generic[Row, Result]):
         self.session, self.kind, self.queue = session, kind, queue
 
     def submit(self, jobs: Sequence[Row], by: str) -> None:
-        """Store and queue jobs, all in the session's transaction."""
+        """Store and queue jobs, all in the transaction of the session."""
         for job in jobs:
             job.id, job.state, job.attempt = str(uuid.uuid4()), State.QUEUED, 0
             job.submitted_by, job.submitted_at = named(by), datetime.now(UTC)
@@ -44,18 +44,18 @@ class JobService(Generic[Row, Result]):
         self.queue.enqueue(self.session, self.kind, [job.id for job in jobs])
 
     def get(self, job_id: str) -> Row:
-        """Raises NotFound."""
+        """The job with this id. Raises NotFound."""
         job = self.rows.get(job_id)
         if job is None:
             raise NotFound(f"There is no {self.kind.name} {job_id}.")
         return job
 
     def locked(self, job_id: str) -> Row:
-        """The job as it is now, held against other writers until the end of the transaction. Raises NotFound."""
+        """The job as it is now, locked until the end of the transaction. Raises NotFound."""
         return self.rows.locked(job_id) or self.get(job_id)
 
     def cancel(self, job_id: str, by: str) -> Row:
-        """End a queued job now; ask the worker to end a running one. Raises IllegalTransition for an ended one."""
+        """Cancel a queued job now; ask the worker to stop a running job. Raises IllegalTransition for a job that has ended."""
         job = self.locked(job_id)
         states.check(job.state, State.CANCELLED, self.kind.noun)
         if job.state is State.QUEUED:
@@ -65,7 +65,7 @@ class JobService(Generic[Row, Result]):
         return job
 
     def cancel_running(self, by: str) -> list[Row]:
-        """Ask for the end of every running job; returns them."""
+        """Ask the workers to stop every running job; returns these jobs."""
         stopping = []
         for job_id in self.rows.ids(State.RUNNING):
             job = self.rows.locked(job_id)
@@ -75,17 +75,17 @@ class JobService(Generic[Row, Result]):
         return stopping
 
     def remove(self, job_id: str) -> None:
-        """Raises Conflict for a job that has not ended."""
+        """Delete a job that has ended. Raises Conflict for a job that has not."""
         job = self.locked(job_id)
         if not job.state.ended:
-            raise Conflict(f"The {self.kind.noun} is {job.state}; cancel it first.")
+            raise Conflict(f"The {self.kind.noun} has not ended: it is {job.state}. Cancel it first.")
         self.rows.remove(job)
 
     def start(self, job_id: str, worker: str) -> Row | None:
-        """Give a job to a worker, or None when there is nothing to do: ended, cancelled meanwhile, or tried too often.
+        """Start a job on a worker. None if there is nothing to do: the job has ended, was cancelled, or has no attempt left.
 
-        A job that is running was left by a dead worker: this one takes it over. Where jobs of the kind wait while the queue is
-        held, the worker has waited before it comes here; a queue held now was held at this moment, and the job ends.
+        A running job was left by a worker that died; this worker takes it over. For a kind with `waits_while_held` the worker
+        has already waited for the release of the queue. If the queue is held again at this moment, the job ends as cancelled.
         """
         queue = Hold(self.session).locked() if self.kind.waits_while_held else None
         job = self.rows.locked(job_id)
@@ -95,13 +95,13 @@ class JobService(Generic[Row, Result]):
         if job.state is State.RUNNING:
             self._move(job, State.QUEUED)
         if job.cancel_requested_by:
-            died = f"the worker or the process of the {noun} had died"
-            self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}; {died}.")
+            died = f"The worker or the process of the {noun} had died."
+            self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}. {died}")
         elif queue is not None and queue.held:
-            self._end(job, State.CANCELLED, f"Stopped by {queue.held_by} as it was about to start.")
+            self._end(job, State.CANCELLED, f"Stopped by {queue.held_by} before it started.")
         elif job.attempt >= MOST_ATTEMPTS:
             died = f"The worker or the process of the {noun} died {job.attempt} times"
-            self._end(job, State.FAILED, f"{died}; the {noun} is not tried again.")
+            self._end(job, State.FAILED, f"{died}. There is no further attempt.")
         else:
             self._move(job, State.RUNNING)
             job.attempt += 1
@@ -110,15 +110,15 @@ class JobService(Generic[Row, Result]):
         return None
 
     def progress(self, job_id: str, attempt: int, doing: str, share: float) -> None:
-        """Write how far an attempt is; one that was given up changes nothing."""
+        """Store the progress of an attempt; nothing happens if the attempt is not the current one."""
         self.rows.progress(job_id, attempt, doing, share)
 
     def cancel_requested(self, job_id: str) -> bool:
-        """Whether someone asked to stop a running job."""
+        """Whether someone asked to cancel a running job."""
         return self.rows.cancel_requested(job_id)
 
     def finish(self, job_id: str, attempt: int, result: Result) -> bool:
-        """Store the result of an attempt; False when it is not stored: the job has ended, is cancelled or was taken over."""
+        """Store the result of an attempt. False if it is not stored: the job has ended, is cancelled or was taken over."""
         job = self._current(job_id, attempt)
         if job is None:
             return False
@@ -148,7 +148,7 @@ class JobService(Generic[Row, Result]):
         return job if job is not None and job.attempt == attempt and not job.state.ended else None
 
     def _cancelled(self, job: Row) -> None:
-        self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}; no result was kept.")
+        self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}. No result was stored.")
 
     def _move(self, job: Row, state: State) -> None:
         states.check(job.state, state, self.kind.noun)
@@ -160,5 +160,5 @@ class JobService(Generic[Row, Result]):
 
 
 def named(by: str) -> str:
-    """A person's name as it is stored."""
+    """A person's name as stored: NOBODY where it is empty."""
     return by.strip() or NOBODY

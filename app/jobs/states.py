@@ -1,4 +1,4 @@
-"""States of a job, and the one table of which state may follow which."""
+"""States of a job, and the table of allowed transitions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class State(StrEnum):
         return [state.value for state in kind]
 
 
-# a running job goes back to the queue when its worker has died
+# running -> queued: the worker of the job has died
 TRANSITIONS: dict[State, frozenset[State]] = {
     State.QUEUED: frozenset({State.RUNNING, State.CANCELLED, State.FAILED}),
     State.RUNNING: frozenset({State.QUEUED, State.COMPLETED, State.TRIPPED, State.CANCELLED, State.FAILED}),
@@ -38,11 +38,12 @@ TRANSITIONS: dict[State, frozenset[State]] = {
 
 
 class IllegalTransition(Conflict):
-    """A change of state that TRANSITIONS does not have."""
+    """A change of state that is not in TRANSITIONS."""
 
     def __init__(self, noun: str, old: State, new: State):
         self.old, self.new = old, new
-        super().__init__(f"The {noun} is {old}; it cannot become {new}.")
+        ended = f"has already ended: it is {old}" if old.ended else f"is {old}"
+        super().__init__(f"The {noun} {ended} and cannot become {new}.")
 
 
 def check(old: State, new: State, noun: str = "job") -> None:

@@ -1,4 +1,4 @@
-"""Files of measurements as they came in, each once under its checksum, and the tables read from them."""
+"""Uploaded files of measurements, each stored once under its checksum, and the tables read from them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rths_engine.foundation import files
 from rths_engine.recordings.measured import Table, read
 
 PART = 1 << 20  # bytes
-_READING = threading.Lock()  # a large file takes some times its size in memory: one is read at a time
+_READING = threading.Lock()  # reading takes several times the size of a file in memory, so one file is read at a time
 
 
 class RawFiles:
@@ -23,7 +23,7 @@ class RawFiles:
         self.folder = folder
 
     def keep(self, stream: BinaryIO) -> tuple[str, int]:
-        """Copy the stream part by part; checksum and size. The file appears whole."""
+        """Store the stream as a file, complete or not at all; returns its checksum and size (bytes)."""
         digest, size = hashlib.sha256(), 0
         self.folder.mkdir(parents=True, exist_ok=True)
         with files.temporary(self.folder / "upload") as path:
@@ -40,16 +40,16 @@ class RawFiles:
         return self.folder / sha256
 
     def table(self, sha256: str, filename: str) -> Table:
-        """Raises NotFound where the file is gone, MeasuredError where it can't be read."""
+        """The table in a file. Raises NotFound where the file no longer exists, MeasuredError where it can't be read."""
         with _READING:
             return _table(self.path(sha256), filename)
 
 
 @lru_cache(maxsize=2)
 def _table(path: Path, filename: str) -> Table:
-    """The last tables read: while a mapping is worked out, the same file is looked at again and again."""
+    """The table in a file; cached, because a user reads the same file many times while editing its mapping."""
     try:
         raw = path.read_bytes()
     except FileNotFoundError:
-        raise NotFound(f"The file {filename} is not kept any more; upload it again.") from None
+        raise NotFound(f"The file {filename} is no longer stored. Upload it again.") from None
     return read(raw, filename)

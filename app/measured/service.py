@@ -1,4 +1,4 @@
-"""Rules of measured recordings: upload, look, import, remove. No SQL, no HTTP."""
+"""Rules of measured recordings: upload, preview, import and remove. No SQL, no HTTP."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ NOBODY = "unnamed"
 
 
 class MeasuredService:
-    """Rules of measured recordings: upload, preview, import, remove. No SQL, no HTTP."""
+    """Rules of measured recordings: upload, preview, import and remove. No SQL, no HTTP."""
 
     def __init__(self, session: Session, folder: Path):
         self.session, self.folder = session, folder
         self.rows, self.raw_files = MeasuredRepository(session), RawFiles(folder / "raw")
 
     def upload(self, stream: BinaryIO, filename: str) -> Uploaded:
-        """Keep a file that can be read. Raises MeasuredError for one that can't, and keeps nothing of it."""
+        """Store a file that can be read. Raises MeasuredError for any other file, and stores nothing of it."""
         name = _storable(filename)
         sha256, size = self.raw_files.keep(stream)
         if self.rows.raw(sha256) is None:
@@ -55,12 +55,12 @@ class MeasuredService:
         return self._described(sha256, raw.size, raw.filename, self.raw_files.table(sha256, raw.filename))
 
     def preview(self, asked: Mapped) -> dict[str, Any]:
-        """The channels by a mapping, decimated, with everything found. Raises MeasuredError for a mapping that does not fit."""
+        """The channels by a mapping, decimated, with all findings. Raises MeasuredError for a mapping that does not fit."""
         raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
         return shown.examined(examine(self.raw_files.table(raw.sha256, raw.filename), mapping), mapping)
 
     def import_(self, asked: Import) -> MeasuredRecording:
-        """Write the recording, then its row. Raises MeasuredError with every error found."""
+        """Write the recording, then its row. Raises MeasuredError with every error."""
         raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
         measured = imported(self.raw_files.table(raw.sha256, raw.filename), mapping, raw.filename, raw.sha256)
         name = asked.name.strip() or mapping.title or raw.filename
@@ -69,7 +69,7 @@ class MeasuredService:
         afterwards(self.session, "after_rollback", lambda: path.unlink(missing_ok=True))
         save(path, replace(measured, title=name))
         if not self.rows.locked_raw(raw.sha256):
-            raise NotFound(f"The file {raw.filename} was removed meanwhile; upload it again.")
+            raise NotFound(f"The file {raw.filename} is no longer stored. Upload it again.")
         recording = MeasuredRecording(
             id=recording_id,
             name=name,
@@ -111,7 +111,7 @@ class MeasuredService:
         return _there(self.path(self.get(recording_id).id))
 
     def raw(self, recording_id: str) -> tuple[Path, str]:
-        """The file that a recording came from, and its name."""
+        """The path and the name of the file that a recording was imported from."""
         recording = self.get(recording_id)
         return _there(self.raw_files.path(recording.raw_sha256)), recording.filename
 
@@ -119,17 +119,17 @@ class MeasuredService:
         return mapping_yaml.write(Mapping.read(self.get(recording_id).mapping))
 
     def remove(self, recording_id: str) -> None:
-        """Raises Conflict while something refers to the recording."""
+        """Remove a recording. Raises Conflict while something refers to it."""
         recording = self.get(recording_id)
         self.rows.locked_raw(recording.raw_sha256)
         uses = self.rows.uses(recording)
         if uses:
-            told = ", ".join(f"{count} × {name.replace('_', ' ')}" for name, count in uses.items())
-            raise Conflict(f"The recording {recording.name} is in use ({told}); remove what uses it first.")
+            users = ", ".join(f"{count} × {name.replace('_', ' ')}" for name, count in uses.items())
+            raise Conflict(f"The recording {recording.name} is in use ({users}). Remove these first.")
         try:
             self.rows.remove(recording)
         except IntegrityError:
-            raise Conflict(f"The recording {recording.name} has just come into use.") from None
+            raise Conflict(f"The recording {recording.name} is in use: another request has just started to use it.") from None
         path = self.path(recording.id)
         afterwards(self.session, "after_commit", lambda: path.unlink(missing_ok=True))
         self._forget_raw(recording.raw_sha256)
@@ -148,7 +148,7 @@ class MeasuredService:
     def _raw(self, sha256: str) -> RawFile:
         raw = self.rows.raw(sha256)
         if raw is None:
-            raise NotFound(f"There is no uploaded file with SHA-256 {sha256}; upload it, again after a day without an import.")
+            raise NotFound(f"There is no uploaded file {sha256}. Upload it again; unused files are deleted after one day.")
         return raw
 
     def _forget_raw(self, sha256: str) -> None:
@@ -172,8 +172,8 @@ def _guessed(table: Table) -> dict[str, Any]:
         found = guess(table)
     except MeasuredError as error:
         return {"guess": None, "reasons": {}, "left_out": {}, "notes": [*table.notes, f"{error}."]}
-    told = {"reasons": found.reasons, "left_out": found.left_out, "notes": list(found.notes)}
-    return {"guess": found.mapping.as_dict(), **told}
+    explained = {"reasons": found.reasons, "left_out": found.left_out, "notes": list(found.notes)}
+    return {"guess": found.mapping.as_dict(), **explained}
 
 
 def _mapping(given: dict[str, Any] | str) -> Mapping:
@@ -194,6 +194,6 @@ def _there(path: Path) -> Path:
 
 
 def _storable(filename: str) -> str:
-    """A file's name without its folder and without signs that no database or header holds."""
+    """A file name without its folder and without characters that a database or an HTTP header cannot hold."""
     name = re.split(r"[/\\]", filename)[-1]
     return re.sub("[\x00-\x1f\x7f\ud800-\udfff]", "", name).strip()[-255:] or "measurements"

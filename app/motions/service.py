@@ -1,4 +1,4 @@
-"""The record library of the laboratory."""
+"""The library of ground motions of the laboratory."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class MotionService:
         return preview(self.library.get(name))
 
     def read(self, raw: bytes, filename: str, unit: str, dt: str, name: str) -> Motion:
-        """A record from an uploaded file. Raises MotionError."""
+        """Read a record from an uploaded file. Raises MotionError."""
         motion = read(raw, filename or "record", unit=unit or None, dt=_step(dt))
         own = slug(name or filename.rsplit(".", 1)[0])
         return replace(motion, name=own, title=name or motion.title)
@@ -49,11 +49,11 @@ class MotionService:
 
     def _known(self, name: str) -> None:
         if name not in self.library.names():
-            raise NotFound(f"There is no record '{name}'.")
+            raise NotFound(f"There is no ground motion '{name}'.")
 
 
 def preview(motion: Motion) -> dict[str, Any]:
-    """Samples and response spectrum, SI; long records keep the largest of each bucket's samples."""
+    """Samples and response spectrum of a record, SI; a long record is decimated to the extremes of equal parts."""
     acceleration = np.asarray(motion.acceleration)
     time = np.arange(len(acceleration)) * motion.dt
     kept = _peaks(acceleration)
@@ -72,7 +72,7 @@ def preview(motion: Motion) -> dict[str, Any]:
 
 
 def _peaks(samples: Any) -> Any:
-    """Indices of each bucket's smallest and largest sample, in order; all of them for a short record."""
+    """Indices of the smallest and largest sample of equal parts, in order; all indices for a short record."""
     size = -(-len(samples) // (PREVIEW_POINTS // 2))
     if size <= 2:
         return np.arange(len(samples))
@@ -88,4 +88,4 @@ def _step(text: str) -> float | None:
     try:
         return float(text)
     except ValueError:
-        raise MotionError(Issue("dt", "needs the step in s as a number", text, "for example 0.01")) from None
+        raise MotionError(Issue("dt", "needs a number: the time step in s", text, "for example 0.01")) from None

@@ -1,4 +1,4 @@
-"""Plans before they are run: templates, schema, checking, YAML."""
+"""Plans before they are run: templates, schema, checks and YAML."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ class PlanService:
         self.motions = motions
 
     def templates(self) -> list[dict[str, str]]:
-        """Name, title and the heading under which people find it."""
+        """The templates, each with name, title and the group in which the form lists it."""
         return [
             {"name": name, "title": templates.template(name).name, "group": templates.group(name)} for name in templates.names()
         ]
 
     def template(self, name: str) -> dict[str, Any]:
-        """The plan of a template, and the paper's row where it is one of Table III."""
+        """The plan of a template, and the paper's results if the template is a simulation of Table III."""
         if name not in templates.names():
-            raise NotFound(f"There is no template '{name}'; there are {', '.join(templates.names())}.")
+            raise NotFound(f"There is no template '{name}'. Templates: {', '.join(templates.names())}.")
         paper = templates.PAPER.get(name)
         return {"name": name, "plan": templates.template(name).as_dict(), "paper": asdict(paper) if paper else None}
 
     def schema(self) -> dict[str, Any]:
-        """JSON Schema of a plan; beside it the tables of measures and channels, and the glossary."""
+        """JSON Schema of a plan, with the tables of measures and channels and the glossary."""
         return {
             **Plan.model_json_schema(),
             "measures": [one.as_dict() for one in MEASURES],
@@ -51,7 +51,7 @@ class PlanService:
         }
 
     def check(self, data: Any) -> dict[str, Any]:
-        """The plan as understood, with its digest and what it amounts to. Raises PlanError or MotionError."""
+        """The plan with every default, its digest, warnings and summary. Raises PlanError or MotionError."""
         found = checked(data, self.motions)
         plan, shaken = found.plan, found.plan.motion.kind != "none"
         summary = {
@@ -64,18 +64,19 @@ class PlanService:
         return {"plan": plan.as_dict(), "digest": plan.digest, "warnings": _warnings(found), "summary": summary}
 
     def drive(self, data: Any) -> dict[str, Any]:
-        """What the drive of a plan amounts to. Raises PlanError."""
+        """The displacement of a drive against time, with its peak and largest velocity. Raises PlanError."""
         return preview(data)
 
     def read(self, raw: bytes) -> dict[str, Any]:
         """Plan YAML as JSON. Raises PlanError."""
         if len(raw) > LARGEST_YAML:
-            fix = "upload a long record and name it, or send the plan as JSON"
-            raise PlanError(Issue("", f"YAML of {len(raw)} bytes is not read; {LARGEST_YAML} is the most", fix=fix))
+            fix = "upload a long record and give its name, or send the plan as JSON"
+            raise PlanError(Issue("", f"the YAML has {len(raw)} bytes; the limit is {LARGEST_YAML} bytes", fix=fix))
         try:
             data = plan_yaml.parse(raw.decode())
         except UnicodeDecodeError as error:
-            raise PlanError(Issue("", f"the text is not UTF-8: byte {error.start} is wrong", fix="save it as UTF-8")) from None
+            problem = f"is not valid UTF-8 text: byte {error.start} is wrong"
+            raise PlanError(Issue("", problem, fix="save the file as UTF-8")) from None
         refuse_unstorable(data)
         return read_plan(data).as_dict()
 
@@ -87,12 +88,14 @@ class PlanService:
 def _warnings(checked: Checked) -> list[str]:
     plan, found = checked.plan, []
     if plan.duration and plan.duration < checked.moved_s:
-        what = "its drive" if plan.driven else "its record" if plan.motion.kind != "none" else "its force"
-        found.append(f"The test ends at {plan.duration:g} s, before {what} does at {checked.moved_s:g} s.")
+        excitation = "drive" if plan.driven else "record" if plan.motion.kind != "none" else "force"
+        found.append(f"The test ends at {plan.duration:g} s, before the end of its {excitation} at {checked.moved_s:g} s.")
     for station in plan.stations:
         if station.limits.force > station.actuator.force_limit:
-            found.append(f"{station.name}: the force limit is above the actuator's force capacity and can't trip.")
+            found.append(f"{station.name}: the force limit is above that of the actuator, so it can never trip.")
         if station.limits.velocity > station.actuator.velocity_limit:
-            found.append(f"{station.name}: the velocity limit is above what the actuator can reach.")
+            found.append(
+                f"{station.name}: the velocity limit is above the velocity limit of the actuator, so it can never trip."
+            )
     unstable = stability.warning(checked.model)
     return [*found, unstable] if unstable else found

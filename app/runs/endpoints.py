@@ -24,7 +24,7 @@ NOBODY = Person()
 
 
 class Wanted(BaseModel):
-    """Filter, order and page of a list of runs. An empty parameter is none; a time without a zone is UTC."""
+    """Filter, order and page of a list of runs. An empty parameter is ignored; a time without a time zone is UTC."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -50,7 +50,7 @@ class Wanted(BaseModel):
         try:
             return time.replace(tzinfo=UTC) if time.tzinfo is None else time.astimezone(UTC)
         except OverflowError:
-            raise ValueError("is outside the calendar") from None
+            raise ValueError("is out of range: needs a year from 1 to 9999") from None
 
     def filter(self) -> Filter:
         return Filter(tuple(self.state), self.q, self.submitted_by, self.template, self.since, self.until)
@@ -61,9 +61,9 @@ class Wanted(BaseModel):
 
 @router.post("/runs", status_code=201)
 def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
-    """Queue one plan (`plan`) or several (`plans`), all or none."""
+    """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued."""
     if (body.plan is None) == (body.plans is None):
-        raise PlanError(Issue("plan", "give either one plan as 'plan' or a list as 'plans'"))
+        raise PlanError(Issue("plan", "needs either one plan as 'plan' or a list of plans as 'plans'"))
     if body.plans is None:
         stored = runs.submit([body.plan], body.submitted_by, prefix="")
     else:
@@ -73,7 +73,7 @@ def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
 
 @router.get("/runs")
 def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
-    """Runs by filter, order and page. `sort` takes a column, or a measure with the number of a station, `KEY:1`."""
+    """List runs by filter, order and page. `sort` is a column, or a measure and a station number: `mte_mm:1`."""
     found, total = runs.listed(wanted.filter(), wanted.page())
     return RunList(runs=[RunOut.of(run) for run in found], total=total)
 
@@ -86,7 +86,7 @@ def one(run_id: str, runs: Runs) -> RunDetail:
 
 @router.post("/runs/{run_id}/cancel", responses=told(409))
 def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
-    """End a queued test now; a running one stops within a second and keeps what was recorded."""
+    """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored."""
     return RunOut.of(runs.cancel(run_id, person.by))
 
 
@@ -110,7 +110,7 @@ def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingR
 
 @router.get("/runs/{run_id}/measures.csv", response_class=PlainTextResponse, responses=file("text/csv") | told(409))
 def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
-    """The measures of an ended test as CSV, one a row: of what, key, label, value and unit."""
+    """The measures of a run as CSV. Each row has station or floor, key, label, value and unit."""
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}-measures.csv"'}
     return PlainTextResponse(measures_text(run), media_type="text/csv", headers=headers)
@@ -118,7 +118,7 @@ def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
 
 @router.get("/runs/{run_id}/report.html", response_class=HTMLResponse, responses=told(409))
 def report_html(run_id: str, runs: Runs, configured: Configured) -> HTMLResponse:
-    """The report of a run: one HTML file that stands alone."""
+    """The report of a run as one HTML file without external files."""
     return HTMLResponse(report(runs.get(run_id), configured))
 
 
@@ -138,12 +138,12 @@ def abort(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> dict[str, A
 
 @router.get("/queue")
 def queue(runs: Runs) -> QueueOut:
-    """The queue: held or not, its length, the running tests, and when a worker was last seen."""
+    """The state of the queue: held or not, number of queued tests, running tests, and the last heartbeat of a worker."""
     return runs.queue_state()
 
 
 @router.post("/queue/release")
 def release(runs: Runs) -> QueueOut:
-    """Release the queue after an abort."""
+    """Release the queue after an abort, so that queued tests start."""
     runs.release()
     return runs.queue_state()

@@ -1,4 +1,4 @@
-"""What is downloaded of a run: its recording as HDF5 or CSV, and its report."""
+"""Downloads of a run: recording as HDF5 or CSV, measures as CSV, and the report."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ ROWS = 4096
 
 
 def recording_path(run: Run, settings: Settings) -> Path:
-    """The recording's file. Raises Conflict while there is none."""
+    """The path of the recording. Raises Conflict while there is no recording."""
     path = settings.recordings / f"{run.id}.h5"
     if not run.recording_sha256:
-        raise Conflict(f"The test is {run.state} and has no recording.")
+        raise Conflict(f"The test has no recording: it is {run.state}.")
     if not path.exists():
         raise Conflict(f"The recording of run {run.id} is missing from the data folder.")
     return path
 
 
 def csv_parts(path: Path) -> Iterator[bytes]:
-    """The recording as CSV, read part by part: time and all channels in shown units, the units in the header.
+    """The recording as CSV in parts: time and all channels in the units shown; the header has the units.
 
     Raises RecordingError for a damaged file, before the first part.
     """
@@ -52,9 +52,9 @@ def _parts(channels: tuple[Channel, ...], dt: float, signals: Iterator[Array]) -
 
 
 def measures_text(run: Run) -> str:
-    """The measures of a run as CSV. Raises Conflict while there is no result."""
+    """The measures of a run as CSV. Raises Conflict while there are no measures."""
     if not run.recording_sha256:
-        raise Conflict(f"The test is {run.state} and has no measures.")
+        raise Conflict(f"The test has no measures: it is {run.state}.")
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(["station or floor", "key", "measure", "value", "unit"])
@@ -64,7 +64,7 @@ def measures_text(run: Run) -> str:
 
 
 def report(run: Run, settings: Settings) -> str:
-    """Self-contained HTML of a run with a recording."""
+    """The report of a run as one HTML file. Raises Conflict while there is no recording."""
     from app.reports.service import report_html
 
     return report_html(

@@ -1,4 +1,4 @@
-"""Runs as a kind of job: the engine executes them, one engine for each test that may run at a time."""
+"""Runs as a kind of job: each engine process executes one test at a time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rths_engine.results.measures import of
 
 
 class RunKind(Kind[Run, RunOrder, Outcome]):
-    """Tests as a kind of job: watched live, kept when cancelled, and waiting while the queue is held."""
+    """Runs as a kind of job: watched live, stored when cancelled, and waiting while the queue is held."""
 
     name, noun, table = "run", "test", Run
     queue, workflow = "tests", "run-test"
@@ -43,7 +43,7 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return Ending(state, _reason(job, state))
 
     def place(self, order: RunOrder, settings: Settings) -> None:
-        """Put the recording in its place: it and the run's row are stored both or, at the next attempt, again."""
+        """Move the recording to its final path, just before the commit of its row. After a failure the next attempt redoes both."""
         os.replace(order.recording, settings.recordings / f"{order.job_id}.h5")
 
     def discard(self, order: RunOrder) -> None:
@@ -61,10 +61,10 @@ RUNS = RunKind()
 def _reason(run: Run, state: State) -> str:
     if state is State.CANCELLED:
         return f"Stopped by {run.cancel_requested_by or NOBODY} at {run.simulated_s:.2f} s."
-    return run.trip["sentence"] if run.trip else "Ran to its end."
+    return run.trip["sentence"] if run.trip else "The test ran to its end."
 
 
 def _finite(summary: dict[str, Any]) -> dict[str, Any]:
-    """The summary with null for numbers that are not finite, which no database's JSON can hold."""
+    """The summary with null for numbers that are not finite: JSON in a database cannot hold them."""
     found: dict[str, Any] = json.loads(json.dumps(summary), parse_constant=lambda _: None)
     return found

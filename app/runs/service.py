@@ -1,4 +1,4 @@
-"""Rules of runs as people ask for them: submit, list, cancel, abort, release. No SQL, no HTTP."""
+"""Rules of runs: submit, list, cancel, abort and release. No SQL, no HTTP."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class RunService:
         self.session, self.motions = session, motions
 
     def submit(self, plans: Sequence[Any], submitted_by: str, prefix: str = "plans.{}") -> list[Run]:
-        """Check every plan, store and queue all, or raise PlanError with every issue and store nothing."""
+        """Check, store and queue all plans. Raises PlanError with every issue, and then stores nothing."""
         if not plans:
-            raise PlanError(Issue("plans", "there is no plan to run", fix="give one plan or more"))
+            raise PlanError(Issue("plans", "needs at least one plan", fix="add a plan"))
         issues: list[Issue] = []
         runs: list[Run] = []
         for index, data in enumerate(plans):
@@ -51,7 +51,7 @@ class RunService:
         return runs
 
     def get(self, run_id: str) -> Run:
-        """Raises NotFound."""
+        """The run with this id. Raises NotFound."""
         return self.jobs.get(run_id)
 
     def plan_of(self, run: Run) -> Plan:
@@ -62,17 +62,17 @@ class RunService:
         return self.runs.listed(wanted, page)
 
     def _check_sort(self, sort: str) -> None:
-        """Raises RthsError for a column that is not there, and for a station that no stored run has."""
+        """Raise RthsError for a column that does not exist, and for a station that no stored run has."""
         column, colon, station = sort.partition(":")
         if colon and column in MEASURES:
             most = self.runs.most_stations() or MOST_STATIONS
             if not (station.isascii() and station.isdecimal() and 1 <= int(station[:9]) <= most):
-                problem = f"needs a station from 1 to {most} after the measure: no run has another"
+                problem = f"needs a station number from 1 to {most} after the colon; no stored run has more stations"
                 raise RthsError(Issue("sort", problem, sort, f"try {column}:1"))
         elif sort not in SORTS:
             names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
             near = difflib.get_close_matches(sort, names, 1)
-            raise RthsError(Issue("sort", "is no column to sort by", sort, f"try {near[0]}" if near else ", ".join(names)))
+            raise RthsError(Issue("sort", "is not a column to sort by", sort, f"try {near[0]}" if near else ", ".join(names)))
 
     def queue_state(self) -> QueueOut:
         state, seen = self.hold.state, Workers(self.session).last_beat()
@@ -87,11 +87,11 @@ class RunService:
         )
 
     def cancel(self, run_id: str, by: str) -> Run:
-        """End a queued run now; ask the worker to end a running one. Raises IllegalTransition for an ended one."""
+        """Cancel a queued run now; ask the worker to stop a running run. Raises IllegalTransition for a run that has ended."""
         return self.jobs.cancel(run_id, by)
 
     def abort(self, by: str) -> list[Run]:
-        """Hold the queue and ask every running test to stop. A run that a worker is just starting finds the queue held."""
+        """Hold the queue and stop every running test. A run that a worker is about to start ends too: the queue is held."""
         self.hold.set(named(by))
         return self.jobs.cancel_running(by)
 

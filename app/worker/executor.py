@@ -1,4 +1,4 @@
-"""What a worker does with one job of any kind: start it in the database, execute it, store its result once."""
+"""Execution of one job of any kind: start it in the database, execute it in a process, store its result once."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ AnyKind = Kind[Any, Any, Any]
 
 @dataclass(slots=True)
 class Running:
-    """A job in its process, and what of its progress is to be written."""
+    """A job in its process, and the progress that is not yet stored."""
 
     kind: AnyKind
     order: Order
@@ -38,15 +38,15 @@ class Running:
     progress: Progress | None = None
     written_at: float = -PROGRESS_S
 
-    def take(self, told: Any) -> None:
-        """What the process sends: its progress, else a message for viewers. Only remembered, so that it never waits."""
-        if isinstance(told, Progress):
-            self.progress = told
+    def take(self, message: Any) -> None:
+        """Take a message of the process, progress or a message for viewers. Never waits: it is stored or sent later."""
+        if isinstance(message, Progress):
+            self.progress = message
         elif self.telling is not None:
-            self.telling.take(told)
+            self.telling.take(message)
 
     def news(self) -> Progress | None:
-        """Progress to write now, once."""
+        """The progress to store now, or None; each progress is returned once."""
         now = time.monotonic()
         if self.progress is None or now - self.written_at < PROGRESS_S:
             return None
@@ -55,7 +55,7 @@ class Running:
 
 
 class Executor:
-    """Executes jobs in processes. `running` holds the jobs under way by their ids."""
+    """Executes jobs in processes. `running` maps the ids of running jobs to these jobs."""
 
     def __init__(self, settings: Settings, maker: sessionmaker[Session], link: Link, name: str, kinds: Sequence[AnyKind]):
         self.settings, self.maker, self.link, self.name = settings, maker, link, name
@@ -64,7 +64,7 @@ class Executor:
         self._lock = threading.Lock()
 
     def execute(self, kind: AnyKind, job_id: str) -> None:
-        """Execute a job to its end, again where its process dies; one that has ended or was cancelled is left alone."""
+        """Execute a job to its end, and again if its process dies. A job that has ended or was cancelled is not executed."""
         try:
             self._attempt(kind, job_id)
         except ProcessDied as died:
@@ -72,7 +72,7 @@ class Executor:
             self.execute(kind, job_id)
 
     def look(self) -> None:
-        """Write the progress of running jobs, and stop those that someone asked to stop."""
+        """Store the progress of running jobs, and stop the jobs that someone cancelled."""
         with self._lock:
             running = list(self.running.values())
         for one in running:
@@ -90,7 +90,7 @@ class Executor:
 
     def _attempt(self, kind: AnyKind, job_id: str) -> None:
         if self._ended(kind, job_id):
-            self._start(kind, job_id)  # removes what is left of it, and viewers hear of its end
+            self._start(kind, job_id)  # removes files of earlier attempts and sends the end to viewers
             return
         pool = self.pools[kind.name]
         process = pool.take()
@@ -138,7 +138,7 @@ class Executor:
         try:
             self._end(kind, order, process.execute(order, running.take))
         except OSError as error:
-            self._end(kind, order, Failed(f"The result of the {kind.noun} could not be stored: {error.strerror or error}."))
+            self._end(kind, order, Failed(f"The result of the {kind.noun} was not stored: {error.strerror or error}."))
         finally:
             with self._lock:
                 del self.running[order.job_id]
@@ -147,7 +147,7 @@ class Executor:
                 telling.ended = True
 
     def _end(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
-        """Store how an attempt ended: rows and files both or, at the next attempt, again."""
+        """Store the outcome of an attempt: rows and files together; if either fails, the next attempt redoes both."""
         with unit_of_work(self.maker) as session:
             jobs = JobService(session, kind)
             if isinstance(outcome, Done):

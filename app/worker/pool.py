@@ -1,4 +1,4 @@
-"""Processes that execute jobs of one kind, one for each job that may run at a time."""
+"""Processes that execute jobs of one kind, one process for each job that may run at the same time."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Listener = Callable[[Any], None]
 
 
 class ProcessDied(Exception):
-    """The process ended in the middle of a job; the job can be given to another."""
+    """The process ended during a job; another process can execute the job."""
 
 
 @dataclass(frozen=True, slots=True)
 class Killed:
-    """The process was killed because someone cancelled its job, which keeps nothing."""
+    """The process was killed because its job was cancelled; nothing of the job is stored."""
 
 
 Outcome = Done | Failed | Killed
@@ -49,7 +49,7 @@ class JobProcess:
         self._killed: Failed | Killed | None = None
 
     def execute(self, order: Order, listener: Listener) -> Outcome:
-        """Execute a job; what the process sends meanwhile goes to `listener`. Raises ProcessDied."""
+        """Execute a job; messages of the process go to `listener`. Raises ProcessDied."""
         try:
             return self._follow(order, listener)
         except (EOFError, OSError):
@@ -58,19 +58,23 @@ class JobProcess:
                 return self._killed
             raise ProcessDied(f"exit code {self._process.exitcode}") from None
         except BaseException:
-            self.stop()  # it is in the middle of this job and must not be given another
+            self.stop()  # the process still executes this job and must not get another
             raise
         finally:
             self.order = None
 
     def wait_ready(self) -> None:
-        """Wait until the process is prepared, or has died of it."""
+        """Wait until the process is ready, or has died."""
         with contextlib.suppress(EOFError, OSError):
             while not self._ready:
                 self._ready = isinstance(self._pipe.recv(), Ready)
 
     def cancel(self) -> None:
-        """Stop the job, once: ask the process to keep what it has and kill it without an answer, or kill it at once."""
+        """Stop the job, once.
+
+        A kind with `keeps_when_cancelled` stores its samples: the process is asked to stop, and killed if it does not answer
+        within CANCEL_PATIENCE_S. The process of any other kind is killed at once.
+        """
         with self._sending:
             order = self.order
             if order is None or order is self._asked:
@@ -92,7 +96,7 @@ class JobProcess:
         return self._process.is_alive()
 
     def stop(self) -> None:
-        """Kill the process, whatever it does."""
+        """Kill the process, also during a job."""
         self._process.kill()
         self._process.join(CANCEL_PATIENCE_S)
         self._pipe.close()
@@ -112,8 +116,8 @@ class JobProcess:
 
     def _kill_unless_stopping(self, order: Order) -> None:
         if self.order is order and self._stopping is not order:
-            late = f"The {self._kind.noun} did not stop within {CANCEL_PATIENCE_S:g} s of being asked to"
-            self._kill(Failed(f"{late}, and its process was killed; nothing was recorded."))
+            late = f"The {self._kind.noun} did not stop within {CANCEL_PATIENCE_S:g} s of the cancel request"
+            self._kill(Failed(f"{late}, so its process was killed. Nothing was stored."))
 
     def _kill(self, outcome: Failed | Killed) -> None:
         self._killed = outcome
@@ -121,7 +125,7 @@ class JobProcess:
 
 
 class Pool:
-    """The processes of one kind of job, taken and given back. Those of a kind that is not kept warm start when taken."""
+    """The processes of one kind of job. Without `kept_warm`, a process starts when taken and ends when given back."""
 
     def __init__(self, kind: Kind[Any, Any, Any], size: int):
         self.kind = kind
@@ -130,7 +134,7 @@ class Pool:
             self._idle.put(JobProcess(kind) if kind.kept_warm else None)
 
     def take(self) -> JobProcess:
-        """A living, prepared process; waits for one."""
+        """A process that is ready; waits until one is free."""
         process = self._idle.get()
         if process is None or not process.alive:
             process = JobProcess(self.kind)

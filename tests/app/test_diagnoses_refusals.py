@@ -108,7 +108,7 @@ def test_a_queued_diagnosis_is_cancelled_at_once_and_then_removed(client: TestCl
     assert [held["recording_id"] for held in one["heldout"]] == [recording]
     path = f"{URL}/{one['id']}"
     refused = client.delete(path)
-    assert refused.status_code == 409 and "cancel it first" in refused.json()["detail"]
+    assert refused.status_code == 409 and "Cancel it first" in refused.json()["detail"]
     cancelled = client.post(f"{path}/cancel", json={"by": "Bo"}).json()
     assert cancelled["state"] == "cancelled" and cancelled["reason"] == "Cancelled by Bo before it started."
     assert client.post(f"{path}/cancel").status_code == 409

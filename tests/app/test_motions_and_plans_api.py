@@ -85,7 +85,7 @@ def test_a_checked_plan_comes_back_with_digest_periods_and_warnings(client: Test
     assert checked["digest"] == read_plan(checked["plan"]).digest
     (run,) = client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"]
     assert run["digest"] == checked["digest"]
-    assert any("before its record" in warning for warning in checked["warnings"])
+    assert any("before the end of its record" in warning for warning in checked["warnings"])
 
 
 def test_yaml_goes_out_and_comes_back(client: TestClient) -> None:

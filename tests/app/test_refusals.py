@@ -1,4 +1,4 @@
-"""What the service does not take, and how it says so: always a problem, never a server error, nothing stored."""
+"""Requests that the service refuses: the response is always a problem, never a server error, and nothing is stored."""
 
 from __future__ import annotations
 
@@ -85,18 +85,18 @@ def test_a_record_of_zeros_can_be_run_as_it_is(client: TestClient) -> None:
         ("POST", RUNS, b"[" * 100_000, "application/json", 400, "nested too deeply"),
         ("POST", RUNS, b'{"plan": {"seed": ' + b"9" * 6000 + b"}}", "application/json", 400, "digits"),
         ("POST", RUNS, b"[]", "application/json", 422, "dictionary"),
-        ("POST", RUNS, b'{"plans": []}', "application/json", 422, "no plan"),
+        ("POST", RUNS, b'{"plans": []}', "application/json", 422, "at least one plan"),
         ("POST", RUNS, json.dumps({"plans": [1] * 501}).encode(), "application/json", 422, "500"),
         ("POST", RUNS, b'{"plan": {}, "submitted_by": "\\u0000"}', "application/json", 422, "can't be stored"),
         ("POST", READ, b'name: "\\ud800"', "application/yaml", 422, "can't be stored"),
-        ("POST", READ, b"# long\n" * 200_000, "application/yaml", 422, "1000000 is the most"),
+        ("POST", READ, b"# long\n" * 200_000, "application/yaml", 422, "the limit is 1000000 bytes"),
         ("PUT", RUNS, b"", "application/json", 405, "GET, HEAD, POST"),
         ("GET", "/api/v1/nothing", b"", "", 404, "/api/v1/nothing"),
         ("GET", f"{RUNS}/a%00b", b"", "", 400, "NUL"),
         ("GET", f"{RUNS}?q=%00", b"", "", 400, "NUL"),
-        ("GET", f"{RUNS}?since=0001-01-01T00:00:00%2B23:59", b"", "", 422, "calendar"),
-        ("GET", f"{RUNS}?sort=mte_mm:²", b"", "", 422, "a station from 1"),
-        ("GET", f"{RUNS}?sort=name:", b"", "", 422, "no column"),
+        ("GET", f"{RUNS}?since=0001-01-01T00:00:00%2B23:59", b"", "", 422, "year from 1 to 9999"),
+        ("GET", f"{RUNS}?sort=mte_mm:²", b"", "", 422, "a station number from 1"),
+        ("GET", f"{RUNS}?sort=name:", b"", "", 422, "not a column"),
         ("GET", f"{RUNS}?colour=red", b"", "", 422, "colour"),
     ],
 )

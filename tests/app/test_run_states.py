@@ -130,7 +130,7 @@ def test_a_run_aborted_while_a_worker_takes_it_does_not_start(maker: sessionmake
     assert meanwhile.result() is None
     run = run_of(maker, run_id)
     assert run.state is State.CANCELLED
-    assert run.reason == "Stopped by Bo as it was about to start."
+    assert run.reason == "Stopped by Bo before it started."
 
 
 def test_a_cancel_sees_the_state_at_its_turn_not_the_one_it_read_before(maker: sessionmaker[Session]) -> None:

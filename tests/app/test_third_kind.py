@@ -113,16 +113,16 @@ def test_it_is_cancelled_while_it_waits_and_while_it_runs(worked: Counts) -> Non
     assert worked.get(waiting).reason == "Cancelled by Bo before it started."
     worked.cancel(running)
     count = worked.ended(running)
-    assert (count.state, count.reason) == (State.CANCELLED, "Cancelled by Bo; no result was kept.")
+    assert (count.state, count.reason) == (State.CANCELLED, "Cancelled by Bo. No result was stored.")
     assert count.counted is None and count.doing == ""
-    with pytest.raises(IllegalTransition, match="The count is cancelled; it cannot become cancelled"):
+    with pytest.raises(IllegalTransition, match="The count has already ended: it is cancelled and cannot become cancelled"):
         worked.cancel(running)
 
 
 def test_it_is_tried_again_when_its_process_dies_and_fails_after_three_attempts(worked: Counts) -> None:
     count = worked.ended(worked.submit(DIES))
     assert (count.state, count.attempt) == (State.FAILED, MOST_ATTEMPTS)
-    assert count.reason == "The worker or the process of the count died 3 times; the count is not tried again."
+    assert count.reason == "The worker or the process of the count died 3 times. There is no further attempt."
 
 
 def test_it_fails_at_once_with_the_reason_when_it_is_refused(worked: Counts) -> None:

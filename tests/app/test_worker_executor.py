@@ -148,7 +148,7 @@ def test_a_recording_that_cannot_be_put_in_its_place_is_a_failed_run_that_says_w
 
     run = bench.execute(unwritable)
     assert run.state is State.FAILED and run.recording_sha256 is None
-    assert run.reason is not None and "could not be stored" in run.reason and "directory" in run.reason
+    assert run.reason is not None and "was not stored" in run.reason and "directory" in run.reason
     assert bench.told.ended == [(run.id, 1)]
 
 
@@ -189,7 +189,7 @@ def test_a_run_that_keeps_killing_its_engine_is_tried_again_and_then_parked(benc
 
     run = bench.execute(dies)
     assert (run.state, run.attempt) == (State.FAILED, MOST_ATTEMPTS)
-    assert "died 3 times; the test is not tried again" in (run.reason or "")
+    assert "died 3 times. There is no further attempt." in (run.reason or "")
     assert bench.files == [] and bench.executor.running == {}
 
 
