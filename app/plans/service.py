@@ -94,8 +94,6 @@ def _warnings(checked: Checked) -> list[str]:
         if station.limits.force > station.actuator.force_limit:
             found.append(f"{station.name}: the force limit is above that of the actuator, so it can never trip.")
         if station.limits.velocity > station.actuator.velocity_limit:
-            found.append(
-                f"{station.name}: the velocity limit is above the velocity limit of the actuator, so it can never trip."
-            )
+            found.append(f"{station.name}: the velocity limit is above that of the actuator, so it can never trip.")
     unstable = stability.warning(checked.model)
     return [*found, unstable] if unstable else found

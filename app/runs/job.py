@@ -43,7 +43,7 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return Ending(state, _reason(job, state))
 
     def place(self, order: RunOrder, settings: Settings) -> None:
-        """Move the recording to its final path, just before the commit of its row. After a failure the next attempt redoes both."""
+        """Move the recording to its final path, just before the commit of its row. After a failure both are done again."""
         os.replace(order.recording, settings.recordings / f"{order.job_id}.h5")
 
     def discard(self, order: RunOrder) -> None:
