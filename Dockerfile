@@ -1,4 +1,4 @@
-# The control room with its embedded worker. Data is the volume /data.
+# The control room with its embedded worker. All data is in the volume /data.
 
 FROM python:3.11-slim AS build
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends make

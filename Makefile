@@ -1,9 +1,9 @@
-# make run    set up, start the control room and a demonstration test, print its address
-# make test   set up, check and test everything; measure the lines of the product that the tests execute (90 % is the least)
-# make check  set up, and check alone: format, docstrings, types of Python and JavaScript, imports, spelling
-# make setup  set up alone: .venv, browser parts, compiled engine
+# make run    set up, start the control room with a demonstration test, and print its address
+# make test   set up, check and test everything, and measure line coverage (at least 90 % of the product)
+# make check  set up and check only: format, docstrings, types of Python and JavaScript, imports, spelling
+# make setup  set up only: .venv, browser libraries, compiled engine
 #
-# RTHS_PORT=8001 and RTHS_DATA=FOLDER change where `make run` listens and keeps its data; PYTHON=... chooses the Python.
+# Options: RTHS_PORT=8001 is the port of `make run`, RTHS_DATA=FOLDER its data folder, PYTHON=... the Python to use.
 # PYTEST="tests/engine -k word" gives pytest arguments; coverage is then not measured.
 
 VENV := .venv
@@ -29,11 +29,11 @@ test: setup browser opensees check
 test-clone: setup
 	$(BIN)/pytest -m slow tests/test_fresh_clone.py $(PYTEST)
 
-# Times of one run on this machine, beside OpenSees where it is installed: docs/benchmarks.md.
+# Measure times on this machine, and compare with OpenSees if it is installed: docs/benchmarks.md.
 bench: setup
 	$(BIN)/python -m benchmarks
 
-# Diagnoses of recordings whose left-out physics is known: docs/proof.md. Takes half an hour to an hour.
+# Score diagnoses on recordings with known left-out physics: docs/proof.md. Takes 30 to 60 minutes.
 prove: setup
 	$(BIN)/rths prove --cases 300 --json proof.json --picture proof.svg --table
 
@@ -45,7 +45,7 @@ check: setup
 	$(BIN)/codespell -D -
 	$(BIN)/python -m app.npm_parts check
 
-# A migration to the models as they are now: make migration MESSAGE="measure of ..."
+# Write a migration to the present models: make migration MESSAGE="measure of ..."
 migration: setup
 	$(BIN)/python -m app.new_migration "$(MESSAGE)"
 
@@ -57,7 +57,7 @@ clean:
 	rm -rf $(VENV) $(VENDOR) frontend/node_modules *.egg-info build .coverage* .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# A stamp is touched last, so a step that failed leaves none and is done again.
+# A step touches its stamp last: after a failure there is no stamp, and the step runs again.
 
 $(STAMPS)/python:
 	@for python in $(PYTHON) python3.11 python3 python3.12 python3.13 python3.14; do \
@@ -65,8 +65,8 @@ $(STAMPS)/python:
 	        echo "Making $(VENV) with $$($$python --version)"; $$python -m venv $(VENV) && mkdir -p $(STAMPS) && touch $@; exit; \
 	    fi; \
 	done; \
-	echo "No Python 3.11 or newer with its venv module was found (on Debian: apt-get install python3 python3-venv)." >&2; \
-	echo "Install one, or name it: make setup PYTHON=/path/to/python3.11" >&2; exit 1
+	echo "There is no Python 3.11 or newer with the module venv (on Debian: apt-get install python3 python3-venv)." >&2; \
+	echo "Install Python, or give its path: make setup PYTHON=/path/to/python3.11" >&2; exit 1
 
 $(STAMPS)/dependencies: requirements.lock $(STAMPS)/python
 	$(PIP) install --no-deps -r requirements.lock
@@ -85,16 +85,16 @@ $(STAMPS)/compiled: $(ENGINE) $(STAMPS)/package
 	$(BIN)/python -m rths_engine.running.warm
 	@touch $@
 
-# The browser of the tests is Debian's; no test tool downloads one of its own.
+# The browser tests use Debian's Chromium; no test tool downloads a browser.
 browser:
 	@command -v chromium >/dev/null || { \
 	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
 	        apt-get update -qq && apt-get install -y -qq --no-install-recommends chromium; \
 	    else \
-	        echo "The browser tests need Chromium (on Debian: apt-get install chromium); they are left out without it." >&2; \
+	        echo "There is no Chromium, so the browser tests are skipped (on Debian: apt-get install chromium)." >&2; \
 	    fi; }
 
-# The independent solver that tests and benchmarks ask; never installed with the product.
+# OpenSees, the independent solver for tests and benchmarks; not installed with the product.
 opensees: $(STAMPS)/package
 	@$(BIN)/python -c 'import openseespy.opensees' 2>/dev/null || { \
 	    $(PIP) install --no-build-isolation -e '.[opensees]'; \
@@ -102,9 +102,9 @@ opensees: $(STAMPS)/package
 	        apt-get update -qq && apt-get install -y -qq --no-install-recommends libblas3 liblapack3; \
 	    fi; \
 	    $(BIN)/python -c 'import openseespy.opensees' || \
-	        echo "The frame is not compared with OpenSees (on Debian: apt-get install libblas3 liblapack3)." >&2; }
+	        echo "OpenSees does not start, so its tests are skipped (on Debian: apt-get install libblas3 liblapack3)." >&2; }
 
-# Renew requirements.lock: the newest releases that pyproject.toml admits.
+# Renew requirements.lock with the newest releases that pyproject.toml allows.
 lock:
 	rm -rf $(VENV)/lock && $(BIN)/python -m venv $(VENV)/lock
 	$(VENV)/lock/bin/python -m pip install --quiet 'setuptools>=80' '.[test]'

@@ -21,7 +21,7 @@ from rths_engine.results.channels import channels
 
 LARGEST_PEAK = 100 * STANDARD_GRAVITY  # far above any earthquake, so that only a wrong unit or scale is refused
 LARGEST_RECORDING = 2_000_000_000  # bytes; the same as the engine's, which is not imported here
-BYTES = 8  # of a recorded number
+BYTES = 8  # size of a recorded number
 
 
 @dataclass(frozen=True, slots=True)

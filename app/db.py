@@ -18,7 +18,7 @@ BUSY_TIMEOUT_MS = 30_000
 
 
 class UtcDateTime(sa.TypeDecorator[datetime]):
-    """A time zone aware UTC time in every database."""
+    """Column of UTC times that carry their time zone, in every database."""
 
     impl = sa.DateTime(timezone=True)
     cache_ok = True
@@ -37,7 +37,7 @@ class Base(DeclarativeBase):
 
 
 def connect(url: str) -> sa.Engine:
-    """An engine; SQLite gets write-ahead logging, foreign keys and a busy timeout on every connection."""
+    """The database engine for a URL. Connections to SQLite use write-ahead logging, foreign keys and a busy timeout."""
     engine = sa.create_engine(url.replace("postgresql:", "postgresql+psycopg:", 1), pool_pre_ping=True)
     if engine.dialect.name == "sqlite":
         sa.event.listen(engine, "connect", _prepare_sqlite)
@@ -45,7 +45,7 @@ def connect(url: str) -> sa.Engine:
 
 
 def sessions(engine: sa.Engine) -> sessionmaker[Session]:
-    """Maker of sessions whose rows stay readable after a commit."""
+    """The factory of sessions; their rows stay readable after a commit."""
     return sessionmaker(engine, expire_on_commit=False)
 
 
@@ -57,7 +57,7 @@ def unit_of_work(maker: sessionmaker[Session]) -> Iterator[Session]:
 
 
 def afterwards(session: Session, event: Literal["after_commit", "after_rollback"], action: Callable[[], Any]) -> None:
-    """Do `action` once the session's transaction has ended so: what happens to files follows what happened to rows."""
+    """Do `action` when the transaction has ended with `event`, so that changes of files follow the changes of rows."""
     sa.event.listen(session, event, lambda _: action(), once=True)
 
 
@@ -67,7 +67,7 @@ def migrate(url: str) -> None:
 
 
 def alembic_config(url: str, folder: Path | None = None) -> Config:
-    """Alembic's configuration for the database at `url`, with the migrations in `folder` (by default the product's)."""
+    """Alembic's configuration for the database at `url`, with the migrations in `folder` (default: MIGRATIONS)."""
     config = Config()
     config.set_main_option("script_location", str(folder or MIGRATIONS).replace("%", "%%"))
     config.attributes["url"] = url

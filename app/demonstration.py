@@ -1,4 +1,4 @@
-"""The test that `make run` shows: simulation 4 of Table III, in real time so that there is something to watch."""
+"""The demonstration test of `make run`: simulation 4 of Table III in real time, so that it can be watched."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SUBMITTER = "demonstration"
 
 
 def queue_demonstration(app: FastAPI) -> None:
-    """Queue the demonstration unless one waits or runs and will be tried again."""
+    """Queue the demonstration, unless a demonstration is queued or running and has an attempt left."""
     with unit_of_work(app.state.sessions) as session:
         runs = RunService(session, MotionLibrary(app.state.settings.motions), app.state.queue)
         unfinished = Filter(states=(State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)

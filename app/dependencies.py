@@ -1,4 +1,4 @@
-"""What every feature's endpoints ask for: settings, a session that commits once, and the record library."""
+"""Dependencies of all endpoints: settings, a session that commits once, and the library of ground motions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def settings(request: Request) -> Settings:
 
 
 def session(request: Request) -> Iterator[Session]:
-    """A session that commits when the request has succeeded."""
+    """A session that commits at the end of a request without errors."""
     with unit_of_work(request.app.state.sessions) as one:
         yield one
 

@@ -1,4 +1,4 @@
-"""HEAD: every address that answers GET answers HEAD with the same status and headers and no body."""
+"""HEAD requests: every address that answers GET answers HEAD with the same status and headers and no body."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 
 class Head:
-    """ASGI middleware. The request runs as GET up to the headers of its answer; nothing of a file is read for the body."""
+    """ASGI middleware that runs a HEAD request as GET until the response headers are sent; the body is not read."""
 
     def __init__(self, app: ASGIApp):
         self.app = app
@@ -29,4 +29,4 @@ class Head:
 
 
 class _Answered(Exception):
-    """The headers are sent, and nothing more is to be."""
+    """The headers are sent; the response is complete."""

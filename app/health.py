@@ -1,4 +1,4 @@
-"""Whether the service works: for monitoring and the container's health check."""
+"""Health of the service, for monitoring and the health check of the container."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ router = APIRouter(tags=["health"])
 
 
 class Health(BaseModel):
-    """What answers, and the program's version."""
+    """State of the database and of the workers, and the version of the program."""
 
     database: Literal["ok", "silent"]
     worker: Literal["alive", "silent", "unknown"]
@@ -25,7 +25,7 @@ class Health(BaseModel):
 
 @router.get("/healthz", responses={503: {"model": Health, "description": "The database or every worker is silent"}})
 def health(request: Request, response: Response) -> Health:
-    """200 while the database answers and a worker is alive, else 503."""
+    """Report the health of the service: 200 while the database answers and a worker is alive, else 503."""
     try:
         with unit_of_work(request.app.state.sessions) as session:
             seen = Workers(session).last_beat()

@@ -39,7 +39,7 @@ SWAGGER = "/static/vendor/swagger-ui"
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
-    """The application on `settings` (by default of the environment). Its lifespan migrates and starts the embedded worker."""
+    """The application. `settings` default to the environment's. At its start it migrates the database and starts the worker."""
     configured = (settings or from_environment()).prepared()
     app = FastAPI(
         title="RTHS control room",

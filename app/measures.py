@@ -1,4 +1,4 @@
-"""The engine's table of measures as fields of JSON, and as rows for people."""
+"""The engine's table of measures as fields of JSON and as rows of a table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rths_engine.results.measures import of
 
 
 def fields(scope: type[Measure], kind: Any) -> dict[str, Any]:
-    """Fields of a pydantic model, one a measure of the scope: `kind` or null, with heading, unit and meaning."""
+    """Fields of a pydantic model, one for each measure of the scope: `kind` or null, with heading, unit and meaning."""
     return {
         one.key: (
             kind | None,
@@ -23,7 +23,7 @@ def fields(scope: type[Measure], kind: Any) -> dict[str, Any]:
 
 
 def rows(run: Any, test: str) -> Iterator[tuple[str, Measure, float | None]]:
-    """Every measure that says something in the kind of test: of what, the measure, its shown value. `run` is JSON."""
+    """Every measure that applies to the kind of test: station or floor, measure, value in the unit shown. `run` is JSON."""
     for station in run["stations"]:
         for one in of(StationMeasure, test):
             yield station["name"], one, station.get(one.key)

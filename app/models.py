@@ -1,4 +1,4 @@
-"""Tables of the service. Times are UTC; numbers carry their unit in the name."""
+"""Tables of the service. Times are UTC; the name of a number ends with its unit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rths_engine.results.measures import of
 
 
 class Run(Job, Base):
-    """One test: its plan, how it went, its measures and where its recording is."""
+    """One test: plan, state, outcome, measures, and checksum and size of its recording."""
 
     __tablename__ = "run"
     __table_args__ = tuple(sa.Index(f"ix_run_{name}", name) for name in ("submitted_by", "submitted_at", "finished_at"))
@@ -38,12 +38,12 @@ class Run(Job, Base):
 
     @property
     def test(self) -> str:
-        """Kind of test; plans of earlier versions know only the hybrid."""
+        """Kind of test; a plan of an earlier version without this field is a hybrid test."""
         return str(self.plan.get("test", "hybrid"))
 
 
 class RunStation(Base):
-    """One station of a run. Its measures have a column each, null where a measure is not defined or not finite."""
+    """One station of a run. Each measure has a column, null where it is not defined or not finite."""
 
     __tablename__ = "run_station"
 
@@ -53,13 +53,13 @@ class RunStation(Base):
     run: Mapped[Run] = relationship(back_populates="stations")
 
     def measure(self, key: str) -> float | None:
-        """The measure named `key`, in its shown unit."""
+        """The value of the measure `key`, in the unit shown."""
         value: float | None = getattr(self, key)
         return value
 
 
 def _add_columns(model: type[Base], scope: type[Measure], kind: type[sa.types.TypeEngine[Any]]) -> None:
-    """A column for each measure of the scope."""
+    """Add a column for each measure of the scope."""
     for one in of(scope):
         setattr(model, one.key, mapped_column(kind, nullable=True))
 
@@ -70,7 +70,7 @@ _add_columns(Run, RunMeasure, sa.Double)
 
 
 class RawFile(Base):
-    """A file of measurements as it came in, kept under its checksum."""
+    """An uploaded file of measurements, stored unchanged under its checksum."""
 
     __tablename__ = "raw_file"
 
@@ -81,7 +81,7 @@ class RawFile(Base):
 
 
 class MeasuredRecording(Base):
-    """Measurements imported from a raw file by a mapping. Its HDF5 file is whole once the row is there."""
+    """Measurements imported from a raw file by a mapping. The HDF5 file is complete before the row exists."""
 
     __tablename__ = "measured_recording"
 
@@ -113,7 +113,7 @@ class MeasuredRecording(Base):
 
 
 class Diagnosis(Job, Base):
-    """What a recording says of a plan's models: a job of the queue, and its result once it is done."""
+    """A diagnosis: a job that compares a recording with the models of a plan, and its result after it has completed."""
 
     __tablename__ = "diagnosis"
 
@@ -141,7 +141,7 @@ class Diagnosis(Job, Base):
 
 
 class DiagnosisInput(Base):
-    """A recording that a diagnosis reads, imported or of a run: the first is fitted, the others are held out."""
+    """A recording that a diagnosis reads, imported or from a run. The first is fitted, the others are held out."""
 
     __tablename__ = "diagnosis_input"
 

@@ -1,4 +1,4 @@
-"""`make migration MESSAGE="..."`: a migration that brings the database from its newest revision to the models."""
+"""`make migration MESSAGE="..."`: write a migration from the newest revision to the present models."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app import db
 
 
 def write(message: str, folder: Path = db.MIGRATIONS) -> Path | None:
-    """Write the migration into `folder`; its path, or None where the models have not changed."""
+    """Write the migration into `folder`; returns its path, or None if the models have not changed."""
     with tempfile.TemporaryDirectory() as data:
         config = db.alembic_config(f"sqlite:///{data}/newest.sqlite", folder)
         config.set_main_option("file_template", "%%(rev)s_%%(slug)s")
@@ -34,6 +34,7 @@ def _leave_out_empty(_: MigrationContext, __: object, directives: list[ops.Migra
 
 if __name__ == "__main__":
     given = argparse.ArgumentParser(description=__doc__)
-    given.add_argument("message", help="what changes, in a few words")
+    given.add_argument("message", help="the change in a few words")
     path = write(given.parse_args().message)
-    print(f"{path}: read it, then add it to the commit" if path else "The models have not changed: no migration is needed.")
+    done = f"{path}: check the migration, then add it to the commit."
+    print(done if path else "The models have not changed; no migration was written.")

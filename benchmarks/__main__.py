@@ -1,4 +1,4 @@
-"""`make bench`: times everything side by side in one run and writes `results.json` and `cost_by_dof.svg` beside this file."""
+"""`make bench`: measure all times in one run, and write `results.json` and `cost_by_dof.svg` beside this file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FOLDER = Path(__file__).parent
 
 
 def main() -> None:
-    """Measure every figure, print the results and write them with their chart."""
+    """Measure all times, print them, and write them with their chart."""
     warm()
     results: dict[str, Any] = {"machine": _machine()}
     if reason := peer.missing():

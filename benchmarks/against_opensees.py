@@ -1,4 +1,7 @@
-"""Time per step of the paper's frame, ours and OpenSees', in turns. CPU time: other work on the machine hardly shows."""
+"""CPU time per step of the paper's frame in this engine and in OpenSees, measured in turns.
+
+CPU time depends little on other work on the machine.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ DURATION = 30.0
 
 
 def our_step(plan: Plan, repeats: int = 5) -> tuple[float, np.ndarray]:
-    """Seconds a step of whole runs, and the last displacements of the floors (m)."""
+    """Seconds per step of whole runs, and the last displacements of the floors (m)."""
     runs = [Run(plan, LIBRARY) for _ in range(repeats)]
     start = process_time()
     for run in runs:
@@ -29,10 +32,10 @@ def our_step(plan: Plan, repeats: int = 5) -> tuple[float, np.ndarray]:
 
 
 def frame_ratios() -> dict[str, Any]:
-    """OpenSees' time over the engine's for a step of the frame, elastic and inelastic.
+    """Time of a step of the frame in both programs, and their ratio, elastic and inelastic.
 
-    OpenSees runs operator splitting (AlphaOS), factored once, with the fastest of its equation systems. Empty without
-    OpenSees.
+    OpenSees uses operator splitting (AlphaOS), factored once, with the fastest of its equation systems. Without OpenSees the
+    result has the times of this engine only.
     """
     results: dict[str, Any] = {}
     for name, inelastic in (("elastic", False), ("inelastic", True)):

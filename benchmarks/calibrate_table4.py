@@ -1,9 +1,11 @@
-"""`python -m benchmarks.calibrate_table4 RECORD [SEED]`: the emulated laboratory from simulations 3 and 4 of Table IV.
+"""`python -m benchmarks.calibrate_table4 RECORD [SEED]`: fit the emulated laboratory to simulations 3 and 4 of Table IV.
 
-Loss: the mean of ln^2(ours/paper) over MTE, RMS, MTI and MEE of both stations in simulations 3 and 4, each at most ln^2 20,
-which a wrong sign costs too; plus 10 ln^2 of the floors of simulation 2 over the paper's (geometric mean), which sets the
-record's factor. A test that trips costs 10. Nothing else of the table is looked at. With a seed all BOUNDS are searched by
-differential evolution first; without, the present laboratory is refined, by the simplex method.
+The loss is the mean of ln^2(ours/paper) over MTE, RMS, MTI and MEE of both stations in simulations 3 and 4. Each term is at
+most ln^2 20, and a wrong sign counts ln^2 20. To this, 10 ln^2 of the floor peaks of simulation 2 over the paper's (geometric
+mean) is added; it sets the factor of the record. A test that trips has the loss 10. The other simulations are not used.
+
+With a seed, differential evolution first searches within BOUNDS. Without a seed, the simplex method refines the present
+laboratory.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import CALIBRATED, MEASURES, PAPER, published
 from rths_engine.table4.scale import design_basis, floors_excess
 
-# searched on a logarithmic axis, between
+# bounds of the search, on a logarithmic axis
 BOUNDS = {
     "first_time_constant": (24e-3, 32e-3),
     "second_time_constant": (30e-3, 44e-3),
@@ -40,7 +42,7 @@ SIMPLEX, REFINED = 0.04, 80
 
 
 def main(path: str, seed: int | None) -> None:
-    """Search for the laboratory's unknown numbers from the present ones, or anew with a seed, and print them."""
+    """Fit the unknown parameters of the laboratory, from their present values or with a seed within BOUNDS, and print them."""
     motion, motions = FileMotion(path=path, unit="g", dt=0.02), MotionLibrary(None)
 
     def cost(logarithms: np.ndarray) -> float:
@@ -60,7 +62,7 @@ def main(path: str, seed: int | None) -> None:
 
 
 def searched(cost: Callable[[np.ndarray], float], seed: int) -> np.ndarray:
-    """The best numbers of a differential evolution within BOUNDS, as logarithms."""
+    """The best parameters of a differential evolution within BOUNDS, as logarithms."""
     bounds = [(math.log(low), math.log(high)) for low, high in BOUNDS.values()]
     options: dict[str, Any] = {"popsize": POPULATION, "maxiter": GENERATIONS, "mutation": (0.4, 0.9), "recombination": 0.8}
     with ThreadPoolExecutor(2) as threads:
@@ -72,7 +74,7 @@ def searched(cost: Callable[[np.ndarray], float], seed: int) -> np.ndarray:
 
 
 def present(factor: float) -> np.ndarray:
-    """The numbers in use and a record's factor, as logarithms."""
+    """The present parameters and the factor of the record, as logarithms."""
     values = asdict(table4.LABORATORY)
     first, second = values.pop("time_constant")
     values |= {"first_time_constant": first, "second_time_constant": second, "factor": factor}
@@ -80,7 +82,7 @@ def present(factor: float) -> np.ndarray:
 
 
 def described(logarithms: np.ndarray) -> tuple[table4.Laboratory, float]:
-    """The laboratory and the record's factor that logarithms stand for."""
+    """The laboratory and the factor of the record from logarithms."""
     values = dict(zip(BOUNDS, map(float, np.exp(logarithms)), strict=True))
     factor = values.pop("factor")
     constants = values.pop("first_time_constant"), values.pop("second_time_constant")
@@ -88,7 +90,7 @@ def described(logarithms: np.ndarray) -> tuple[table4.Laboratory, float]:
 
 
 def loss(laboratory: table4.Laboratory, motion: FileMotion, motions: MotionLibrary) -> float:
-    """Mean squared logarithm of our measures over the published ones, and of the floors' peaks likewise."""
+    """The loss: see the docstring of this module."""
     plans = table4.plans(motion, laboratory)
     terms = []
     for simulation in CALIBRATED:

@@ -1,4 +1,4 @@
-"""Diagnoses of a specimen's and of a hybrid test's recording, each of 40 s at 1024 Hz, with Coulomb friction left out."""
+"""Time of a diagnosis of a specimen test and of a hybrid test, each of 40 s at 1024 Hz with Coulomb friction left out."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LEFT_OUT = CoulombFriction(friction=5e3, presliding=1e-4)
 
 
 def diagnoses() -> dict[str, float]:
-    """Seconds by the clock, two threads, from the recording to the verdict."""
+    """Wall time (s) from the recording to the verdict, with two threads."""
     return {
         "diagnosis_specimen_s": _timed(templates.template("specimen-mr-damper")),
         "diagnosis_hybrid_s": _timed(templates.template("table3-04")),

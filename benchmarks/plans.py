@@ -1,4 +1,4 @@
-"""The structures and plans that are timed."""
+"""The structures and plans of the benchmarks."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def frame(storeys: int, bays: int, inelastic: bool) -> dict[str, Any]:
     rows = [
         {
             "height": 4.57 if level == 0 else 3.96,
-            "mass": 662.9e3 * bays / 4 / max(1, storeys / 2) ** 2,  # as heavy as lets the lower columns carry more storeys
+            "mass": 662.9e3 * bays / 4 / max(1, storeys / 2) ** 2,  # light enough for the lower columns to carry all storeys
             "column": columns[0],
             "beam": floors[level == storeys - 1],
             "brace_stiffness": 4e8 if bays > 1 else 0.0,
@@ -38,7 +38,7 @@ def shear_building(storeys: int) -> dict[str, Any]:
 
 
 def alone(structure: dict[str, Any], duration: float) -> Plan:
-    """The structure under the record, without stations, one substep a step."""
+    """A plan of the structure under the record, without stations, with one substep per step."""
     return read_plan(
         {
             "motion": {"kind": "record", "record": RECORD},

@@ -1,6 +1,6 @@
-"""Time of a step against degrees of freedom, beside the least time that reading the step's tables once takes.
+"""Time of a step against degrees of freedom, beside the time to read the tables of a step once.
 
-Each figure is the fastest of several rounds: other work on the machine takes the caches away and only ever adds time.
+Each time is the fastest of several rounds, because other work on the machine uses the caches and only adds time.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def _sum_all(table: np.ndarray, repeats: int) -> np.int64:
 
 
 def read_seconds(size: int) -> float:
-    """Seconds to read a table of `size` bytes once that was read just before: from the cache it fits in, or from memory."""
+    """Seconds to read a table of `size` bytes again: from the smallest cache that holds it, or from memory."""
     table, repeats = np.ones(max(size // 8, 8), dtype=np.int64), max(1, 4_000_000 // size)
     _sum_all(table, repeats)
     seconds = []
@@ -42,7 +42,7 @@ def read_seconds(size: int) -> float:
 
 
 def structures() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Structures of rising size with their kinds."""
+    """Structures of increasing size, each with its kind."""
     yield "shear building", shear_building(10)
     for inelastic in (False, True):
         for storeys, bays in FRAMES:
@@ -50,7 +50,7 @@ def structures() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def step_by_dof() -> dict[str, list[dict[str, Any]]]:
-    """Times of a step and of building the run, by degrees of freedom."""
+    """Time of a step and of the set-up of a run, by degrees of freedom."""
     rows = []
     for kind, structure in structures():
         start = perf_counter()

@@ -1,4 +1,4 @@
-"""Whole tests: warm, from a cold shell, on two cores, and their memory."""
+"""Time of whole tests: warm, as a new process, and on two cores; and their memory."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from rths_engine.running.warm import warm
 
 ROUNDS = 7
 TABLE3 = "table3-04"
-BATCH = 30  # runs a process makes for the two-core figure
+BATCH = 30  # runs of each process in the two-core benchmark
 
 
 def table3() -> dict[str, float]:
-    """A 40 s test of Table III at 1024 Hz, every channel recorded: in memory, and stored as a file."""
+    """Time of a 40 s test of Table III at 1024 Hz with all channels recorded: in memory, and with its file."""
     plan = templates.template(TABLE3)
     simulate(plan)
     runs, stored = [], []
@@ -41,7 +41,7 @@ def table3() -> dict[str, float]:
 
 
 def cold() -> dict[str, float]:
-    """`rths run` of the same plan as a fresh process, once the engine is compiled."""
+    """Time of `rths run` of the same plan in a new process, with the engine compiled before."""
     rths = Path(sys.executable).with_name("rths")
     plan = plan_to_yaml(templates.template(TABLE3))
     seconds = []
@@ -53,7 +53,7 @@ def cold() -> dict[str, float]:
 
 
 def _batch(_: int) -> float:
-    """CPU seconds of a process' share."""
+    """CPU time (s) of BATCH runs."""
     plan = templates.template(TABLE3)
     start = process_time()
     for _ in range(BATCH):
@@ -62,9 +62,9 @@ def _batch(_: int) -> float:
 
 
 def two_cores() -> dict[str, float]:
-    """Work that two processes do in the time that one process needs for its own work.
+    """Speed-up of two processes over one process.
 
-    By the clock, which needs both cores free, and by CPU time, which shows what the two take from each other alone.
+    By wall time, which needs both cores free, and by CPU time, which shows only how much the processes slow each other down.
     """
     by_clock, by_cpu = [], []
     with ProcessPoolExecutor(2, get_context("spawn"), initializer=warm) as pool:
@@ -81,7 +81,7 @@ def two_cores() -> dict[str, float]:
 
 
 def memory() -> dict[str, Any]:
-    """Resident memory (kB) through a test of 1600 s whose recording is allocated and touched beforehand."""
+    """Resident memory (kB) during a test of 1600 s; the recording is allocated and written once before the test."""
     run = Run(templates.template(TABLE3).model_copy(update={"duration": 1600.0}), LIBRARY)
     run.signals[:] = 0.0
     run.history[:] = 0.0

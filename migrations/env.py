@@ -1,4 +1,4 @@
-"""Alembic's environment: migrates the database whose URL the caller put in the configuration."""
+"""Alembic's environment: migrate the database at the URL in the configuration (`attributes["url"]`)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from alembic import context
 from app import models
 from app.db import Base, UtcDateTime, connect
 
-assert models  # imported so that Base knows the tables
+assert models  # the import registers the tables with Base
 
 
 def render(kind: str, item: Any, _: object) -> str | Literal[False]:

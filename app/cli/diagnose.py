@@ -1,4 +1,4 @@
-"""`rths diagnose`: what a recording says of the models of a plan."""
+"""`rths diagnose`: what the models of a plan leave out of a recording."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ from rths_engine.recordings import opening
 
 
 def diagnose(given: Namespace) -> None:
-    """`rths diagnose`: compare a recording with a plan and print, write or draw the result."""
+    """`rths diagnose`: compare a recording with a plan, print the verdict, and write it as JSON or as a report."""
     if not 0 < given.level < 1:
-        raise PlanError(Issue("--level", "needs a rate of false alarms between 0 and 1", given.level, "0.01 is usual"))
+        raise PlanError(Issue("--level", "needs a false-alarm rate between 0 and 1", given.level, "0.01 is usual"))
     for option, path in (("--json", given.json), ("--report", given.report)):
         if path and not path.parent.is_dir():
-            raise PlanError(Issue(option, "there is no such folder", str(path.parent), "make it first"))
+            problem = f"there is no folder {path.parent}"
+            raise PlanError(Issue(option, problem, str(path), f"create it first: mkdir -p '{path.parent}'"))
     plan = model_at(given.plan).plan
     heldout = [opening.load(path) for path in given.holdout]
     more = [opening.load(path) for path in given.more]
@@ -39,7 +40,7 @@ def diagnose(given: Namespace) -> None:
 
 
 def _names(given: Namespace) -> dict[str, str]:
-    """What the engine calls its recordings -> the argument that gave each."""
+    """Name of each recording in the engine's errors -> the argument that gave the recording."""
     heldout = {f"heldout.{number}": f"--holdout {path}" for number, path in enumerate(given.holdout)}
     more = {f"more.{number}": f"--with {path}" for number, path in enumerate(given.more)}
     return {"recording": str(given.recording), **heldout, **more}
@@ -47,8 +48,8 @@ def _names(given: Namespace) -> dict[str, str]:
 
 def _facts(given: Namespace) -> list[tuple[str, str]]:
     heldout = [("Held out", ", ".join(path.name for path in given.holdout))] if given.holdout else []
-    more = [("Fitted too", ", ".join(path.name for path in given.more))] if given.more else []
-    return [("Recording", given.recording.name), *more, *heldout, ("Rate of false alarms", f"{given.level:g}")]
+    more = [("Also fitted", ", ".join(path.name for path in given.more))] if given.more else []
+    return [("Recording", given.recording.name), *more, *heldout, ("False-alarm rate", f"{given.level:g}")]
 
 
 def _text(found: Verdict) -> str:
@@ -59,18 +60,18 @@ def _text(found: Verdict) -> str:
         )
     if found.effects:
         before, after = (_percent(one.heldout_nrmse) for one in (found.fit.baseline, found.fit.extended))
-        lines.append(f"On what was not fitted, the error goes from {before} to {after}.")
+        lines.append(f"On held-out data the error changes from {before} to {after}.")
     return "\n".join(lines)
 
 
 def _component(one: ComponentVerdict) -> str:
-    said = [f"{one.component}: off by {_percent(one.residual_nrmse)} as planned"]
+    figures = [f"{one.component}: residual as planned {_percent(one.residual_nrmse)}"]
     if one.noise_nrmse is not None:
-        said.append(f"noise {100 * one.noise_nrmse:.2g} %")
+        figures.append(f"noise {100 * one.noise_nrmse:.2g} %")
     if one.p_value is not None:
-        said.append(f"p = {one.p_value:.2g}")
-    return ", ".join(said)
+        figures.append(f"p-value {one.p_value:.2g}")
+    return ", ".join(figures)
 
 
 def _percent(share: float | None) -> str:
-    return "more than can be computed" if share is None else f"{100 * share:.3g} %"
+    return "out of range" if share is None else f"{100 * share:.3g} %"

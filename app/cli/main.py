@@ -27,82 +27,108 @@ def main(arguments: list[str] | None = None) -> int:
         return UNUSABLE
     except KeyboardInterrupt:
         return INTERRUPTED
-    except BrokenPipeError:  # the reader, such as head, has seen enough
+    except BrokenPipeError:  # the reader of the output, such as head, has closed it
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
 
 
 def parser() -> argparse.ArgumentParser:
-    """Every command and option."""
+    """The parser of every command and option."""
     top = argparse.ArgumentParser(prog="rths", description="Control room for real-time hybrid simulation.")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
 
     plan = _command(commands, "plan", "app.cli.plans:plan", "print a template as YAML, or list the templates")
-    plan.add_argument("name", nargs="?", metavar="NAME", help="the template, such as table3-04")
+    plan.add_argument(
+        "name", nargs="?", metavar="NAME", help="name of the template, for example table3-04; without it, list all"
+    )
 
-    run = _command(commands, "run", "app.cli.run:run", "run a plan here, without a server")
-    run.add_argument("plan", metavar="PLAN.yaml", help="the plan; - reads it from standard input")
-    run.add_argument("--out", type=Path, metavar="REC.h5", help="where to write the recording (HDF5)")
+    run = _command(commands, "run", "app.cli.run:run", "run a plan on this machine, without a server")
+    run.add_argument("plan", metavar="PLAN.yaml", help="file with the plan; - reads standard input")
+    run.add_argument("--out", type=Path, metavar="REC.h5", help="file to write the recording to (HDF5)")
     run.add_argument("--json", action="store_true", help="print the result as one JSON object")
-    run.add_argument("--record", metavar="FILE", help="use this record (AT2, COSMOS V2, columns) instead of the plan's")
-    run.add_argument("--record-unit", metavar="UNIT", help="unit of the record where its file does not say: g, cm/s^2, ...")
-    run.add_argument("--record-dt", metavar="TIME", help="step of the record where its file does not say: 0.01, '5 ms', ...")
+    run.add_argument(
+        "--record", metavar="FILE", help="ground motion (AT2, COSMOS V2 or columns) that replaces the plan's record"
+    )
+    run.add_argument("--record-unit", metavar="UNIT", help="unit of the record if its file does not state it: g, cm/s^2, ...")
+    run.add_argument(
+        "--record-dt", metavar="TIME", help="time step of the record if its file does not state it: 0.01, '5 ms', ..."
+    )
     _data(run)
 
     stability = _command(commands, "stability", "app.cli.stability:stability", "predict whether a plan's closed loop is stable")
-    stability.add_argument("plan", nargs="?", metavar="PLAN.yaml", help="the plan; without it, a published limit is printed")
+    stability.add_argument(
+        "plan", nargs="?", metavar="PLAN.yaml", help="file with the plan; without it, print a published limit"
+    )
     stability.add_argument("--json", action="store_true", help="print the result as one JSON object")
 
-    table4 = _command(commands, "table4", "app.cli.table4:table4", "run the paper's twelve simulations beside its Table IV")
-    table4.add_argument("--record", metavar="FILE", help="run them under this record instead of a bundled one")
-    table4.add_argument("--record-unit", metavar="UNIT", help="unit of the record where its file does not say (default g)")
-    table4.add_argument("--record-dt", metavar="TIME", help="step of the record where its file does not say (default 0.02)")
+    table4 = _command(
+        commands, "table4", "app.cli.table4:table4", "run the twelve simulations of Table IV and compare them with the paper"
+    )
+    table4.add_argument("--record", metavar="FILE", help="ground motion that replaces the bundled record")
+    table4.add_argument("--record-unit", metavar="UNIT", help="unit of the record if its file does not state it (default g)")
+    table4.add_argument("--record-dt", metavar="TIME", help="time step if the file does not state it (default 0.02 s)")
     table4.add_argument(
-        "--factor", type=float, metavar="F", help="factor of the record (default: by the floors of simulation 2)"
+        "--factor",
+        type=float,
+        metavar="F",
+        help="scale factor of the record (default: the factor that fits the floor peaks of simulation 2)",
     )
     table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
 
-    imports = _command(
-        commands, "import", "app.cli.measurements:measurements", "bring in a file of measurements as a recording"
+    imports = _command(commands, "import", "app.cli.measurements:measurements", "import a file of measurements as a recording")
+    imports.add_argument(
+        "file", type=Path, metavar="FILE", help="measurements: CSV, JSON, MATLAB, Parquet, HDF5, AT2 or COSMOS V2"
     )
-    imports.add_argument("file", type=Path, metavar="FILE", help="CSV, JSON, MATLAB, Parquet, HDF5, AT2 or COSMOS V2")
-    imports.add_argument("--map", type=Path, metavar="MAP.yaml", help="what the file's columns are")
-    imports.add_argument("--out", type=Path, metavar="REC.h5", help="where to write the recording (HDF5)")
-    imports.add_argument("--guess", action="store_true", help="print a proposed MAP.yaml")
+    imports.add_argument("--map", type=Path, metavar="MAP.yaml", help="file with the mapping: role and unit of each column")
+    imports.add_argument("--out", type=Path, metavar="REC.h5", help="file to write the recording to (HDF5)")
+    imports.add_argument("--guess", action="store_true", help="print a proposed mapping and import nothing")
 
-    diagnose = _command(commands, "diagnose", "app.cli.diagnose:diagnose", "find what the models of specimens leave out")
-    diagnose.add_argument("plan", metavar="PLAN.yaml", help="the plan whose models are doubted")
-    diagnose.add_argument("recording", type=Path, metavar="REC.h5", help="a recording of the plan's stations")
-    diagnose.add_argument("--holdout", type=Path, nargs="+", default=[], metavar="REC.h5", help="recordings to prove it on")
+    diagnose = _command(
+        commands,
+        "diagnose",
+        "app.cli.diagnose:diagnose",
+        "compare a recording with a plan and name the physics that its models leave out",
+    )
+    diagnose.add_argument("plan", metavar="PLAN.yaml", help="file with the plan to check")
+    diagnose.add_argument("recording", type=Path, metavar="REC.h5", help="recording of the stations of the plan")
     diagnose.add_argument(
-        "--with", dest="more", type=Path, nargs="+", default=[], metavar="REC.h5", help="recordings fitted too"
+        "--holdout", type=Path, nargs="+", default=[], metavar="REC.h5", help="held-out recordings: tested, not fitted"
     )
-    diagnose.add_argument("--level", type=float, default=0.01, help="rate of false alarms (default %(default)s)")
-    diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the diagnosis as one JSON object")
-    diagnose.add_argument("--report", type=Path, metavar="OUT.html", help="write the diagnosis as one HTML file")
+    diagnose.add_argument(
+        "--with", dest="more", type=Path, nargs="+", default=[], metavar="REC.h5", help="further recordings to fit"
+    )
+    diagnose.add_argument("--level", type=float, default=0.01, metavar="P", help="false-alarm rate (default %(default)s)")
+    diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the verdict as one JSON object")
+    diagnose.add_argument("--report", type=Path, metavar="OUT.html", help="write the report as one HTML file")
 
-    prove = _command(commands, "prove", "app.cli.prove:prove", "prove diagnoses on recordings that conceal known physics")
-    prove.add_argument("--cases", type=int, default=100, metavar="N", help="recordings to make (default %(default)s)")
-    prove.add_argument("--seed", type=int, default=0, metavar="S", help="of the cases (default %(default)s)")
-    prove.add_argument("--workers", type=int, default=2, metavar="N", help="diagnoses at a time (default %(default)s)")
-    prove.add_argument("--only", metavar="KIND/LEVEL", help="cases of one kind of test, one level, or both")
-    prove.add_argument("--keep", type=Path, metavar="DIR", help="keep plans, recordings, truths and diagnoses here")
+    prove = _command(
+        commands, "prove", "app.cli.prove:prove", "score diagnoses on generated recordings with known left-out physics"
+    )
+    prove.add_argument("--cases", type=int, default=100, metavar="N", help="number of recordings (default %(default)s)")
+    prove.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the cases (default %(default)s)")
+    prove.add_argument("--workers", type=int, default=2, metavar="N", help="diagnoses at the same time (default %(default)s)")
+    prove.add_argument("--only", metavar="KIND/LEVEL", help="cases of one kind of test, of one level, or of both")
+    prove.add_argument("--keep", type=Path, metavar="DIR", help="folder to store plans, recordings, truths and verdicts in")
     prove.add_argument("--json", type=Path, required=True, metavar="OUT", help="write every score as one JSON object")
-    prove.add_argument("--picture", type=Path, metavar="OUT.svg", help="draw the rates by how far what is concealed stands out")
-    prove.add_argument("--table", action="store_true", help="print a row for each effect as well")
+    prove.add_argument(
+        "--picture", type=Path, metavar="OUT.svg", help="plot the rates against the strength of the left-out physics"
+    )
+    prove.add_argument("--table", action="store_true", help="also print a row for each effect")
 
     serve = _command(commands, "serve", "app.cli.serve:serve", "start the control room")
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")
     serve.add_argument("--port", type=int, help="port to listen on (RTHS_PORT; default 8000)")
-    serve.add_argument("--demo", action="store_true", help="queue a demonstration test, unless one waits or runs")
-    serve.add_argument("--no-worker", action="store_true", help="start no worker; tests wait for an `rths worker`")
+    serve.add_argument("--demo", action="store_true", help="queue a demonstration test, unless one is queued or running")
+    serve.add_argument("--no-worker", action="store_true", help="start no worker; tests wait for `rths worker`")
 
-    worker = _command(commands, "worker", "app.cli.worker:worker", "execute queued tests, beside `rths serve --no-worker`")
+    worker = _command(
+        commands, "worker", "app.cli.worker:worker", "execute queued tests and diagnoses, beside `rths serve --no-worker`"
+    )
     _data(worker)
     worker.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the control room (default %(default)s)")
     worker.add_argument("--name", help="name of this worker (default: machine and process)")
-    worker.add_argument("--workers", type=int, metavar="N", help="tests at a time (RTHS_WORKERS; default 2)")
+    worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
 
     _data(_command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema"))
     _data(_command(commands, "motions", "app.cli.plans:motions", "list the ground-motion records"))

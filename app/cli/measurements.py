@@ -1,4 +1,4 @@
-"""`rths import`: a file of measurements as a recording, by a mapping; or a mapping proposed for it."""
+"""`rths import`: import a file of measurements as a recording by a mapping, or propose a mapping for the file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rths_engine.recordings.measured.roles import shown
 
 
 def measurements(given: Namespace) -> None:
-    """Raises MeasuredError for a file or mapping that can't be used."""
+    """`rths import`: import a file, or print a proposed mapping. Raises MeasuredError for an invalid file or mapping."""
     if given.guess == (given.map is not None) or given.guess == (given.out is not None):
         raise MeasuredError(Issue("", "needs either --guess, or --map MAP.yaml and --out REC.h5"))
     raw = _bytes(given.file, "FILE")
@@ -41,7 +41,7 @@ def measurements(given: Namespace) -> None:
         ) from None
     for warning in recording.warnings:
         print(warning, file=sys.stderr)
-    print(_told(given.out, recording))
+    print(_report(given.out, recording))
 
 
 def _bytes(path: Path, where: str) -> bytes:
@@ -55,11 +55,11 @@ def _text(path: Path) -> str:
     try:
         return _bytes(path, "--map").decode("utf-8")
     except UnicodeDecodeError:
-        fix = "`rths import FILE --guess` proposes one"
-        raise MeasuredError(Issue("--map", "is no text in UTF-8", str(path), fix)) from None
+        fix = "`rths import FILE --guess` prints a proposed mapping"
+        raise MeasuredError(Issue("--map", "is not valid UTF-8 text", str(path), fix)) from None
 
 
-def _told(path: Path, recording: Measured) -> str:
+def _report(path: Path, recording: Measured) -> str:
     duration = (recording.samples - 1) * recording.dt
     head = f"{path}: {recording.samples} samples at {1 / recording.dt:g} Hz, {duration:g} s"
     return "\n".join([head, *(_line(channel) for channel in recording.channels)])

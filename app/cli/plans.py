@@ -22,14 +22,14 @@ def plan(given: Namespace) -> None:
 
 
 def motions(given: Namespace) -> None:
-    """`rths motions`: list the ground motions with PGA, step and length."""
-    print(f"{'Name':48} {'PGA g':>7} {'Step s':>7} {'Length s':>8}  Record")
+    """`rths motions`: list the ground-motion records with PGA, time step and duration."""
+    print(f"{'Name':48} {'PGA, g':>7} {'Step, s':>7} {'Duration, s':>11}  Record")
     for record in MotionLibrary(settings(given).motions).summaries():
         if record.problem:
             print(f"{record.name:48} can't be used: {record.problem}")
         else:
             pga = units.from_si(record.pga, "g")
-            print(f"{record.name:48} {pga:7.3f} {record.dt:7.4g} {record.duration:8.1f}  {record.title}")
+            print(f"{record.name:48} {pga:7.3f} {record.dt:7.4g} {record.duration:11.1f}  {record.title}")
 
 
 def version(_: Namespace) -> None:

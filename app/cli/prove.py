@@ -1,4 +1,4 @@
-"""`rths prove`: how well diagnoses find physics that was concealed in recordings made for it."""
+"""`rths prove`: diagnose generated recordings with known left-out physics, and score the verdicts."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ CHECKOUT = Path(__file__).parents[2]
 
 
 def prove(given: Namespace) -> None:
-    """`rths prove`: diagnose recordings whose left-out physics is known, and write the scores."""
+    """`rths prove`: diagnose generated recordings with known left-out physics, and write the scores."""
     _checked(given)
     sys.path.insert(0, str(CHECKOUT))
     proving, table, drawing = (import_module(f"tests.proof.{name}") for name in ("proving", "table", "drawing"))
     try:
         proving.specs(1, 0, given.only)
     except ValueError as error:
-        raise PlanError(Issue("--only", "there is no such kind of case", given.only, str(error))) from None
-    result = proving.prove(given.cases, given.seed, given.workers, given.only, given.keep, _told)
+        raise PlanError(Issue("--only", "is not a valid kind of case", given.only, str(error))) from None
+    result = proving.prove(given.cases, given.seed, given.workers, given.only, given.keep, _progress)
     files.write(given.json, json.dumps(result, indent=1) + "\n")
     if given.picture:
         files.write(given.picture, drawing.svg(result))
@@ -34,17 +34,18 @@ def prove(given: Namespace) -> None:
 
 def _checked(given: Namespace) -> None:
     if not (CHECKOUT / "tests" / "proof").is_dir():
-        fix = "run it in a checkout of the repository: the generator is not part of the installed package"
-        raise PlanError(Issue("rths prove", "its generator, tests/proof, is not here", str(CHECKOUT), fix))
+        fix = "run the command in a checkout of the repository: the installed package has no generator"
+        raise PlanError(Issue("rths prove", "there is no folder tests/proof with the generator", str(CHECKOUT), fix))
     for name, least in (("cases", 1), ("workers", 1), ("seed", 0)):
         if getattr(given, name) < least:
-            raise PlanError(Issue(f"--{name}", f"needs to be at least {least}", getattr(given, name)))
+            raise PlanError(Issue(f"--{name}", f"needs a value >= {least}", getattr(given, name)))
     for option, path in (("--json", given.json), ("--picture", given.picture)):
         if path and not path.parent.is_dir():
-            raise PlanError(Issue(option, "there is no such folder", str(path.parent), "make it first"))
+            problem = f"there is no folder {path.parent}"
+            raise PlanError(Issue(option, problem, str(path), f"create it first: mkdir -p '{path.parent}'"))
     if given.keep and given.keep.exists() and any(given.keep.iterdir()):
-        raise PlanError(Issue("--keep", "is not empty", str(given.keep), "give a new folder"))
+        raise PlanError(Issue("--keep", "is not empty", str(given.keep), "choose a new folder"))
 
 
-def _told(text: str) -> None:
+def _progress(text: str) -> None:
     print(text, file=sys.stderr, flush=True)

@@ -1,4 +1,4 @@
-"""The result of a run as text: measures with units, beside the paper's for a simulation of Table III."""
+"""The result of a run as text: measures with units, and the paper's measures for a simulation of Table III."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
 
 
 def _table(plan: Plan, summary: dict[str, Any], measures: Sequence[Measure], paper: bool) -> Iterator[str]:
-    """Measures of each station; beneath each, with `paper`, those published for it."""
+    """Table of the measures, one row a station; with `paper`, the published measures below each row."""
     stations = summary["stations"]
     first = max(LEAST_NAME, *(len(station["name"]) for station in stations))
     widths = [GAP + max(LEAST_CELL, len(one.heading)) for one in measures]
@@ -57,7 +57,7 @@ def _row(name: str, cells: list[str], first: int, widths: list[int]) -> str:
 
 
 def _published(plan: Plan, station: int, measures: Sequence[Measure]) -> list[str]:
-    """The paper's measures of a station, or nothing: another plan, or its test was unstable."""
+    """The published measures of a station; empty for another plan, or where the paper's test was unstable."""
     row = PAPER.get(plan.template or "")
     pairs = [getattr(row, one.key, None) for one in measures]
     if not any(pairs):

@@ -30,7 +30,7 @@ NAP_S = 0.1
 
 
 def run(given: Namespace) -> int:
-    """Exit code: 0 when a test was made (tripped too), 2 for unusable input, 130 when interrupted, 1 when not stored."""
+    """`rths run`: run a plan. Exit code: 0 completed or tripped, 1 not stored, 2 invalid input, 130 interrupted."""
     try:
         if given.out:
             check_folder(given.out)
@@ -52,7 +52,7 @@ def run(given: Namespace) -> int:
 
 
 class Interrupt:
-    """Whether Ctrl-C was pressed; pressed again it ends the program at once."""
+    """Notes whether Ctrl-C was pressed. A second Ctrl-C ends the program at once."""
 
     def __enter__(self) -> Interrupt:
         self.asked = False
@@ -68,7 +68,7 @@ class Interrupt:
 
 
 def advance(test: Run, interrupt: Interrupt) -> float:
-    """Run to the end at the plan's pace, or until interrupted. Returns the wall time (s)."""
+    """Run a test at the pace of its plan, to its end or until interrupted. Returns the wall time (s)."""
     warm()
     pace, step = test.plan.pace, test.plan.step
     factor = pace.factor if pace.kind == "real_time" else math.inf

@@ -1,4 +1,4 @@
-"""What `rths run` is given: a plan, perhaps another record, and a place for the recording."""
+"""The input of `rths run`: a plan, optionally another record, and the path of the recording."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ def read_model(given: Namespace) -> Model:
     model = model_at(given.plan)
     plan = model.plan
     if given.record and plan.driven:
-        raise PlanError(Issue("--record", f"is not used: a test of one {plan.test} follows its drive", fix="leave it out"))
+        problem = f"is not used in this kind of test: the {plan.test} follows its drive"
+        raise PlanError(Issue("--record", problem, given.record, "leave it out"))
     if given.record:
         motion = {"kind": "file", "path": given.record, "unit": given.record_unit, "dt": given.record_dt}
         return model.changed(motion=validated(FileMotion, {**motion, "scale": plan.motion.scale}))
@@ -41,22 +42,24 @@ def model_at(path: str) -> Model:
 
 
 def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> None:
-    """Raises RthsError when nothing can be written there."""
+    """Raise RthsError if the file `out` cannot be written."""
     folder = out.parent
     if not folder.is_dir():
-        raise RthsError(Issue(option, f"there is no folder {folder}", str(out), f"make it first: mkdir -p '{folder}'"))
+        raise RthsError(Issue(option, f"there is no folder {folder}", str(out), f"create it first: mkdir -p '{folder}'"))
     if out.is_dir():
-        raise RthsError(Issue(option, "is a folder", str(out), f"name a file in it, such as {example}"))
+        raise RthsError(Issue(option, "is a folder", str(out), f"give a file in it, for example {example}"))
     if not os.access(folder, os.W_OK | os.X_OK):
         raise RthsError(Issue(option, f"the folder {folder.resolve()} can't be written to", str(out), "choose another folder"))
 
 
 def _text(path: str) -> str:
-    """A plan's text, read no further than one character beyond what a plan may have."""
+    """The text of a plan, at most one character more than a plan may have."""
     try:
         with nullcontext(sys.stdin) if path == STANDARD_INPUT else Path(path).open(encoding="utf-8") as file:
             return file.read(LARGEST + 1)
     except UnicodeDecodeError:
-        raise PlanError(Issue("PLAN.yaml", "is no text in UTF-8", path, "give a plan as `rths plan` prints it")) from None
+        raise PlanError(Issue("PLAN.yaml", "is not valid UTF-8 text", path, "`rths plan NAME` prints a plan")) from None
     except OSError as error:
-        raise PlanError(Issue("PLAN.yaml", f"can't be read: {error.strerror}", path, "`rths plan NAME` prints one")) from None
+        raise PlanError(
+            Issue("PLAN.yaml", f"can't be read: {error.strerror}", path, "`rths plan NAME` prints a plan")
+        ) from None

@@ -21,7 +21,7 @@ GRACE_S = 2
 
 
 def serve(given: Namespace) -> int:
-    """`rths serve`: run the service until Ctrl-C; returns the exit code."""
+    """`rths serve`: run the control room until Ctrl-C; returns the exit code."""
     settings = stored(given, embedded_worker=not given.no_worker)
     listening = listen(settings)
     server = Server(create_app(settings), settings, given.demo)
@@ -34,7 +34,7 @@ def serve(given: Namespace) -> int:
 
 
 class Server(uvicorn.Server):
-    """Queues the demonstration, where wanted, and prints the address once the service answers."""
+    """The web server; when the service answers, it queues the demonstration if asked and prints the address."""
 
     def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
         super().__init__(uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=GRACE_S))
@@ -47,11 +47,11 @@ class Server(uvicorn.Server):
         if self.demonstrate:
             queue_demonstration(self.app)
         print(f"\nRTHS control room: {address(self.settings)}")
-        print(f"Data folder: {self.settings.data.resolve()}\nCtrl-C stops it.", flush=True)
+        print(f"Data folder: {self.settings.data.resolve()}\nPress Ctrl-C to stop the control room.", flush=True)
 
 
 def listen(settings: Settings) -> socket.socket:
-    """A socket at the service's address. Raises RthsError when it is taken or can't be used."""
+    """A socket at the address of the service. Raises RthsError when the port is in use or the address can't be used."""
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     found = socket.socket(family, socket.SOCK_STREAM)
     found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -65,7 +65,7 @@ def listen(settings: Settings) -> socket.socket:
 
 
 def address(settings: Settings) -> str:
-    """The URL at which a browser on this machine finds the service."""
+    """The URL of the service for a browser on this machine."""
     host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
     return f"http://[{host}]:{settings.port}/" if ":" in host else f"http://{host}:{settings.port}/"
 
@@ -74,5 +74,7 @@ def _unusable(settings: Settings, error: OSError) -> Issue:
     if error.errno == errno.EADDRINUSE:
         other = settings.port + 1
         fix = f"stop the program that listens there, or choose another: RTHS_PORT={other} make run, rths serve --port {other}"
-        return Issue("port", "is taken", settings.port, fix)
-    return Issue("host", f"can't be listened on: {error.strerror}", f"{settings.host}:{settings.port}", "choose another --host")
+        return Issue("port", "is in use by another program", settings.port, fix)
+    return Issue(
+        "host", f"can't listen on this address: {error.strerror}", f"{settings.host}:{settings.port}", "choose another --host"
+    )

@@ -1,4 +1,4 @@
-"""Settings of a command: its options, then RTHS_* variables, then defaults."""
+"""Settings of a command. An option takes precedence over its RTHS_* variable, and the variable over the default."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PORTS = range(1, 65_536)
 
 
 def settings(given: Namespace, **more: Any) -> Settings:
-    """Raises RthsError for values no service can use."""
+    """The settings of a command. Raises RthsError for values that are out of range."""
     options = {name: getattr(given, name, None) for name in ("data", "host", "port")}
     found = from_environment(**options, worker_concurrency=getattr(given, "workers", None), **more)
     if found.port not in PORTS:
@@ -26,13 +26,13 @@ def settings(given: Namespace, **more: Any) -> Settings:
 
 
 def stored(given: Namespace, **more: Any) -> Settings:
-    """Settings with the data folder made, its database reachable, and the token a worker shows to the web service."""
+    """The settings of a command, with the worker token. Creates the data folder and checks that the database answers."""
     found = settings(given, **more)
     try:
         found.prepared()
         token = os.environ.get("RTHS_WORKER_TOKEN") or _kept_token(found.data / "worker-token")
     except OSError as error:
-        fix = "choose another with --data or RTHS_DATA"
+        fix = "choose another folder with --data or RTHS_DATA"
         raise RthsError(Issue("data folder", f"can't be used: {error.strerror}", str(found.data), fix)) from None
     _check_database(found.url)
     return settings(given, worker_token=token, **more)
@@ -50,7 +50,7 @@ def _check_database(url: str) -> None:
         engine.dispose()
     except sa.exc.SQLAlchemyError as error:
         problem = f"can't be opened: {str(getattr(error, 'orig', error)).splitlines()[0]}"
-        raise RthsError(Issue("database", problem, fix="mend RTHS_DATABASE_URL, or unset it to use SQLite")) from None
+        raise RthsError(Issue("database", problem, fix="correct RTHS_DATABASE_URL, or unset it to use SQLite")) from None
 
 
 def _kept_token(path: Path) -> str:

@@ -1,4 +1,4 @@
-"""`rths table4`: the twelve simulations of Chen and Ricles (2012) on the emulated laboratory, beside their Table IV."""
+"""`rths table4`: run the twelve simulations of Chen and Ricles (2012) on the emulated laboratory, beside Table IV."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from rths_engine.planning.motion import FileMotion
 from rths_engine.table4 import running
 from rths_engine.table4.scale import design_basis
 
-UNIT, DT = "g", 0.02  # of a bare file: see docs/table4.md
+UNIT, DT = "g", 0.02  # for a file that states neither: see docs/table4.md
 
 
 def table4(given: Namespace) -> None:
-    """Raises RthsError for a record that can't be read, scaled or run."""
+    """`rths table4`: run the simulations and print the table. Raises RthsError for a record that can't be read or scaled."""
     if given.json:
         check_folder(given.json, "--json", "table4.json")
     motions = MotionLibrary(None)
@@ -53,7 +53,7 @@ def _scaled(given: Namespace, motions: MotionLibrary) -> engine.PlannedRecord:
 
 
 def _read(given: Namespace, motions: MotionLibrary) -> FileMotion:
-    """The record's file; one that says neither step nor unit is taken as the paper's record is."""
+    """The record in a file. Where the file states no unit or time step, UNIT and DT of the paper's record are used."""
     asked = {"kind": "file", "path": given.record, "unit": given.record_unit, "dt": given.record_dt}
     motion = validated(FileMotion, asked)
     try:

@@ -1,4 +1,4 @@
-"""The twelve simulations as text, beside the paper's."""
+"""The twelve simulations of Table IV as text, beside the paper's values."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ def text(
     drifts: Sequence[float],
     elapsed_s: float,
 ) -> str:
-    """Table IV as text, each of its rows above the paper's."""
+    """Table IV as text; each row has the paper's row below it."""
     return "\n".join([*_head(planned, motion), *_table(rows), *_foot(rows, floors, drifts), f"Run in {elapsed_s:.2f} s."])
 
 
 def _head(planned: engine.PlannedRecord, motion: Motion) -> Iterator[str]:
     assert isinstance(planned.scale, Factor)
-    yield "Table IV of Chen and Ricles (2012), first storey / second storey; the paper's line below ours"
+    yield "Table IV of Chen and Ricles (2012), first storey / second storey; the paper's values are below ours"
     yield (
-        f"Record {motion.title}: {len(motion.acceleration)} values every {motion.dt:g} s, times {planned.scale.factor:.4g}, "
-        f"then peaks at {motion.pga / STANDARD_GRAVITY:.3f} g"
+        f"Record {motion.title}: {len(motion.acceleration)} values every {motion.dt:g} s, "
+        f"scaled by {planned.scale.factor:.4g}, scaled peak {motion.pga / STANDARD_GRAVITY:.3f} g"
     )
     yield ""
 
@@ -55,15 +55,15 @@ def _table(rows: Sequence[engine.Row]) -> Iterator[str]:
 def _foot(rows: Sequence[engine.Row], floors: Sequence[float], drifts: Sequence[float]) -> Iterator[str]:
     found = engine.comparison(rows)
     yield ""
-    yield f"Floors of simulation 2 peak at {_pair(floors, 1)} mm (paper {_pair(engine.FLOORS_PEAK_MM, 1)})"
-    yield f"Storey drifts of simulation 2: {_pair(drifts, 2)} % (paper {_pair(engine.DRIFTS_PERCENT, 1)})"
-    wrong = f"; other than the paper: {', '.join(map(str, found.outcomes_wrong))}" if found.outcomes_wrong else ""
+    yield f"Floor peaks of simulation 2: {_pair(floors, 1)} mm (paper {_pair(engine.FLOORS_PEAK_MM, 1)} mm)"
+    yield f"Storey drifts of simulation 2: {_pair(drifts, 2)} % (paper {_pair(engine.DRIFTS_PERCENT, 1)} %)"
+    wrong = f"; different from the paper: {', '.join(map(str, found.outcomes_wrong))}" if found.outcomes_wrong else ""
     yield f"Outcomes as in the paper: {found.outcomes_right} of {len(rows)}{wrong}"
-    signs = f"; wrong: {'; '.join(found.signs_wrong)}" if found.signs_wrong else ""
+    signs = f"; different: {'; '.join(found.signs_wrong)}" if found.signs_wrong else ""
     yield f"Signs of MTI and MEE as in the paper: {found.signs_right} of {found.signs_right + len(found.signs_wrong)}{signs}"
-    yield f"MTE, RMS and MTI differ by a factor of {found.median:.2f} in the median, {found.worst:.2f} at worst"
+    yield f"MTE, RMS and MTI differ from the paper by a factor of {found.median:.2f} (median), {found.worst:.2f} (largest)"
     fitted = " and ".join(map(str, CALIBRATED))
-    yield f"Parameters were fitted to simulations {fitted} alone; docs/table4.md says what was assumed with all twelve in view."
+    yield f"Parameters were fitted to simulations {fitted} only. docs/table4.md lists all assumptions."
 
 
 def _line(number: str, outcome: str, cells: Sequence[str]) -> str:

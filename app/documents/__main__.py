@@ -11,4 +11,4 @@ if __name__ == "__main__":
         text = path.read_text(encoding="utf-8")
         if (new := renewed(text)) != text:
             path.write_text(new, encoding="utf-8")
-            print(f"{path.name}: written anew")
+            print(f"{path.name}: updated")

@@ -1,4 +1,4 @@
-"""Tables of the fields of a diagnosis's JSON."""
+"""Tables of the fields in the JSON of a diagnosis."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _type(kind: Any) -> str:
 
 
 def _items(kind: Any) -> str:
-    """What a list holds."""
+    """The type of the items of a list, in words."""
     if typing.get_origin(kind) is types.UnionType:
         return f"{_items(typing.get_args(kind)[0])}, some null"
     if typing.get_origin(kind) is tuple:
@@ -58,7 +58,7 @@ def _items(kind: Any) -> str:
 
 
 def _inside(kind: Any) -> Iterator[tuple[type[Form], str]]:
-    """The forms of which a field holds one, or a list."""
+    """The forms inside a field, each with `[]` if the field is a list."""
     inner = typing.get_args(kind)
     if isinstance(kind, type) and issubclass(kind, Form):
         yield kind, ""

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table with one line a row; `|` and line breaks inside cells are escaped."""
+    """A Markdown table; `|` in cells is escaped and line breaks become spaces."""
     lines = [heads, ["---"] * len(heads), *rows]
     return "\n".join(f"| {' | '.join(_cell(cell) for cell in line)} |" for line in lines)
 
 
 def code(text: str) -> str:
-    """`text` set as code; empty stays empty."""
+    """`text` as code; empty text stays empty."""
     return f"`{text}`" if text else ""
 
 

@@ -1,4 +1,4 @@
-"""Tables of what a test gives: measures and channels, and the glossary."""
+"""Tables of the outputs of a test: measures, channels and the glossary."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rths_engine.results.measures import of
 def imported_channels() -> str:
     """The roles that a column of an imported file can have."""
     rows = [(code(name), role.meaning, ", ".join(role.dimensions), role.counts) for name, role in ROLES.items()]
-    return table(["role", "meaning", "quantity", "number of its"], rows)
+    return table(["role", "meaning", "quantity", "number counts"], rows)
 
 
 def channels() -> str:
@@ -38,7 +38,7 @@ def channels() -> str:
 
 
 def measures(further: bool) -> str:
-    """The measures of a station: those in the first table of a result, or the further ones."""
+    """The measures of a station: those in the first table of a result or, with `further`, those in the second."""
     return _measures([one for one in of(StationMeasure) if one.further == further])
 
 

@@ -1,4 +1,4 @@
-"""The places in a document where generated tables stand."""
+"""Regions of a document that hold generated tables."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ _REGION = re.compile(r"(<!-- generated: (.+?) -->\n).*?(<!-- end -->)", re.DOTAL
 
 
 def renewed(text: str) -> str:
-    """The document with every generated table as it is now. Raises KeyError for a name that is not in TABLES."""
+    """The document with every table generated again. Raises KeyError for a name that is not in TABLES."""
     return _REGION.sub(lambda region: f"{region[1]}{TABLES[region[2]]()}\n{region[3]}", text)
 
 
 def names(text: str) -> list[str]:
-    """The generated tables of a document, in their order."""
+    """The names of the generated tables of a document, in order."""
     return [region[2] for region in _REGION.finditer(text)]

@@ -1,4 +1,4 @@
-"""The generated tables by their names."""
+"""The generated tables by name."""
 
 from __future__ import annotations
 

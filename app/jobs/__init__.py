@@ -1,1 +1,1 @@
-"""Jobs: states, queues, attempts and cancelling, the same for every kind of job."""
+"""The job machine: states, queues, attempts and cancelling, the same for every kind of job."""

@@ -1,4 +1,4 @@
-"""The hold of the queue, which keeps tests from starting. Never commits."""
+"""The hold of the queue: while the queue is held, no test starts. Never commits."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Hold:
         self._change(held=False, held_by=None, held_at=None)
 
     def locked(self) -> QueueState:
-        """The state, which nobody else can change until the end of the transaction; locks as JobRepository.locked does."""
+        """The state, locked against other writers until the end of the transaction; see JobRepository.locked."""
         self._change(held=QueueState.held)
         return self.state
 

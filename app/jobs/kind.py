@@ -1,4 +1,4 @@
-"""What a kind of job declares. Everything else about it is done by the job machine: app.jobs and app.worker."""
+"""The declaration of a kind of job. The job machine (app.jobs and app.worker) does everything else."""
 
 from __future__ import annotations
 
@@ -16,58 +16,58 @@ Result = TypeVar("Result")
 
 
 class Ending(NamedTuple):
-    """The state that a job ends in, and the reason that people read."""
+    """The state in which a job ends, and the reason that people read."""
 
     state: State
     reason: str
 
 
 class Kind(ABC, Generic[Row, Given, Result]):
-    """A kind of job: its table, its queue, the process that executes it and what it stores.
+    """A kind of job: its table, its queue, the process that executes its jobs, and what a job stores.
 
-    An instance of a subclass is the declaration; `app.worker.kinds.KINDS` lists those that a worker executes.
+    An instance of a subclass is the declaration. `app.worker.kinds.KINDS` lists the kinds that a worker executes.
     """
 
     name: ClassVar[str]
-    """What the interface calls such a job: "run"."""
+    """Name of a job in the REST interface, for example "run"."""
     noun: ClassVar[str]
-    """What the reasons call such a job: "test"."""
+    """Name of a job in reasons and errors, for example "test"."""
     table: ClassVar[type[Job]]
-    """The table of such jobs, a subclass of Job; the same as `Row`."""
+    """The table of the jobs, a subclass of Job; the same as `Row`."""
     queue: ClassVar[str]
     """Name of the durable queue."""
     workflow: ClassVar[str]
     """Name of the durable workflow. Jobs that wait in the queue are lost when it changes."""
     process: ClassVar[str]
-    """Module with `prepare()` and `execute(order, line) -> Result`, imported in the process only: the web never loads it."""
+    """Module with `prepare()` and `execute(order, line) -> Result`. Only the process imports it; the web service never does."""
     niceness: ClassVar[int] = 0
-    """Added to the niceness of the process, so that kinds with a lower one get the processor first."""
+    """Added to the niceness of the process: kinds with a lower value get the processor first."""
     kept_warm: ClassVar[bool] = False
-    """Whether processes start with the worker and stay for the next job; otherwise each job gets a new one."""
+    """Whether processes start with the worker and stay for the next job; otherwise each job gets a new process."""
     keeps_when_cancelled: ClassVar[bool] = False
-    """Whether a cancelled job stores what it has; otherwise its process is killed at once."""
+    """Whether a cancelled job stores its result so far; otherwise its process is killed at once."""
     waits_while_held: ClassVar[bool] = False
-    """Whether a held queue holds such jobs."""
+    """Whether jobs of this kind wait while the queue is held."""
     watched_live: ClassVar[bool] = False
     """Whether the process sends frames and messages to viewers."""
 
     def at_a_time(self, settings: Settings) -> int:
-        """How many such jobs one worker executes at a time."""
+        """Number of jobs of this kind that one worker executes at the same time."""
         return 1
 
     @abstractmethod
     def order(self, job: Row, settings: Settings) -> Given:
-        """What the process needs of a job that has just been started."""
+        """The order for the process of a job that has just started."""
 
     @abstractmethod
     def store(self, job: Row, result: Result) -> Ending:
-        """Write a result into the columns of its job; the caller changes the state and commits."""
+        """Write a result into the columns of its job. The caller changes the state and commits."""
 
     def place(self, order: Given, settings: Settings) -> None:
-        """Move the files of a result to their place, just before the commit. May raise OSError: the job then fails."""
+        """Move the files of a result to their final paths, just before the commit. After an OSError the job fails."""
 
     def discard(self, order: Given) -> None:
-        """Remove the files of an attempt that are not in their place, however the attempt ended."""
+        """Remove the temporary files of an attempt, however it ended."""
 
     def clear(self, job: Row, settings: Settings) -> None:
-        """Remove the files of earlier attempts. The caller has locked the job, so that none of them is being stored."""
+        """Remove the files of earlier attempts. The caller has locked the job, so no attempt is storing its files now."""

@@ -1,4 +1,4 @@
-"""The durable queue: DBOS on the application's own database. Delivery is at least once; a job's row decides what counts."""
+"""The durable queue: DBOS on the database of the application. It delivers a job at least once; the row of the job decides."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from sqlalchemy.orm import Session
 from app.jobs.kind import Kind
 
 APPLICATION = "rths"
-VERSION = "1"  # pinned: editing the workflow must not strand jobs that wait in the queue
+VERSION = "1"  # pinned: jobs in the queue must still start after the workflow is edited
 POLLING_S = 0.1
 KEEP = timedelta(days=7)
 MOST_PURGED = 5000
 
 
 def migrate(url: str) -> None:
-    """Create or bring up to date the queue's own tables."""
+    """Create or update the tables of the queue."""
     DBOS.migrate(url)
 
 
 class DurableQueue:
-    """The web's side of the queue: a job's workflow is enqueued in the transaction that inserts its row."""
+    """The queue for the web service: it enqueues the workflow of a job in the transaction that inserts the row of the job."""
 
     def __init__(self, engine: sa.Engine):
         self.client = DBOSClient(system_database_engine=engine, application_name=APPLICATION)
@@ -41,7 +41,7 @@ class DurableQueue:
             self.client.enqueue_in_transaction(session, options, job_id)
 
     def purge(self) -> int:
-        """Delete the records of workflows that ended long ago; returns how many."""
+        """Delete the records of workflows that ended before KEEP; returns the number deleted."""
         before = (datetime.now(UTC) - KEEP).isoformat()
         ended = ["SUCCESS", "ERROR", "CANCELLED"]
         old = self.client.list_workflows(

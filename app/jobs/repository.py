@@ -28,23 +28,23 @@ class JobRepository(Generic[Row]):
         return self.session.scalar(sa.select(self.table).where(self.table.id == job_id))
 
     def locked(self, job_id: str) -> Row | None:
-        """The job as it is now, held against other writers until the end of the transaction.
+        """The job as it is now, locked against other writers until the end of the transaction.
 
-        Writing it as it is locks the row; in SQLite, which has no SELECT FOR UPDATE, the database.
+        An update without changes locks the row. In SQLite, which has no SELECT FOR UPDATE, it locks the database.
         """
         self._change(self.table.id == job_id, attempt=self.table.attempt)
         found = sa.select(self.table).where(self.table.id == job_id).execution_options(populate_existing=True)
         return self.session.scalar(found)
 
     def ids(self, state: State) -> list[str]:
-        """The jobs in a state, oldest first."""
+        """The ids of the jobs in a state, oldest first."""
         return list(self.session.scalars(sa.select(self.table.id).where(self.table.state == state).order_by(self.table.number)))
 
     def cancel_requested(self, job_id: str) -> bool:
         return self.session.scalar(sa.select(self.table.cancel_requested_by).where(self.table.id == job_id)) is not None
 
     def progress(self, job_id: str, attempt: int, doing: str, share: float) -> None:
-        """Write how far an attempt is, while it runs."""
+        """Store the progress of an attempt while it runs."""
         table = self.table
         running = (table.id == job_id) & (table.attempt == attempt) & (table.state == State.RUNNING)
         self._change(running, doing=doing, share=share)

@@ -1,4 +1,4 @@
-"""Columns that every kind of job has, and the tables of the queue's hold and of workers."""
+"""Columns of every kind of job, and the tables of the hold of the queue and of workers."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from app.jobs.states import State
 
 
 class Job:
-    """Mixin of a job's table: `class Run(Job, Base)`. Times are UTC.
+    """Columns of the table of a kind of job, as a mixin: `class Run(Job, Base)`. Times are UTC.
 
-    `attempt` counts the starts, `worker` names the worker of the last start, `doing` and `share` (0 to 1) say how far the
-    running attempt is, and `reason` says why the job ended.
+    `attempt` counts the starts and `worker` names the worker of the last start. `doing` and `share` (0 to 1) are the progress
+    of the running attempt. `reason` is the reason for the end of the job.
     """
 
     number: Mapped[int] = mapped_column(primary_key=True)
@@ -34,7 +34,7 @@ class Job:
 
 
 class QueueState(Base):
-    """Whether the queue is held: one row."""
+    """Whether the queue is held, by whom and since when: one row."""
 
     __tablename__ = "queue_state"
 
@@ -45,7 +45,7 @@ class QueueState(Base):
 
 
 class WorkerHeartbeat(Base):
-    """When a worker was last alive."""
+    """Time of the last heartbeat of a worker."""
 
     __tablename__ = "worker_heartbeat"
 

@@ -9,7 +9,7 @@ from sqlalchemy.orm import Session
 
 from app.jobs.tables import WorkerHeartbeat
 
-WORKER_SILENCE = timedelta(seconds=6)  # six heartbeats: a worker this long silent is taken for dead
+WORKER_SILENCE = timedelta(seconds=6)  # six heartbeats; after this silence a worker counts as dead
 
 
 class Workers:
@@ -27,7 +27,7 @@ class Workers:
         return found.seen_at if found else None
 
     def silent(self) -> list[str]:
-        """Workers that are taken for dead."""
+        """Workers that count as dead."""
         before = datetime.now(UTC) - WORKER_SILENCE
         return list(self.session.scalars(sa.select(WorkerHeartbeat.worker).where(WorkerHeartbeat.seen_at < before)))
 
@@ -36,5 +36,5 @@ class Workers:
 
 
 def alive(seen: datetime | None) -> bool:
-    """Whether a worker last seen then is still taken to be alive."""
+    """Whether a worker with its last heartbeat at `seen` counts as alive."""
     return seen is not None and datetime.now(UTC) - seen < WORKER_SILENCE

@@ -1,4 +1,4 @@
-"""Websockets: a worker's frames come in, viewers' go out."""
+"""Websockets: frames come in from workers and go out to viewers."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ UNKNOWN_RUN, NOT_ALLOWED, UNREADABLE = 4404, 4403, 4409
 
 @router.websocket("/api/v1/worker")
 async def ingest(socket: WebSocket) -> None:
-    """Frames and messages of a worker, which proves itself by the token."""
+    """Receive frames and messages from a worker that sends the worker token."""
     token = socket.headers.get("authorization", "").removeprefix("Bearer ")
     await socket.accept()
     if not hmac.compare_digest(token.encode(), socket.app.state.settings.worker_token.encode()):
@@ -43,15 +43,15 @@ async def ingest(socket: WebSocket) -> None:
                 run_id, attempt = FRAME_HEADER.unpack_from(message["bytes"])
                 hub.frame(run_id.decode(), attempt, message["bytes"][FRAME_HEADER.size :])
             else:
-                told = json.loads(message["text"])
-                hub.take(told["run_id"], told["attempt"], told["message"])
+                sent = json.loads(message["text"])
+                hub.take(sent["run_id"], sent["attempt"], sent["message"])
     except WebSocketDisconnect:
         return
 
 
 @router.websocket("/api/v1/runs/{run_id}/live")
 async def watch(socket: WebSocket, run_id: str) -> None:
-    """Schema, replay from bucket `from`, then live, then the end; see docs/architecture.md."""
+    """Send a run to a viewer: schema, buckets from number `from` on, live frames, and the end; see docs/architecture.md."""
     await socket.accept()
     viewer = _Viewer(socket, run_id, _bucket(socket.query_params.get("from", "0")))
     leaving = asyncio.create_task(_left(socket))
@@ -65,7 +65,7 @@ async def watch(socket: WebSocket, run_id: str) -> None:
 
 
 class _Viewer:
-    """One browser: a cursor into the run's buffer."""
+    """One viewer: a cursor into the buffer of a run."""
 
     def __init__(self, socket: WebSocket, run_id: str, cursor: int):
         self.socket, self.run_id, self.cursor = socket, run_id, cursor
@@ -108,7 +108,7 @@ class _Viewer:
             await changed.wait()
 
     async def _end(self, run: RunOut, told: LiveRun | None) -> None:
-        """The end of the run; before it, from the recording, what the viewer has not seen live."""
+        """Send the buckets that the viewer has not seen live, from the recording, and then the end of the run."""
         if run.recording and not self._saw_all(run, told):
             path = self.socket.app.state.settings.recordings / f"{run.id}.h5"
             try:
@@ -138,7 +138,7 @@ class _Viewer:
 
 
 async def _left(socket: WebSocket) -> None:
-    """Ends when the viewer leaves; what viewers send is ignored."""
+    """Wait until the viewer leaves. Messages of viewers are ignored."""
     while (await socket.receive())["type"] != "websocket.disconnect":
         pass
 

@@ -1,7 +1,7 @@
-"""Live frames: minimum, maximum and last sample of every channel in each bucket of substeps, float32, in shown units.
+"""Live frames: minimum, maximum and last sample of every channel in each bucket of substeps, float32, in the units shown.
 
-A frame is little endian `uint32 first_bucket, uint32 count`, then float32 `[count][channels][3]`. A `FrameStore` is the one
-buffer of a run: it takes frames in any chunks, ignores what it has, and gives what a reader lacks as one frame.
+A frame is little-endian: `uint32 first_bucket, uint32 count`, then float32 `[count][channels][3]`. A `FrameStore` is the buffer
+of a run. It takes frames of any size, ignores buckets that it already has, and gives a reader the missing buckets as one frame.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ VALUES = 3  # minimum, maximum, last
 
 
 def bucket_size(total: int) -> int:
-    """Substeps in a bucket, such that a run of `total` substeps has at most MOST_BUCKETS."""
+    """Number of substeps in a bucket, so that a run of `total` substeps has at most MOST_BUCKETS buckets."""
     return max(1, -(-total // MOST_BUCKETS))
 
 
 class Decimator:
-    """Turns a run's growing signals into frames."""
+    """Makes frames from the growing signals of a run."""
 
     def __init__(self, channels: tuple[Channel, ...], bucket: int):
         self.bucket, self.sent = bucket, 0
         self._factors = np.array([channel.factor for channel in channels])
 
     def frame(self, signals: Array, done: int, ended: bool = False) -> bytes | None:
-        """The buckets that rows [:done] complete since the last call; the last, partial one as well when the run has ended."""
+        """The buckets completed by rows [:done] since the last call; with `ended`, also the last, partial bucket."""
         first = self.sent * self.bucket
         whole = (done // self.bucket) * self.bucket
         parts = [_extremes(signals[first:whole].reshape(-1, self.bucket, signals.shape[1]))] if whole > first else []
@@ -57,7 +57,7 @@ class FrameStore:
         return len(self._data) // self.row
 
     def append(self, frame: bytes) -> bool:
-        """Take a frame; what is there already is ignored. False when buckets before it are missing or it is malformed."""
+        """Add a frame, without the buckets already stored. False if earlier buckets are missing or the frame is malformed."""
         if len(frame) < HEADER.size:
             return False
         first, count = HEADER.unpack_from(frame)
@@ -67,7 +67,7 @@ class FrameStore:
         return True
 
     def since(self, first: int) -> bytes | None:
-        """Everything from bucket `first` on as one frame, or None when there is nothing new."""
+        """All buckets from `first` on as one frame, or None if there are none."""
         first, end = max(0, first), self.count  # once: another thread may be appending
         if first >= end:
             return None

@@ -1,4 +1,4 @@
-"""A finished run by the live protocol, from its recording."""
+"""The live protocol for a run that has ended, from its recording."""
 
 from __future__ import annotations
 

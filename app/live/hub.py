@@ -1,4 +1,4 @@
-"""The web's live runs: what the workers sent, and who waits for more."""
+"""The live runs of the web service: the frames and messages of workers, for viewers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from app.live.frames import FrameStore
 
 
 class LiveRun:
-    """One attempt of a run as its worker tells it. `changed` is set at the next change, and then replaced."""
+    """One attempt of a run, as sent by its worker. `changed` is set at the next change, and then replaced."""
 
     def __init__(self, attempt: int, schema: dict[str, Any]):
         self.attempt, self.schema = attempt, schema
@@ -30,7 +30,7 @@ class Hub:
         self.runs: dict[str, LiveRun] = {}
 
     def take(self, run_id: str, attempt: int, message: dict[str, Any]) -> None:
-        """A JSON message of a worker: schema, progress or end. What an earlier attempt still tells is ignored."""
+        """Take a JSON message of a worker: schema, progress or end. Messages of earlier attempts are ignored."""
         live = self.runs.get(run_id)
         if message["type"] == "schema":
             if live is None or live.attempt < attempt:

@@ -8,7 +8,7 @@ from rths_engine.results.channels import Channel
 
 
 def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...]) -> dict[str, Any]:
-    """What frames mean: buckets of `bucket` substeps of `dt` (s), `buckets` in the whole run, and the channels in order."""
+    """The layout of frames: substeps of `dt` (s), `bucket` substeps in each of `buckets` buckets, and the channels."""
     shown = [{"key": c.key, "role": c.role, "number": c.number, "label": c.label, "unit": c.shown_label} for c in channels]
     return {"type": "schema", "attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
 
@@ -16,6 +16,6 @@ def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Cha
 def progress(
     state: str, simulated_s: float, elapsed_s: float, duration_s: float, measures: dict[str, Any] | None = None
 ) -> dict[str, Any]:
-    """How far a run is; `measures` are those of a running test so far, `RunningMeasures.shown()`."""
-    told = {"type": "progress", "state": state, "simulated_s": simulated_s, "elapsed_s": elapsed_s, "duration_s": duration_s}
-    return told | ({"measures": measures} if measures else {})
+    """The progress of a run; `measures` are the measures so far, `RunningMeasures.shown()`."""
+    message = {"type": "progress", "state": state, "simulated_s": simulated_s, "elapsed_s": elapsed_s, "duration_s": duration_s}
+    return message | ({"measures": measures} if measures else {})

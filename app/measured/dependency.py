@@ -1,4 +1,4 @@
-"""The recordings' service of a request."""
+"""The service of measured recordings of a request."""
 
 from __future__ import annotations
 

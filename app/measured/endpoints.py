@@ -1,4 +1,4 @@
-"""REST of measured recordings."""
+"""REST endpoints of measured recordings."""
 
 from __future__ import annotations
 
@@ -17,37 +17,40 @@ router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
 
 @router.post("/files", status_code=201)
 def upload(recordings: Recordings, file: Annotated[UploadFile, File()]) -> Uploaded:
-    """Keep a file of measurements, once whatever its name, and guess its mapping; unless imported from, for a day."""
+    """Upload a file of measurements; the response proposes a mapping.
+
+    The same content is stored once, under its SHA-256. A file from which nothing is imported is deleted after one day.
+    """
     return recordings.upload(file.file, file.filename or "")
 
 
 @router.get("/files/{sha256}")
 def uploaded(sha256: str, recordings: Recordings) -> Uploaded:
-    """An uploaded file: its columns and the mapping proposed for it."""
+    """An uploaded file, with its columns and the proposed mapping."""
     return recordings.uploaded(sha256)
 
 
 @router.get("/roles")
 def roles() -> dict[str, Any]:
-    """What a column can be, and the units it can be in."""
+    """The roles that a column can have, with the units of each role."""
     return shown.roles()
 
 
 @router.get("/mappings")
 def mappings(recordings: Recordings) -> dict[str, list[EarlierMapping]]:
-    """The mappings of earlier imports, each once."""
+    """List the mappings of earlier imports, each once, newest first."""
     return {"mappings": recordings.mappings()}
 
 
 @router.post("/preview", responses=told(404))
 def preview(asked: Annotated[Mapped, Body()], recordings: Recordings) -> dict[str, Any]:
-    """The channels of an uploaded file by a mapping, decimated, with what the checks find; nothing is stored."""
+    """Read an uploaded file by a mapping: decimated channels and the findings of the checks. Nothing is stored."""
     return recordings.preview(asked)
 
 
 @router.post("", status_code=201, responses=told(404))
 def add(asked: Annotated[Import, Body()], recordings: Recordings) -> RecordingDetail:
-    """Import an uploaded file by a mapping, as JSON or as text in YAML."""
+    """Import an uploaded file by a mapping. The mapping is JSON, or YAML as a string."""
     return RecordingDetail.model_validate(recordings.import_(asked))
 
 
@@ -57,7 +60,7 @@ def listed(
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
 ) -> RecordingList:
-    """Newest first."""
+    """List recordings, newest first."""
     found, total = recordings.listed(limit, offset)
     return RecordingList(recordings=[RecordingOut.model_validate(one) for one in found], total=total)
 
@@ -70,19 +73,19 @@ def one(recording_id: str, recordings: Recordings) -> RecordingDetail:
 
 @router.get("/{recording_id}/preview", responses=told(409))
 def channels(recording_id: str, recordings: Recordings) -> dict[str, Any]:
-    """The channels, decimated, in the units shown."""
+    """The channels of a recording, decimated, in the units shown."""
     return recordings.channels(recording_id)
 
 
 @router.get("/{recording_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))
 def hdf5(recording_id: str, recordings: Recordings) -> FileResponse:
-    """The recording as HDF5."""
+    """A recording as HDF5, in SI units."""
     return FileResponse(recordings.hdf5(recording_id), media_type="application/x-hdf5", filename=f"{recording_id}.h5")
 
 
 @router.get("/{recording_id}/raw", response_class=FileResponse, responses=file("application/octet-stream") | told(409))
 def raw(recording_id: str, recordings: Recordings) -> FileResponse:
-    """The file as it was uploaded."""
+    """The uploaded file from which a recording was imported, unchanged."""
     path, filename = recordings.raw(recording_id)
     headers = {"X-Content-Type-Options": "nosniff"}
     return FileResponse(path, media_type="application/octet-stream", filename=filename, headers=headers)
@@ -97,5 +100,5 @@ def mapping(recording_id: str, recordings: Recordings) -> PlainTextResponse:
 
 @router.delete("/{recording_id}", status_code=204, response_class=Response, responses=told(409))
 def remove(recording_id: str, recordings: Recordings) -> None:
-    """Remove a recording that nothing refers to, and the uploaded file when no other recording came from it."""
+    """Delete a recording that nothing refers to. Its uploaded file is deleted too if no other recording needs it."""
     recordings.remove(recording_id)

@@ -23,7 +23,7 @@ class MeasuredRepository:
         self.session = session
 
     def keep_raw(self, sha256: str, size: int, filename: str) -> None:
-        """Add the file's row, or make the one that is there as new; nobody else can remove it until the transaction's end."""
+        """Add the row of a file or renew the existing row, and lock it until the end of the transaction."""
         row = {"sha256": sha256, "size": size, "filename": filename, "uploaded_at": datetime.now(UTC)}
         insert = INSERT[self.session.get_bind().dialect.name](RawFile.__table__).values(row)
         newer = {"filename": filename, "uploaded_at": row["uploaded_at"]}
@@ -33,18 +33,18 @@ class MeasuredRepository:
         return self.session.get(RawFile, sha256, populate_existing=True)
 
     def locked_raw(self, sha256: str) -> bool:
-        """Whether the file is still there; if so, nobody else can remove it until the transaction's end."""
+        """Whether the row of a file exists; if so, it is locked until the end of the transaction."""
         untouched = sa.update(RawFile).where(RawFile.sha256 == sha256).values(size=RawFile.size)
         found = self.session.execute(untouched, execution_options={"synchronize_session": False})
         return bool(found.rowcount)  # type: ignore[attr-defined]
 
     def forget_raw(self, sha256: str) -> bool:
-        """Remove the file's row unless a recording came from it; whether it was removed."""
+        """Delete the row of a file unless a recording was imported from it; returns whether the row was deleted."""
         unused = sa.delete(RawFile).where(RawFile.sha256 == sha256, ~sa.exists().where(RECORDED))
         return bool(self.session.execute(unused).rowcount)  # type: ignore[attr-defined]
 
     def abandoned(self, before: datetime) -> list[str]:
-        """Files uploaded before then from which no recording came."""
+        """Files uploaded before `before` from which no recording was imported."""
         query = sa.select(RawFile.sha256).where(RawFile.uploaded_at < before, ~sa.exists().where(RECORDED))
         return list(self.session.scalars(query))
 
@@ -61,7 +61,7 @@ class MeasuredRepository:
         return list(self.session.scalars(query)), total
 
     def uses(self, recording: MeasuredRecording) -> dict[str, int]:
-        """How many rows of which tables refer to the recording."""
+        """Number of rows that refer to the recording, by table."""
         found: dict[str, int] = {}
         for table in Base.metadata.sorted_tables:
             for column in table.columns:

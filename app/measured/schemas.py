@@ -1,4 +1,4 @@
-"""JSON forms of measured recordings. A mapping is given as JSON, or as text in YAML."""
+"""JSON forms of measured recordings. A mapping is JSON, or YAML as a string."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.text import Storable
 
 
 class Mapped(BaseModel):
-    """An uploaded file, by its checksum, and how to read it."""
+    """An uploaded file, named by its checksum, and the mapping by which to read it."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -20,14 +20,14 @@ class Mapped(BaseModel):
 
 
 class Import(Mapped):
-    """What to keep of it, under which name, and who asks."""
+    """An import: file, mapping, name of the recording, and the person who imports."""
 
     name: Storable = Field("", max_length=200)
     imported_by: Storable = Field("", max_length=80)
 
 
 class RecordingOut(BaseModel):
-    """A recording without its samples. Its channels' statistics are in their `unit`, as shown; the HDF5 is in SI."""
+    """A recording without its samples. Statistics of a channel are in its `unit`; the HDF5 file is in SI units."""
 
     model_config = ConfigDict(from_attributes=True)
 
@@ -57,14 +57,14 @@ class RecordingDetail(RecordingOut):
 
 
 class RecordingList(BaseModel):
-    """A page of recordings and their number in all."""
+    """A page of recordings, and the total number."""
 
     recordings: list[RecordingOut]
     total: int
 
 
 class EarlierMapping(BaseModel):
-    """The mapping of an earlier import, the newest where several used the same."""
+    """The mapping of an earlier import, and the newest recording that was imported by it."""
 
     recording: str
     name: str
@@ -73,7 +73,7 @@ class EarlierMapping(BaseModel):
 
 
 class Uploaded(BaseModel):
-    """What is in an uploaded file, the mapping guessed for it and the earlier ones whose columns it has."""
+    """The columns of an uploaded file, the proposed mapping, and the mappings of earlier imports that fit its columns."""
 
     sha256: str
     size: int

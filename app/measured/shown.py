@@ -1,4 +1,4 @@
-"""What people see of a table and of a recording: statistics and decimated channels, in the units that are shown."""
+"""Statistics and decimated channels of a table or a recording, in the units shown."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from rths_engine.recordings.measured import Column, Examined, Finding, Mapping, 
 from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, shown
 from rths_engine.results.decimate import extremes
 
-BUCKETS = 700  # a plot's pixels, about
+BUCKETS = 700  # about the width of a plot in pixels
 LOOP_POINTS = 4000
 DIGITS = 7
 
 
 def roles() -> dict[str, Any]:
-    """The roles a column can have, each with the units that fit without a gain, and all units by their dimension."""
+    """The roles that a column can have, each with its dimensions, and all units by dimension."""
     units: dict[str, list[str]] = {}
     for unit in UNITS:
         units.setdefault(dimension(unit), []).append(unit)
@@ -34,13 +34,13 @@ def column(one: Column) -> dict[str, Any]:
 
 
 def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:
-    """The channels by a mapping, and what was found wrong with them; no channels where the time or the values can't be used."""
-    told = [{**one.as_dict(), "column": _column(one, mapping)} for one in found.findings]
-    return {"mapping": mapping.as_dict(), "findings": told, **preview(found.measured)}
+    """The channels by a mapping, and the findings about them. There are no channels if the time or the values are invalid."""
+    findings = [{**one.as_dict(), "column": _column(one, mapping)} for one in found.findings]
+    return {"mapping": mapping.as_dict(), "findings": findings, **preview(found.measured)}
 
 
 def preview(measured: Measured | None) -> dict[str, Any]:
-    """Decimated channels and force-displacement loops of a recording; empty where the mapping gives none."""
+    """Decimated channels and force-displacement loops of a recording; empty without a recording."""
     if measured is None:
         return {"channels": [], "loops": [], "samples": None, "dt_s": None, "start_s": None}
     channels = [_decimated(one, measured) for one in measured.channels]
@@ -50,7 +50,7 @@ def preview(measured: Measured | None) -> dict[str, Any]:
 
 
 def described(one: MeasuredChannel) -> dict[str, Any]:
-    """A channel without its samples; `unit` and statistics as shown."""
+    """A channel without its samples, with `unit` and statistics in the unit shown."""
     values, unit = shown(one.values, one.unit)
     named = {"key": one.key, "role": one.role, "number": one.number, "label": one.label, "column": one.column}
     return {**named, "unit": unit, **_statistics(values)}
@@ -68,7 +68,7 @@ def _moved(measured: Measured, number: int) -> bool:
 
 
 def _loop(measured: Measured, number: int) -> dict[str, Any]:
-    """Force against displacement, every n-th sample."""
+    """Force against displacement of a station, every n-th sample."""
     every = -(-measured.samples // LOOP_POINTS)
     x, x_unit = shown(measured.get("x_meas", number)[::every], "m")
     y, y_unit = shown(measured.get("f_meas", number)[::every], "N")
@@ -93,7 +93,7 @@ def _rounded(values: Array, digits: int) -> list[float | None]:
 
 
 def _column(finding: Finding, mapping: Mapping) -> str | int | None:
-    """The column that a finding is about; a clock's findings name theirs."""
+    """The column that a finding is about, or None; a finding about a time column names the column itself."""
     for channel in mapping.channels:
         if finding.channel in {channel.key, f"t ({channel.column})"}:
             return channel.column

@@ -1,4 +1,4 @@
-"""The record library's service of a request."""
+"""The service of ground motions of a request."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""REST of the record library."""
+"""REST endpoints of the library of ground motions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Text = Annotated[str, Form(max_length=200)]
 
 @router.get("")
 def listed(motions: Motions) -> dict[str, Any]:
-    """Every ground motion with PGA, step and duration."""
+    """List the ground motions with PGA, time step and duration."""
     return {"motions": motions.listed()}
 
 
@@ -25,7 +25,7 @@ def listed(motions: Motions) -> dict[str, Any]:
 def upload(
     motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", name: Text = ""
 ) -> dict[str, Any]:
-    """Store a record: PEER AT2, COSMOS V2 or columns; `unit` and `dt` (s) where the file does not say."""
+    """Add a ground motion: PEER AT2, COSMOS V2 or columns. Give `unit` and `dt` (s) if the file does not state them."""
     return motions.add(motions.read(file.file.read(), file.filename or "", unit, dt, name))
 
 
@@ -33,13 +33,13 @@ def upload(
 def look(
     motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", name: Text = ""
 ) -> dict[str, Any]:
-    """Read a record and show it; nothing is stored."""
+    """Read a ground motion and return its samples and response spectrum. Nothing is stored."""
     return preview(motions.read(file.file.read(), file.filename or "", unit, dt, name))
 
 
 @router.get("/{name}")
 def one(name: str, motions: Motions) -> dict[str, Any]:
-    """A ground motion with PGA, step, duration and provenance."""
+    """A ground motion with PGA, time step, duration and provenance."""
     return motions.summary(name)
 
 
@@ -51,5 +51,5 @@ def shown(name: str, motions: Motions) -> dict[str, Any]:
 
 @router.delete("/{name}", status_code=204, response_class=Response, responses=told(422))
 def remove(name: str, motions: Motions) -> None:
-    """Delete a ground motion that was added; bundled ones stay."""
+    """Delete a ground motion that was uploaded. Bundled ground motions cannot be deleted."""
     motions.remove(name)

@@ -1,1 +1,1 @@
-"""Plans: check, preview and templates."""
+"""Plans: checks, previews and templates."""

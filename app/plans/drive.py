@@ -1,4 +1,4 @@
-"""A drive before it is run: its displacement against time, for people to look at."""
+"""Preview of a drive: its displacement against time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SAMPLES, BUCKETS = 40_000, 500
 
 
 class Asked(Value):
-    """The part of a plan that decides the command."""
+    """The fields of a plan that decide the command."""
 
     drive: Drive = Field(title="Drive")
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000)
@@ -25,7 +25,7 @@ class Asked(Value):
 
 
 def preview(data: Any) -> dict[str, Any]:
-    """Time (s) and displacement (m) with every extreme, peak (m), largest velocity (m/s). Raises PlanError."""
+    """Decimated time (s) and displacement (m) with all extremes, peak (m) and largest velocity (m/s). Raises PlanError."""
     asked = validated(Asked, data)
     issues = tuple(too_long("drive.shape", asked.drive.shape))
     if issues:

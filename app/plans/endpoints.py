@@ -1,4 +1,4 @@
-"""REST of plans and templates."""
+"""REST endpoints of plans and templates."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ YAML: dict[str, Any] = {"requestBody": {"required": True, "content": {"applicati
 
 @router.get("/templates")
 def templates(plans: Plans) -> dict[str, Any]:
-    """The templates by name, title and group."""
+    """List the templates, each with name, title and group."""
     return {"templates": plans.templates()}
 
 
@@ -30,32 +30,32 @@ def template(name: str, plans: Plans) -> TemplateOut:
 
 @router.get("/schema")
 def schema(plans: Plans) -> dict[str, Any]:
-    """JSON schema of a plan: each number says its unit, the unit shown to people and the factor between them.
+    """JSON Schema of a plan. Each number has its SI unit, the unit shown to people and the factor between them.
 
-    Beside it `measures` and `channels` declare what a test gives, and `glossary` explains the terms.
+    `measures` and `channels` declare the outputs of a test; `glossary` explains the terms.
     """
     return plans.schema()
 
 
 @router.post("/plans/check")
 def check(plan: Annotated[PlanData, Body()], plans: Plans) -> CheckOut:
-    """Check a plan without queueing it."""
+    """Check a plan without queueing it. The response has every default, the digest, warnings and a summary."""
     return CheckOut(**plans.check(plan))
 
 
 @router.post("/plans/drive")
 def drive(data: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, Any]:
-    """The displacement of `{drive, controller_rate, duration}` against time, its peak and its largest velocity."""
+    """The displacement of a drive against time, its peak and its largest velocity, for `{drive, controller_rate, duration}`."""
     return plans.drive(data)
 
 
 @router.post("/plans/read", openapi_extra=YAML)
 async def read(request: Request, plans: Plans) -> PlanData:
-    """Plan YAML as JSON."""
+    """Convert a plan from YAML to JSON."""
     return await run_in_threadpool(plans.read, await request.body())
 
 
 @router.post("/plans/write", response_class=Response, responses=file("application/yaml"))
 def write(plan: Annotated[PlanData, Body()], plans: Plans) -> PlainTextResponse:
-    """Plan JSON as YAML."""
+    """Convert a plan from JSON to YAML."""
     return PlainTextResponse(plans.write(plan), media_type="application/yaml")

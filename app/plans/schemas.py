@@ -10,7 +10,7 @@ from app.openapi import PlanData
 
 
 class TemplateOut(BaseModel):
-    """A template's plan, and the paper's row where it is a simulation of Table III."""
+    """The plan of a template, and the paper's results if the template is a simulation of Table III."""
 
     name: str
     plan: PlanData
@@ -18,17 +18,17 @@ class TemplateOut(BaseModel):
 
 
 class Summary(BaseModel):
-    """What a plan amounts to."""
+    """Periods, number of steps, duration and ground motion of a plan."""
 
-    periods_s: list[float] = Field(description="natural periods, the first mode's first")
-    steps: int = Field(description="integration steps")
+    periods_s: list[float] = Field(description="natural periods, s, from the first mode on")
+    steps: int = Field(description="number of integration steps")
     duration_s: float
     pga: float | None = Field(description="peak ground acceleration, m/s^2; null without ground motion")
     scale_factor: float | None
 
 
 class CheckOut(BaseModel):
-    """A plan as it is understood, every default written out."""
+    """A checked plan with every default, its digest, warnings and a summary."""
 
     plan: PlanData
     digest: str

@@ -1,4 +1,4 @@
-"""REST of runs and the queue."""
+"""REST endpoints of runs and the queue."""
 
 from __future__ import annotations
 

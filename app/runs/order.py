@@ -1,4 +1,4 @@
-"""What the engine is given to execute a run, and what it returns. Imports nothing heavy: the engine loads it too."""
+"""The order for the execution of a run, and its outcome. Imports nothing heavy, because the engine process loads it too."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.jobs.order import Order
 
 @dataclass(frozen=True, slots=True)
 class RunOrder(Order):
-    """One execution of a run: its plan, the file for its recording, and the folder of the laboratory's records."""
+    """The order for one execution of a run: plan, path of the recording, and folder of the uploaded ground motions."""
 
     plan: dict[str, Any]
     recording: Path
@@ -20,7 +20,7 @@ class RunOrder(Order):
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How an execution ended: the run's summary, and checksum and size of its recording."""
+    """The outcome of an execution: summary of the run, and checksum and size (bytes) of its recording."""
 
     summary: dict[str, Any]
     recording_sha256: str

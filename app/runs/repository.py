@@ -31,7 +31,7 @@ MEASURES = tuple(one.key for one in of(StationMeasure))
 
 @dataclass(frozen=True, slots=True)
 class Filter:
-    """What runs to list."""
+    """The filter of a list of runs."""
 
     states: tuple[State, ...] = ()
     text: str = ""
@@ -43,7 +43,7 @@ class Filter:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """Order and part of a list."""
+    """Order and page of a list."""
 
     sort: str = "number"
     descending: bool = True
@@ -67,7 +67,7 @@ class RunRepository(JobRepository[Run]):
         return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
 
     def most_stations(self) -> int:
-        """Largest number of a station with measures; 0 before the first test has ended."""
+        """Largest station number of all runs with measures; 0 before the first test has ended."""
         return self.session.scalar(sa.select(sa.func.max(RunStation.number))) or 0
 
     def in_states(self, *states: State) -> list[Run]:

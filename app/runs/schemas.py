@@ -16,7 +16,7 @@ from rths_engine.results.measure import FloorMeasure, RunMeasure, StationMeasure
 
 
 class Submission(BaseModel):
-    """One plan or a list of plans, and who submits."""
+    """One plan or a list of plans, and the person who submits."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -26,7 +26,7 @@ class Submission(BaseModel):
 
 
 class Person(BaseModel):
-    """Who asks."""
+    """The person who makes the request."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -46,7 +46,7 @@ else:
 
 
 class StationOut(_StationMeasured):
-    """One station: its measures in shown units, null where a measure is not defined or not known."""
+    """The measures of one station in the units shown; null where a measure is not defined or not known."""
 
 
 class RecordingOut(BaseModel):
@@ -111,7 +111,7 @@ class RunDetail(RunOut):
 
 
 class RunList(BaseModel):
-    """A page of runs and their number in all."""
+    """A page of runs, and the total number."""
 
     runs: list[RunOut]
     total: int
@@ -124,7 +124,7 @@ class Submitted(BaseModel):
 
 
 class QueueOut(BaseModel):
-    """The queue as the Lab page shows it."""
+    """State of the queue and of the workers."""
 
     held: bool
     held_by: str | None

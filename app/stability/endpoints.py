@@ -1,4 +1,4 @@
-"""REST of stability, and plotly.js for its page."""
+"""REST endpoint of stability, and plotly.js for its page."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ router = APIRouter(tags=["plans"])
 
 @router.post("/api/v1/stability")
 def predict(plan: Annotated[Any, PLAN, Body()]) -> dict[str, Any]:
-    """Predicted stability of a plan about rest: spectral radius, modes, delay margins, and a map over two stations' delays."""
+    """Predict the stability of a plan about rest: spectral radius, modes, delay margins, and a map over two delays."""
     return StabilityService().predict(plan)
 
 
 @router.get("/static/plotly.min.js", include_in_schema=False)
 def plotly() -> Response:
-    """plotly.js of the installed wheel."""
+    """plotly.js from the installed package plotly."""
     headers = {"Cache-Control": "public, max-age=86400", "X-Content-Type-Options": "nosniff"}
     return Response(_plotly(), media_type="text/javascript", headers=headers)
 

@@ -1,4 +1,4 @@
-"""Predicted stability of a plan, and its map over two stations' delays."""
+"""Predicted stability of a plan, and its map over the delays of two stations."""
 
 from __future__ import annotations
 
@@ -14,6 +14,6 @@ class StabilityService:
     """Predicts the stability of a plan's closed loop."""
 
     def predict(self, data: Any) -> dict[str, Any]:
-        """Radius, verdict, modes, delay margins and the map (null for fewer than two stations). Raises PlanError."""
+        """Spectral radius, verdict, modes, delay margins, and the map (null with fewer than two stations). Raises PlanError."""
         model = read_model(data)
         return {"name": model.plan.name, **stability.summary(model), "map": stability.mapped(model, POINTS)}

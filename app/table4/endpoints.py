@@ -1,4 +1,4 @@
-"""REST of the comparison with Table IV."""
+"""REST endpoints of the comparison with Table IV."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ NOBODY = Person()
 
 @router.get("")
 def table(table4: Table4) -> TableOut:
-    """The newest run of each of the paper's twelve simulations beside its Table IV."""
+    """The newest run of each of the twelve simulations of Table IV, beside the paper's values."""
     return table4.table()
 
 
 @router.post("", status_code=201)
 def submit(table4: Table4, person: Annotated[Person, Body()] = NOBODY) -> Submitted:
-    """Queue the twelve simulations on the emulated laboratory, under the bundled record."""
+    """Queue the twelve simulations of Table IV on the emulated laboratory, with the bundled record."""
     return Submitted(runs=[RunOut.of(run) for run in table4.submit(person.by)])

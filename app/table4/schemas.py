@@ -23,13 +23,14 @@ else:
 
 
 class PaperOut(_Published):
-    """The published measures of a simulation that was stable, first and second station."""
+    """The published measures of a stable simulation, for the first and the second station."""
 
 
 class SimulationOut(BaseModel):
-    """One simulation: its compensation, its newest run, and the paper's measures (null where it was unstable).
+    """One simulation: its compensation, its newest run, and the paper's measures (null if the paper's test was unstable).
 
-    `calibrated`: parameters of the emulated laboratory were chosen on it. `changed`: the run's plan is not the page's.
+    `calibrated`: parameters of the emulated laboratory were fitted to this simulation. `changed`: the plan of the run differs
+    from the present plan of the simulation.
     """
 
     simulation: int
@@ -42,7 +43,7 @@ class SimulationOut(BaseModel):
 
 
 class TableOut(BaseModel):
-    """Counts are of the simulations that ran to an end; factors are exp |ln(ours/paper)| of MTE, RMS and MTI."""
+    """The comparison with Table IV. Counts are over ended simulations; factors are exp |ln(ours/paper)| of MTE, RMS, MTI."""
 
     simulations: list[SimulationOut]
     ended: int

@@ -23,12 +23,12 @@ class Table4Service:
         self.runs = runs
 
     def submit(self, by: str) -> list[Run]:
-        """Queue the twelve simulations under the bundled record, all or none."""
+        """Queue the twelve simulations with the bundled record, all or none."""
         plans = [plan.as_dict() for plan in engine.plans(engine.BUNDLED).values()]
         return self.runs.submit(plans, by)
 
     def table(self) -> TableOut:
-        """The newest run of each simulation beside the paper's, and how they compare."""
+        """The newest run of each simulation beside the paper's values, and the comparison."""
         simulations = [self._simulation(number) for number in engine.PAPER]
         ended = {one.simulation: one.run for one in simulations if one.run and one.run.state in SHOWN}
         found = engine.comparison([_row(number, run) for number, run in ended.items()])

@@ -1,1 +1,1 @@
-"""The worker: executes queued jobs in processes of its own."""
+"""The worker: executes queued jobs in its own processes."""

@@ -1,4 +1,4 @@
-"""The process of a job, as the process sees it: it takes orders, sends what happens, and ends with its worker."""
+"""The process of a job: it executes orders, sends messages to its worker, and ends when the worker ends."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ from app.jobs.order import Order
 
 @dataclass(frozen=True, slots=True)
 class Cancel:
-    """A request to stop a job; it may come when the job has just ended, and then changes nothing."""
+    """A request to stop a job; without effect if the job has already ended."""
 
     job_id: str
 
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """The process is prepared and takes orders."""
+    """The process is ready for orders."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stopping:
-    """The answer to Cancel: the job has stopped, and what it has is being saved."""
+    """The answer to Cancel: the job has stopped, and the process is saving its result."""
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """What is being done, and the share of the whole that is done, 0 to 1."""
+    """Progress of a job: the present step in words, and the share that is done, 0 to 1."""
 
     doing: str
     share: float
@@ -41,24 +41,24 @@ class Progress:
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """The result of a job, as its kind stores it."""
+    """The result of a job, for `Kind.store`."""
 
     result: Any
 
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """Why a job could not be executed."""
+    """The reason why a job failed."""
 
     reason: str
 
 
 class Refused(Exception):
-    """A job cannot be executed; the message is the reason that people read."""
+    """A job that cannot be executed; the message is the reason that people read."""
 
 
 class Line:
-    """The process' end of the pipe to its worker. A thread listens, so that a cancel or the worker's end is heard at once."""
+    """The process' end of the pipe to its worker. A thread reads it, so that a cancel or the end of the worker acts at once."""
 
     def __init__(self, pipe: Connection):
         self._pipe = pipe
@@ -68,7 +68,7 @@ class Line:
         threading.Thread(target=self._listen, daemon=True, name="rths-line").start()
 
     def order(self) -> Order:
-        """The next order; waits for it."""
+        """Wait for the next order and return it."""
         return self._orders.get()
 
     def send(self, message: Any) -> None:
@@ -79,15 +79,15 @@ class Line:
         self.send(message)
 
     def progress(self, doing: str, share: float) -> None:
-        """Send how far the job is; `share` of the whole, 0 to 1."""
+        """Send the progress of the job: the present step in words, and the share that is done, 0 to 1."""
         self.send(Progress(doing, min(1.0, max(0.0, float(share)))))
 
     def cancelled(self, within_s: float = 0.0) -> bool:
-        """Whether someone asked to stop the job; waits `within_s` seconds for that."""
+        """Whether the job was cancelled; waits up to `within_s` seconds for a cancel."""
         return self._cancelled.wait(within_s)
 
     def stopping(self) -> None:
-        """Answer a cancel: the job has stopped, and what it has is being saved."""
+        """Answer a cancel: the job has stopped, and the process is saving its result."""
         self.send(Stopping())
 
     def _listen(self) -> None:
@@ -106,7 +106,7 @@ class Line:
 
 def serve(pipe: Connection, module: str, niceness: int) -> None:
     """Execute orders with `module` (`Kind.process`) until the worker ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the worker too, which ends this process in its order
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C also reaches the worker, which ends this process
     line = Line(pipe)
     os.nice(niceness)
     executing = importlib.import_module(module)

@@ -7,11 +7,11 @@ from app.worker.child import Line, Refused
 
 
 def prepare() -> None:
-    """Nothing is compiled ahead: the diagnosis loads what it needs."""
+    """Do nothing: a diagnosis loads what it needs."""
 
 
 def execute(order: DiagnosisOrder, line: Line) -> Diagnosed:
-    """Diagnose a recording. Raises Refused where the recording does not fit the plan."""
+    """Diagnose a recording. Raises Refused if the recording does not fit the plan."""
     from rths_engine.diagnosis.pictures import pictures
     from rths_engine.diagnosis.verdict import diagnose
     from rths_engine.foundation.errors import RthsError, renamed
@@ -29,6 +29,6 @@ def execute(order: DiagnosisOrder, line: Line) -> Diagnosed:
 
 
 def _names(order: DiagnosisOrder) -> dict[str, str]:
-    """What the engine calls its recordings -> what people read of them."""
+    """Name of each recording in the engine's errors -> its name in the reason of the job."""
     heldout = {f"heldout.{place}": f"Held-out recording {place + 1}" for place in range(len(order.heldout))}
     return {"recording": "The recording", **heldout}

@@ -1,4 +1,4 @@
-"""The worker that the web process starts, restarts when it dies, and takes along when it ends."""
+"""The embedded worker: the web process starts it, restarts it when it dies, and ends it at its own end."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LIVED_S = 30.0
 
 
 class EmbeddedWorker:
-    """A child process; its standard input is a pipe that closes with this process, however that ends."""
+    """The worker as a child process. Its standard input is a pipe that closes when this process ends, however it ends."""
 
     def __init__(self, settings: Settings):
         self.settings = settings

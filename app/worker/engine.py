@@ -1,4 +1,4 @@
-"""The engine's own process: executes one test at a time and sends frames and progress to its worker."""
+"""The engine process: executes one test at a time and sends frames and progress to its worker."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from app.live.messages import progress, schema
 from app.runs.order import Outcome, RunOrder
 from app.worker.child import Line, Refused
 
-CHUNK_S = 0.02  # wall time between looks for a cancel
+CHUNK_S = 0.02  # wall time between two checks for a cancel
 PROGRESS_S = 0.1
 
 
 def prepare() -> None:
-    """Compile the engine, or load it as compiled before."""
+    """Compile the engine, or load the compiled code from the cache."""
     from rths_engine.running.warm import warm
 
     warm()
 
 
 def execute(order: RunOrder, line: Line) -> Outcome:
-    """Execute a run and save its recording. Raises Refused where its plan cannot be executed."""
+    """Execute a run and save its recording. Raises Refused if its plan cannot be executed."""
     from rths_engine.foundation.errors import RthsError
     from rths_engine.parts.ground_motions import MotionLibrary
     from rths_engine.planning.reading import read_model
@@ -43,7 +43,7 @@ def execute(order: RunOrder, line: Line) -> Outcome:
 
 
 class _Telling:
-    """Advances a run in chunks at its pace, sends frames and progress, and looks for a cancel between chunks."""
+    """Advances a run in chunks at its pace, sends frames and progress, and checks for a cancel between chunks."""
 
     def __init__(self, run: Any, attempt: int, line: Line):
         from rths_engine.results.running import RunningMeasures
@@ -56,7 +56,7 @@ class _Telling:
         line.show(schema(attempt, run.dt, bucket, run.total, run.channels))
 
     def run_to_end(self) -> bool:
-        """True when the test was cancelled."""
+        """Run the test to its end or until it is cancelled; returns whether it was cancelled."""
         pace = self.run.plan.pace
         factor = pace.factor if pace.kind == "real_time" else math.inf
         dt_step = self.run.plan.step
@@ -80,7 +80,7 @@ class _Telling:
         return False
 
     def _wait(self, start: float, factor: float) -> float:
-        """Seconds until the wall clock has come to where the test is."""
+        """Seconds until the wall clock reaches the time of the test."""
         due: float = self.run.done * self.run.dt / factor
         return max(0.0, due - (time.perf_counter() - start))
 

@@ -1,4 +1,4 @@
-"""The kinds of job that a worker executes. A further kind is one line here."""
+"""The kinds of job that a worker executes. Each kind is one line here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The worker's one websocket to the web: frames and messages up. Best effort: the recording is the record."""
+"""The websocket from a worker to the web service, for frames and messages. Frames may be lost; the recording is complete."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BACK_OFF_S = (0.2, 5.0)
 
 
 class Telling:
-    """What is to be told of one execution; kept whole, so that a new connection can be told all of it."""
+    """All frames and messages of one execution, stored so that they can be sent again over a new connection."""
 
     def __init__(self, run_id: str, attempt: int):
         self.run_id, self.attempt = run_id, attempt
@@ -29,23 +29,23 @@ class Telling:
         self.store: FrameStore | None = None
         self.ended = False
 
-    def take(self, told: Any) -> None:
-        """A message of the engine: schema, progress or a frame."""
-        if isinstance(told, bytes):
+    def take(self, message: Any) -> None:
+        """Take a message of the engine: schema, progress or a frame."""
+        if isinstance(message, bytes):
             if self.store is not None:
-                self.store.append(told)
-        elif told["type"] == "schema":
-            self.store, self.schema = FrameStore(len(told["channels"])), told
+                self.store.append(message)
+        elif message["type"] == "schema":
+            self.store, self.schema = FrameStore(len(message["channels"])), message
         else:
-            self.progress = told
+            self.progress = message
 
     def forget(self) -> None:
-        """Keep only that it ended: the rest is in the recording."""
+        """Drop all frames and messages except the end: they are in the recording."""
         self.schema = self.store = self.progress = None
 
 
 class _Cursor:
-    """How far one connection has been told of one execution."""
+    """What one connection has already sent of one execution."""
 
     def __init__(self, telling: Telling):
         self.telling = telling
@@ -53,7 +53,7 @@ class _Cursor:
         self.progress: dict[str, Any] | None = None
 
     def tell(self, socket: ClientConnection) -> bool:
-        """Send what is new; True once the end was told."""
+        """Send everything new; returns whether the end was sent."""
         telling = self.telling
         ended = telling.ended
         if telling.schema is not None and telling.store is not None:
@@ -76,7 +76,7 @@ class _Cursor:
 
 
 class Link:
-    """Runs in a thread; reconnects with back-off and tells the new connection everything again."""
+    """The connection to the web service, in a thread. It reconnects after pauses and then sends everything again."""
 
     def __init__(self, url: str, token: str):
         self.url, self.token = url, token
@@ -108,7 +108,7 @@ class Link:
             delay = min(2 * delay, BACK_OFF_S[1])
 
     def _forget_ended(self) -> None:
-        """However long the web is away, ended runs take no memory here."""
+        """Free the memory of runs that have ended while there is no connection."""
         with self._lock:
             for telling in self._tellings:
                 if telling.ended:

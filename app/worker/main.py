@@ -1,4 +1,7 @@
-"""A worker: takes jobs of every kind from their queues. `python -m app.worker` starts one anywhere with the same database."""
+"""The worker: executes jobs of every kind from their queues.
+
+`python -m app.worker` starts a worker on any machine that reaches the database and the data folder.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +34,7 @@ from app.worker.link import Link
 log = logging.getLogger("rths.worker")
 WATCH_S = 0.1
 BEAT_S = 1.0
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # engines share the cores among themselves
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # the processes of jobs share the cores
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -41,7 +44,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--database-url", help="database (RTHS_DATABASE_URL)")
     parser.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the web service")
     parser.add_argument("--name", default=f"{socket.gethostname()}-{os.getpid()}", help="name of this worker")
-    parser.add_argument("--workers", type=int, dest="worker_concurrency", help="tests at a time (RTHS_WORKERS)")
+    parser.add_argument("--workers", type=int, dest="worker_concurrency", help="tests at the same time (RTHS_WORKERS)")
     parser.add_argument("--with-parent", action="store_true", help="end when standard input closes")
     given = parser.parse_args(arguments)
     settings = from_environment(
@@ -49,7 +52,7 @@ def main(arguments: list[str] | None = None) -> None:
     ).prepared()
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
     if given.with_parent:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the parent too, which ends this process in its order
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C also reaches the parent, which ends this process
         threading.Thread(target=_end_with_parent, daemon=True).start()
     work(settings, given.web, given.name)
 
@@ -85,7 +88,7 @@ def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any,
 
 
 def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
-    attempts = MOST_ATTEMPTS + 1  # the last one parks the job
+    attempts = MOST_ATTEMPTS + 1  # the last attempt ends the job as failed
 
     @DBOS.step(name=f"execute-{kind.name}", retries_allowed=True, max_attempts=attempts)
     def execute(job_id: str) -> None:
@@ -97,7 +100,7 @@ def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
 
 
 def _watch(executor: Executor, maker: sessionmaker[Session], name: str) -> None:
-    """Pass on progress and cancels, say that this worker is alive, and take over the jobs of workers that are not."""
+    """Store progress, pass on cancels, write this worker's heartbeat, and take over the jobs of workers that have died."""
     beaten = 0.0
     while True:
         try:

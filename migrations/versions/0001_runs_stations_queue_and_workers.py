@@ -1,5 +1,6 @@
-"""runs, stations, queue and workers
+"""Create the tables of runs, stations, the queue and workers
 
+Revision ID: 0001
 Revises:
 """
 

@@ -1,4 +1,4 @@
-"""Measures beyond the paper's and the input energy of a run
+"""Add the measures that the paper does not have, and the input energy of a run
 
 Revision ID: 0002
 Revises: 0001

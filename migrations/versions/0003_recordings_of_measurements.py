@@ -1,4 +1,4 @@
-"""Raw files of measurements and the recordings imported from them
+"""Create the tables of uploaded files of measurements and of the recordings imported from them
 
 Revision ID: 0003
 Revises: 0002

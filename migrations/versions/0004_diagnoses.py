@@ -1,4 +1,4 @@
-"""Diagnoses of recordings and what they were made from
+"""Create the tables of diagnoses and of the recordings that they read
 
 Revision ID: 0004
 Revises: 0003

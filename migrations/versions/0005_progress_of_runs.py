@@ -1,4 +1,4 @@
-"""What a run is doing, and which share of it is done, as for every kind of job
+"""Add the progress of a run: the present step and the share done, as for every kind of job
 
 Revision ID: 0005
 Revises: 0004

@@ -169,7 +169,7 @@ def test_a_plan_with_mistakes_is_refused_with_one_line_for_each(
         (None, "No such file"),
         (b"", "a mapping of fields"),
         (b"name: [", "no YAML"),
-        (b"\x89HDF\r\n\xff", "no text in UTF-8"),
+        (b"\x89HDF\r\n\xff", "is not valid UTF-8 text"),
         (b"- 1\n- 2\n", "a mapping of fields"),
     ],
 )
@@ -232,7 +232,7 @@ def test_motions_lists_every_record_with_its_peak(capsys: pytest.CaptureFixture[
 
     assert main(["motions"]) == 0
     heading, *rows = capsys.readouterr().out.splitlines()
-    assert "PGA g" in heading and [row.split()[0] for row in rows] == MotionLibrary(None).names()
+    assert "PGA, g" in heading and [row.split()[0] for row in rows] == MotionLibrary(None).names()
 
 
 def test_a_reader_that_stops_early_gets_no_traceback() -> None:

@@ -79,8 +79,8 @@ def test_a_clean_recording_is_not_accused(folder: Path) -> None:
         (["slow.yaml", "clean.h5"], "clean.h5: has 512 samples a second; the plan's controller rate is 256 Hz"),
         (["plan.yaml", "clean.h5", "--holdout", "slow.h5"], "--holdout slow.h5: has 256 samples a second"),
         (["plan.yaml", "clean.h5", "--with", "clean.h5", "slow.h5"], "--with slow.h5: has 256 samples a second"),
-        (["plan.yaml", "clean.h5", "--level", "2"], "rate of false alarms between 0 and 1"),
-        (["plan.yaml", "clean.h5", "--json", "missing/out.json"], "there is no such folder"),
+        (["plan.yaml", "clean.h5", "--level", "2"], "needs a false-alarm rate between 0 and 1"),
+        (["plan.yaml", "clean.h5", "--json", "missing/out.json"], "there is no folder missing"),
     ],
 )
 def test_what_cant_be_diagnosed_is_refused_with_the_reason(

@@ -83,14 +83,17 @@ def test_a_taken_port_is_refused_with_the_way_to_choose_another(
     taken: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["serve", "--port", str(taken), "--data", str(tmp_path)]) == 2
-    assert f"port = {taken}: is taken" in (err := capsys.readouterr().err) and f"RTHS_PORT={taken + 1} make run" in err
+    assert (
+        f"port = {taken}: is in use by another program" in (err := capsys.readouterr().err)
+        and f"RTHS_PORT={taken + 1} make run" in err
+    )
 
 
 @pytest.mark.parametrize(
     ("options", "variable", "problem"),
     [
         (["--port", "70000"], None, "port = 70000: needs 1 to 65535"),
-        (["--host", "203.0.113.7"], None, "can't be listened on"),
+        (["--host", "203.0.113.7"], None, "can't listen on this address"),
         (["--data", "/dev/null/rths"], None, "data folder = /dev/null/rths: can't be used"),
         ([], ("RTHS_PORT", "http"), "RTHS_PORT = http: needs a whole number"),
         ([], ("RTHS_DATABASE_URL", "nonsense"), "database: can't be opened"),

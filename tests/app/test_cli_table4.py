@@ -40,10 +40,10 @@ def test_the_twelve_are_printed_beside_the_papers_and_written_as_json(
 
 def test_a_bare_file_is_read_as_the_papers_record_is_unless_told(record: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["table4", "--record", str(record), "--factor", "0.1"]) == 0
-    assert "101 values every 0.02 s, times 0.1, then peaks at 0.030 g" in capsys.readouterr().out
+    assert "101 values every 0.02 s, scaled by 0.1, scaled peak 0.030 g" in capsys.readouterr().out
     told = ["--record-dt", "0.01", "--record-unit", "m/s^2", "--factor", "0.5"]
     assert main(["table4", "--record", str(record), *told]) == 0
-    assert "101 values every 0.01 s, times 0.5, then peaks at 0.015 g" in capsys.readouterr().out
+    assert "101 values every 0.01 s, scaled by 0.5, scaled peak 0.015 g" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -208,7 +208,7 @@ def test_a_stop_yields_at_its_reach() -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [(["--cases", "0"], "--cases = 0: needs to be at least 1"), (["--seed", "-1"], "--seed"), (["--only", "bridge"], "--only")],
+    [(["--cases", "0"], "--cases = 0: needs a value >= 1"), (["--seed", "-1"], "--seed"), (["--only", "bridge"], "--only")],
 )
 def test_what_can_not_be_proved_is_refused(
     arguments: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
