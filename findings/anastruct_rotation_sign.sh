@@ -7,8 +7,8 @@
 # Version:     anastruct 1.7.0
 # Expectation: Clapeyron: the work of a load on an elastic structure is positive, so a load and its own displacement have the same
 #              sign; in a right-handed system a small rotation about z is the slope of uy along x.
-# For users:   turn the sign of rotations before you build a stiffness matrix or a flexibility from anaStruct's results: otherwise
-#              the rotational terms are negative and the structure seems to give energy away.
+# For users:   reverse the sign of rotations before you build a stiffness or flexibility matrix from anaStruct's results: otherwise
+#              the rotational terms are negative and the structure seems to generate energy.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

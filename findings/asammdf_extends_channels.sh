@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# asammdf's data frame shows a force long before it was recorded.
+# asammdf's data frame contains a force at times when no force was recorded.
 #
 # Surprise:    `MDF.to_dataframe` brings channels of different groups onto one time base, and fills the times before a channel's
-#              first sample, and after its last one, with that sample. A force recorded from 10 s to 15 s of a 20 s test stands
-#              there from 0 s to 20 s, without a missing value. `interpolate_outwards_with_nan=True` leaves those times empty.
+#              first sample with that sample, and the times after its last sample with the last sample. A force recorded from 10 s
+#              to 15 s of a 20 s test has values from 0 s to 20 s. `interpolate_outwards_with_nan=True` leaves these times empty.
 # Version:     asammdf 8.8.28
 # Expectation: the MDF standard of ASAM gives each channel group a time channel of its own; outside it no value was measured, and
 #              a data frame has NaN for that. asammdf's documentation lists the option, off by default.
 # For users:   export with `interpolate_outwards_with_nan=True`. Otherwise the import sees no gap, and a model is compared with a
-#              force that nobody measured.
+#              force that was not measured.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Two readers of PEER's AT2 format lose the last line of a record; one of them writes it into the middle.
+# Two readers of PEER's AT2 format lose the last line of a record; one of the two writes it into the middle.
 #
-# Surprise:    a record whose number of points is no multiple of five ends with a shorter line. earthquakepy computes the place of
-#              a line from that line's own length, so the last points overwrite two earlier ones (of 2002 points: numbers 800 and
-#              801) and the end of the record is zero. quakeio drops the last line always, also where it is full, so up to five
-#              points are missing. Neither raises an error; both know NPTS from the header.
+# Surprise:    a record ends with a shorter line if its number of points is not a multiple of five. earthquakepy computes the
+#              position of a line from the length of that line, so the last points overwrite two earlier points (of 2002 points:
+#              numbers 800 and 801) and the end of the record is zero. quakeio always drops the last line, also a full line, so up
+#              to five points are missing. Neither raises an error; both read NPTS from the header.
 # Version:     earthquakepy 0.4.1, quakeio 0.1.21
 # Expectation: PEER's ground-motion files state NPTS and DT in the fourth line; NPTS values follow, five a line, in order.
 # For users:   compare the number of points with NPTS, and the samples with the file's, before you run a test with a record that
-#              another program has read and saved. A jump in the middle of the record is a blow to the specimen.
+#              another program has read and saved. A jump in the middle of the record loads the specimen with an impact.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

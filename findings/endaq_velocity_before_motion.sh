@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# endaq-calc's integral of an acceleration shows a velocity before anything moves.
+# endaq-calc's integral of an acceleration has a velocity before the motion starts.
 #
 # Surprise:    `integrals` subtracts the mean of each integral. A table at rest that is accelerated with 1 m/s^2 from 0.5 s to
-#              0.7 s gets a velocity of -0.14 m/s while it still rests, and +0.06 m/s afterwards instead of 0.2 m/s. No argument
-#              turns this off, and the documentation of the function does not name it.
+#              0.7 s gets a velocity of -0.14 m/s while it is at rest, and +0.06 m/s afterwards instead of 0.2 m/s. No argument
+#              turns this off, and the documentation of the function does not mention it.
 # Version:     endaq-calc 1.1.0.post2
 # Expectation: the integral from the start of the record, zero where the record begins at rest, as the cumulative trapezoid rule
 #              (which the documentation refers to) gives it.
-# For users:   shift the velocity so that it is zero where the specimen rests, and integrate that for the displacement: the mean
-#              that was subtracted becomes a slope in it. Or import the acceleration only.
+# For users:   shift the velocity so that it is zero while the specimen is at rest, and integrate the shifted velocity for the
+#              displacement: without the shift, the subtracted mean becomes a slope of the displacement. Or import the
+#              acceleration only.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -4,7 +4,7 @@
 # Surprise:    `eqsig.sdof.pseudo_response_spectra` returns a pseudo-acceleration equal to the peak ground acceleration for every
 #              period below 6 dt, whatever the record. At resonance with a 20 Hz motion sampled at 100 Hz (T = 5 dt) it returns
 #              0.95, while omega^2 times the displacement that the same function computes is above 8; displacement and velocity
-#              of the returned triple keep the computed value. Neither docstring nor result says so.
+#              of the returned triple keep the computed value. Neither the docstring nor the result reports this.
 # Version:     eqsig 1.2.17
 # Expectation: pseudo-acceleration is defined as omega^2 times the spectral displacement; a lightly damped oscillator (5 %)
 #              in resonance with a harmonic motion reaches up to 1/(2 zeta) = 10 times its amplitude.

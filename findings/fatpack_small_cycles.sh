@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# fatpack's rainflow count rounds every reversal to 64 classes, so small cycles change their size or vanish.
+# fatpack's rainflow count rounds every reversal to 64 classes, so small cycles change their size or are lost.
 #
 # Surprise:    `find_rainflow_ranges(y)` first puts the signal into k = 64 classes between its minimum and maximum. Beside one
 #              cycle of +-100, five cycles of +-10 (range 20) are counted with range 18.75, and five of +-1 are not counted at all.
 # Version:     fatpack 0.7.8
-# Expectation: ASTM E1049 counts the ranges between successive peaks and valleys as they are; classes are a later step, for a
-#              table of the result. The docstring names k, and its default is easily read as a class width of the output.
+# Expectation: ASTM E1049 counts the exact ranges between successive peaks and valleys. Classes are a later step, for a table of
+#              the result. The docstring mentions k, but a reader can take it for the number of classes of the output.
 # For users:   give `k` so large that (max - min) / k is below the smallest cycle that matters, or count displacement cycles of a
 #              damper with a program that works on the reversals themselves.
 set -euo pipefail

@@ -8,7 +8,7 @@
 # Expectation: a result table's row of time t shows the input signal given for time t. FMI 2.0 (co-simulation) holds inputs constant
 #              during a communication step unless derivatives are set, so the delay itself follows the standard.
 # For users:   compare with the signal that you gave, not with the recorded input; with the default (500 steps a run) the delay is
-#              1/500 of the duration. A diagnosis of a recording made so finds a dead time of one step.
+#              1/500 of the duration. A diagnosis of a recording made in this way reports a dead time of one step.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # HELICS delivers a value one time step after it was published, so a loop of two simulators has two steps of delay.
 #
-# Surprise:    two federates advance together in steps of 10 ms. What one publishes at 0.01 s the other sees when it is granted
-#              0.02 s, not at 0.01 s, although both are granted 0.01 s. A displacement sent out returns as a force two steps
-#              later. Before the first value arrives, an input reads -1e49.
+# Surprise:    two federates advance together in steps of 10 ms. A value that the first federate publishes at 0.01 s reaches the
+#              second federate when it is granted 0.02 s, although both are granted 0.01 s. The force that answers a displacement
+#              arrives two steps later. Before the first value arrives, an input reads -1e49.
 # Version:     helics 3.6.1
 # Expectation: the words "publish at time t" and "granted time t" suggest that values of time t are exchanged at t. HELICS's
 #              documentation offers that only on request: by iteration, or by the flag `wait_for_current_time_update` where the
 #              dependence is not cyclic. A hybrid simulation is cyclic.
-# For users:   in a hybrid simulation coupled by HELICS, count one step of delay for each direction, as delay of the actuator, and
-#              compensate for it, or use iteration. A diagnosis finds it as dead time. Give inputs a default value.
+# For users:   in a hybrid simulation coupled by HELICS, count one step of delay for each direction as delay of the actuator, and
+#              compensate for it, or use iteration. A diagnosis reports it as dead time. Give inputs a default value.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -42,7 +42,7 @@ def run(parts, rows):
     for number in range(1, COUNT + 1):
         granted = helics.helicsFederateRequestTime(created, number * STEP)
         rows.append((granted, helics.helicsInputGetDouble(subscription)))
-        helics.helicsPublicationPublishDouble(publication, granted)  # each publishes the time at which it does so
+        helics.helicsPublicationPublishDouble(publication, granted)  # the value is the time of its publication
     helics.helicsFederateDisconnect(created)
 
 

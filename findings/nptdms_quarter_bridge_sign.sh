@@ -6,10 +6,9 @@
 #              bridge is not linear. A linear factor, voltage times 4 / (gauge factor times excitation), gives +0.002 for both.
 # Version:     npTDMS 1.13.0
 # Expectation: the common formula for a small strain, U/U_exc = k * strain / 4, is positive in tension. National Instruments
-#              wires and defines its bridges the other way; its scaling, which npTDMS follows, has a minus sign for that.
-# For users:   a file that holds volts and a file that holds strain of the same gauge differ in sign. When you import one without
-#              the scaling (`raw_data`, or with a factor of your own), set `reverse: true` in the mapping, and check the sign
-#              with a known load.
+#              defines its bridges with the opposite sign; its scaling, which npTDMS follows, has a minus sign for this.
+# For users:   the voltage and the strain of the same gauge differ in sign. When you import a file without the scaling
+#              (`raw_data`, or with your own factor), set `reverse: true` in the mapping, and check the sign with a known load.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# ObsPy reads a K-NET record as counts, and keeps the factor `calib` set after it has applied it.
+# ObsPy reads a K-NET record as counts, and keeps the factor `calib` after it has applied this factor.
 #
 # Surprise:    `obspy.read` returns the digitiser's counts of a K-NET file, although the header holds the scale factor to gal and
 #              ObsPy has turned it into `stats.calib` (m/s^2 per count). `read(..., apply_calib=True)` returns m/s^2, but
 #              `stats.calib` still holds the factor, so code that multiplies by `calib` scales the record twice.
 # Version:     obspy 1.5.1
 # Expectation: the format of NIED defines acceleration in gal as count times the header's scale factor; the header's
-#              "Max. Acc. (gal)" can be checked against it. A factor that has been applied should read 1.
+#              "Max. Acc. (gal)" allows a check. After a factor has been applied, it should be 1.
 # For users:   read with `apply_calib=True`, import the result as m/s^2, and never multiply it by `stats.calib`. Check the peak
 #              against "Max. Acc. (gal)" of the header (1 gal = 0.01 m/s^2). Remove the mean: the counts carry an offset.
 set -euo pipefail

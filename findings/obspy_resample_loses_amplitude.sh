@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# ObsPy's Trace.resample shrinks high frequencies, even when it resamples to a HIGHER rate.
+# ObsPy's Trace.resample reduces the amplitude of high frequencies, even when it resamples to a HIGHER rate.
 #
 # Surprise:    a 10 Hz sine of amplitude 1, recorded at 100 Hz and resampled to 200 Hz, comes out with amplitude 0.905; a 25 Hz
 #              sine comes out with 0.5. The default `window='hann'` multiplies the spectrum by cos^2(pi f / fs), so every
 #              frequency but zero loses amplitude. With `window=None` the amplitude stays 1.
 # Version:     obspy 1.5.1
 # Expectation: a band-limited signal is fully known from its samples (sampling theorem), so interpolation to a higher rate keeps
-#              its amplitude. ObsPy's documentation names the default window, but not what it costs.
+#              its amplitude. ObsPy's documentation names the default window, but not this loss of amplitude.
 # For users:   pass `window=None` when you resample a record, or let the import resample it. Otherwise the record excites
 #              stiff modes too weakly, and the loss looks like a filter in the actuator or the sensor.
 set -euo pipefail

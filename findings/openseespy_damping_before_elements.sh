@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# OpenSees's Rayleigh damping reaches only the elements that exist when it is declared.
+# OpenSees's Rayleigh damping acts only on the elements that exist when it is declared.
 #
-# Surprise:    `rayleigh(...)` before `element(...)` damps nothing: a 5 % damped oscillator then vibrates for ever, without a
+# Surprise:    `rayleigh(...)` before `element(...)` damps nothing: a 5 % damped oscillator then vibrates without decay, without a
 #              warning. The same line after the elements works. Elements added later (a damper, a substructure) stay undamped too.
 # Version:     openseespy 3.7.1.2
 # Expectation: the command reads like a property of the model, as its integrator or its time step: C = a M + b K of the whole
 #              structure. OpenSees's manual says that it assigns damping to all elements and nodes "previously defined".
 # For users:   declare Rayleigh damping last, and check the decay of a free vibration before you use OpenSees as a reference or
-#              as the numerical substructure: a missing inherent damping is what a diagnosis would find.
+#              as the numerical substructure: a diagnosis would report the missing inherent damping.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# OpenSees starts a free vibration with zero acceleration, so Newmark's method loses its second order.
+# OpenSees starts a free vibration with zero acceleration, so Newmark's method becomes a first-order method.
 #
 # Surprise:    a transient analysis from an initial displacement (`setNodeDisp ... -commit`) does not solve the equation of motion
 #              for the acceleration at time zero; it takes zero. The average-acceleration method then makes an error of first
@@ -8,7 +8,7 @@
 # Version:     openseespy 3.7.1.2
 # Expectation: Newmark's method starts from a(0) = (p(0) - c v(0) - k x(0)) / m, as in his paper of 1959 and every textbook.
 # For users:   when you compare a run with OpenSees, start from rest with a motion that begins at zero, or give OpenSees the
-#              initial acceleration too (`setNodeAccel`). Otherwise a correct integrator seems to be wrong by the first step.
+#              initial acceleration too (`setNodeAccel`). Otherwise a correct integrator seems to have an error in the first step.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -8,7 +8,7 @@
 # Expectation: the SI brochure: prefixes are case-sensitive, M is 1e6 and m is 1e-3, so Mg is the megagram (the tonne).
 #              opstool's documentation says that any case may be entered.
 # For users:   write `.ton` (1000 kg in opstool) or `1000 * unit.kg`, and check the total mass or the first period of the model.
-#              Plans of this program read units with their case.
+#              Units in plans of this program are case-sensitive.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

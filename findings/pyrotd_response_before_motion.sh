@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# pyRotd's oscillator moves before the ground does when a record ends while it still shakes.
+# pyRotd's oscillator moves before the ground does if the record ends during strong motion.
 #
-# Surprise:    the response is computed as a product of Fourier spectra without padding, so what the oscillator would do after the
-#              end of the record returns at its start. With a pulse in the last 0.5 s of a 20 s record, the 1 Hz oscillator
+# Surprise:    the response is computed as a product of Fourier spectra without padding, so the response after the end of the
+#              record appears at its start. With a pulse in the last 0.5 s of a 20 s record, the 1 Hz oscillator
 #              already moves at time zero, and that motion gives the spectrum's value.
 # Version:     pyRotd 0.6.1
 # Expectation: the response of a resting oscillator is zero until the ground moves (causality); a product of discrete spectra is
-#              a circular convolution, so the record needs zeros behind it that outlast the oscillator's memory.
-# For users:   append zeros to a record before you hand it to pyRotd (for damping zeta and period T at least T/zeta), above all
-#              to records cut at a trigger's end and to the motions of a shaking table that are repeated.
+#              a circular convolution, so the record needs zeros at its end, until the response has decayed.
+# For users:   append zeros to a record before you pass it to pyRotd (for damping zeta and period T at least T/zeta), above all
+#              to records that end at the end of a trigger, and to repeated motions of a shaking table.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

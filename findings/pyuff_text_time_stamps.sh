@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# A universal file (dataset 58) written as text with uneven time steps keeps only some of its time stamps distinct.
+# In a universal file (dataset 58) that is written as text with uneven time steps, many time stamps become equal.
 #
 # Surprise:    300 s at 2048 Hz, written by pyuff as text with `abscissa_spacing=0`, come back with 614400 values but only
 #              404801 distinct time stamps, each up to 0.5 ms off (a step is 0.488 ms), although the data type says double. The
 #              values themselves keep twelve digits. With `abscissa_spacing=1` the stamps are computed from a rounded increment.
 # Version:     pyuff 2.5.8
-# Expectation: "double precision" in the header is taken to hold for both columns. The definition of dataset 58 gives only the
+# Expectation: a reader expects "double precision" in the header to apply to both columns. The definition of dataset 58 gives only the
 #              ordinate twelve decimals (E20.12); the abscissa has five (E13.5), in double precision too.
-# For users:   write the binary form, or even spacing with the rate given apart; when you import such a text file, map the rate
-#              (`rate: 2048`) instead of the time column: equal time stamps refuse the file.
+# For users:   write the binary form, or even spacing with a separate sampling rate. When you import such a text file, map the
+#              rate (`rate: 2048`) instead of the time column: the import refuses a file with equal time stamps.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# PyVISA reads an instrument's binary block in the byte order that SCPI does not have as its default.
+# PyVISA reads the binary block of an instrument in the opposite byte order of SCPI's default.
 #
 # Surprise:    a block of 32-bit floats from an instrument at its SCPI default settings decodes to numbers around 1e-41, without an
 #              error: 1.0 V becomes 4.6e-41. PyVISA's `query_binary_values`, `read_binary_values` and `from_ieee_block` assume
-#              little-endian unless told otherwise; SCPI's default order is big-endian.
+#              little-endian by default; SCPI's default order is big-endian.
 # Version:     PyVISA 1.16.2
 # Expectation: the SCPI-99 standard: FORMat:BORDer is NORMal after a reset, which is the most significant byte first.
 # For users:   send `FORM:BORD SWAP` to the instrument, or read with `is_big_endian=True`. Values that are all zero or below 1e-30
