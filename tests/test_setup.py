@@ -225,4 +225,4 @@ def test_without_a_python_that_is_new_enough_set_up_says_what_to_install(project
     (tools / "python3").chmod(0o755)
     made = setup(project, PATH=str(tools), PYTHON="")
     assert made.returncode != 0 and not (project / ".venv").exists()
-    assert "No Python 3.11 or newer" in made.stderr and "make setup PYTHON=" in made.stderr
+    assert "no Python 3.11 or newer" in made.stderr and "make setup PYTHON=" in made.stderr
