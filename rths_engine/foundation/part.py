@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar, get_args
 
 from annotated_types import MaxLen
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
@@ -65,6 +65,11 @@ class Value(BaseModel):
             if name in read and isinstance(extra, dict) and "unit" in extra and not _too_long(read[name], field):
                 read[name] = _in_si(read[name], str(extra["unit"]))
         return read
+
+
+def kinds(union: Any) -> tuple[type[Any], ...]:
+    """The classes of `Annotated[A | B, ...]` in their order: a registry's one list, whose positions are codes in the loop."""
+    return get_args(get_args(union)[0])
 
 
 class Part(Value):

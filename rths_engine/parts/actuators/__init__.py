@@ -9,12 +9,14 @@ from typing import Annotated
 
 from pydantic import Field
 
+from rths_engine.foundation.part import kinds
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.parts.actuators.second_order import SecondOrderActuator
 from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 
-KINDS = (FirstOrderDelay, SecondOrderActuator, ServoHydraulicActuator, VelocityDrive)
 Actuator = Annotated[
-    FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator | VelocityDrive, Field(discriminator="kind")
+    FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator | VelocityDrive,
+    Field(discriminator="kind"),
 ]
+KINDS = kinds(Actuator)

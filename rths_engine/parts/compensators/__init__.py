@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from rths_engine.foundation.part import kinds
 from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
 from rths_engine.parts.compensators.ats import AdaptiveTimeSeries
 from rths_engine.parts.compensators.derivative import DerivativeFeedForward
@@ -16,16 +17,6 @@ from rths_engine.parts.compensators.none import NoCompensation
 from rths_engine.parts.compensators.phase_lead import PhaseLead
 from rths_engine.parts.compensators.polynomial import PolynomialExtrapolation
 
-KINDS = (
-    NoCompensation,
-    InverseCompensation,
-    AdaptiveInverseCompensation,
-    DualCompensation,
-    PolynomialExtrapolation,
-    DerivativeFeedForward,
-    PhaseLead,
-    AdaptiveTimeSeries,
-)
 Compensator = Annotated[
     NoCompensation
     | InverseCompensation
@@ -37,3 +28,4 @@ Compensator = Annotated[
     | AdaptiveTimeSeries,
     Field(discriminator="kind"),
 ]
+KINDS = kinds(Compensator)

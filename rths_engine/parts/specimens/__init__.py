@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from rths_engine.foundation.part import kinds
 from rths_engine.parts.specimens.bouc_wen import BoucWen
 from rths_engine.parts.specimens.elastomeric import Elastomeric
 from rths_engine.parts.specimens.friction_slider import FrictionSlider
@@ -11,7 +12,8 @@ from rths_engine.parts.specimens.hyperbolic_tangent import HyperbolicTangent
 from rths_engine.parts.specimens.linear import LinearSpecimen
 from rths_engine.parts.specimens.mr_damper import MrDamper
 
-KINDS = (LinearSpecimen, MrDamper, BoucWen, HyperbolicTangent, FrictionSlider, Elastomeric)
 Specimen = Annotated[
-    LinearSpecimen | MrDamper | BoucWen | HyperbolicTangent | FrictionSlider | Elastomeric, Field(discriminator="kind")
+    LinearSpecimen | MrDamper | BoucWen | HyperbolicTangent | FrictionSlider | Elastomeric,
+    Field(discriminator="kind"),
 ]
+KINDS = kinds(Specimen)

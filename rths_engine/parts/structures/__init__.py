@@ -4,10 +4,14 @@ from typing import Annotated
 
 from pydantic import Field
 
+from rths_engine.foundation.part import kinds
 from rths_engine.parts.structures.matrices import MatricesStructure
 from rths_engine.parts.structures.moment_frame import MomentFrame
 from rths_engine.parts.structures.no_structure import NoStructure
 from rths_engine.parts.structures.shear_building import ShearBuilding
 
-KINDS = (ShearBuilding, MomentFrame, MatricesStructure, NoStructure)
-Structure = Annotated[ShearBuilding | MomentFrame | MatricesStructure | NoStructure, Field(discriminator="kind")]
+Structure = Annotated[
+    ShearBuilding | MomentFrame | MatricesStructure | NoStructure,
+    Field(discriminator="kind"),
+]
+KINDS = kinds(Structure)
