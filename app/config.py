@@ -16,6 +16,20 @@ LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
 @dataclass(frozen=True, slots=True)
+class Variable:
+    """An environment variable that sets a field of Settings: `read` makes the value of its text, `written` the text of a value.
+
+    `default` words a default that is no single value.
+    """
+
+    key: str
+    read: Callable[[str], Any]
+    meaning: str
+    written: Callable[[Any], str] = str
+    default: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """Everything that differs between installations. All data is in the folder `data`; limits are in bytes.
 
@@ -68,7 +82,7 @@ class Settings:
 
 def from_environment(**given: Any) -> Settings:
     """Settings from the variables in VARIABLES; a value in `given` that is not None takes precedence. Raises RthsError."""
-    found = {name: _read(key, convert) for name, (key, convert) in VARIABLES.items() if os.environ.get(key)}
+    found = {name: _read(one.key, one.read) for name, one in VARIABLES.items() if os.environ.get(one.key)}
     return replace(Settings(), **{**found, **{name: value for name, value in given.items() if value is not None}})
 
 
@@ -79,14 +93,31 @@ def _read(key: str, convert: Callable[[str], Any]) -> Any:
         raise RthsError(Issue(key, "needs a whole number", os.environ[key], "correct or unset the variable")) from None
 
 
-VARIABLES: dict[str, tuple[str, Callable[[str], Any]]] = {
-    "data": ("RTHS_DATA", Path),
-    "database_url": ("RTHS_DATABASE_URL", str),
-    "host": ("RTHS_HOST", str),
-    "port": ("RTHS_PORT", int),
-    "hosts": ("RTHS_HOSTS", lambda text: tuple(text.split(","))),
-    "worker_concurrency": ("RTHS_WORKERS", int),
-    "worker_token": ("RTHS_WORKER_TOKEN", str),
-    "upload_limit": ("RTHS_UPLOAD_LIMIT_MB", lambda text: int(text) * MEGABYTE),
-    "measurements_limit": ("RTHS_MEASUREMENTS_LIMIT_MB", lambda text: int(text) * MEGABYTE),
+def _megabytes(text: str) -> int:
+    return int(text) * MEGABYTE
+
+
+def _in_megabytes(size: int) -> str:
+    return str(size // MEGABYTE)
+
+
+VARIABLES: dict[str, Variable] = {
+    "data": Variable("RTHS_DATA", Path, "data folder"),
+    "host": Variable("RTHS_HOST", str, "address to listen on; 127.0.0.1 is this machine only"),
+    "port": Variable("RTHS_PORT", int, "port to listen on"),
+    "hosts": Variable(
+        "RTHS_HOSTS",
+        lambda text: tuple(text.split(",")),
+        "host names that browsers use, separated by commas, when the service is behind a proxy",
+        default="none",
+    ),
+    "worker_concurrency": Variable("RTHS_WORKERS", int, "tests that run at the same time"),
+    "database_url": Variable("RTHS_DATABASE_URL", str, "URL of a PostgreSQL database", default="SQLite in the data folder"),
+    "worker_token": Variable(
+        "RTHS_WORKER_TOKEN", str, "token of workers that cannot read the data folder", default="the file `worker-token` there"
+    ),
+    "upload_limit": Variable("RTHS_UPLOAD_LIMIT_MB", _megabytes, "largest request accepted, MB", _in_megabytes),
+    "measurements_limit": Variable(
+        "RTHS_MEASUREMENTS_LIMIT_MB", _megabytes, "largest file of measurements accepted, MB", _in_megabytes
+    ),
 }

@@ -36,7 +36,7 @@ def test_the_readme_names_every_command_and_option(name: str) -> None:
             assert option in row or option in {"-h", "--help"}
 
 
-@pytest.mark.parametrize("variable", [variable for variable, _ in VARIABLES.values()])
+@pytest.mark.parametrize("variable", [one.key for one in VARIABLES.values()])
 def test_the_readme_names_every_variable(variable: str) -> None:
     assert f"| `{variable}` |" in README
 

@@ -7,16 +7,16 @@ from pathlib import Path
 import pytest
 
 from app.documents.markdown import table
-from app.documents.regions import names, renewed
+from app.documents.regions import documents, names, renewed
 from app.documents.tables import TABLES
 
-DOCUMENTS = sorted((Path(__file__).parent.parent / "docs").glob("*.md"))
+DOCUMENTS = documents()
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
 def test_a_document_is_what_make_docs_writes(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    assert renewed(text) == text, f"docs/{path.name} is stale: run `make docs`"
+    assert renewed(text) == text, f"{path.name} is stale: run `make docs`"
     assert text.count("<!-- generated:") == text.count("<!-- end -->") == len(names(text))
 
 
@@ -40,3 +40,26 @@ def test_the_fields_of_a_verdict_are_listed_with_type_and_unit() -> None:
     assert "| list of lists of texts |  |" in rows["`indistinguishable`"]
     assert "| object or null |  |" in rows["`next_test`"] and "`next_test.signal`" in rows
     assert "list of numbers, some null" in TABLES["fields of the plots"]()
+
+
+def test_a_part_is_listed_with_its_equation_and_its_fields_with_unit_and_bounds() -> None:
+    rows = TABLES["specimens"]().splitlines()
+    assert "| `linear` | Linear spring and dashpot | `f = k x + c v, with v the displacement increment over dt` |" in rows
+    assert "| `linear.stiffness` | Stiffness | N/m | kN/m | number, >= 0, <= 1e+12 | 0 |" in rows
+    assert "`shear_building.storeys[].mass`" in TABLES["structures"]()
+
+
+def test_a_route_is_listed_with_query_body_and_statuses() -> None:
+    rows = {line.split("|")[1].strip(): line for line in TABLES["routes"]().splitlines()}
+    assert "`plan`, `plans`, `submitted_by` | 201, " in rows["`POST /api/v1/runs`"]
+    assert "`state`, `q`, " in rows["`GET /api/v1/runs`"] and rows["`GET /api/v1/runs`"].endswith("| 200, 422 |")
+
+
+def test_an_option_is_listed_with_its_default() -> None:
+    (row,) = (line for line in TABLES["options"]().splitlines() if line.startswith("| `--seed S` |"))
+    assert row.endswith("(default 0) |")
+
+
+def test_a_variable_is_listed_with_its_default() -> None:
+    (row,) = (line for line in TABLES["settings"]().splitlines() if line.startswith("| `RTHS_UPLOAD_LIMIT_MB` |"))
+    assert row.endswith("MB | `20` |")

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from app.documents.tables import TABLES
 
 _REGION = re.compile(r"(<!-- generated: (.+?) -->\n).*?(<!-- end -->)", re.DOTALL)
+
+
+def documents() -> list[Path]:
+    """Every document that people read: those at the top, in docs and in docs/guides. Decision records stay as written."""
+    root = Path(__file__).parents[2]
+    return [*sorted(root.glob("*.md")), *sorted((root / "docs").glob("*.md")), *sorted((root / "docs" / "guides").glob("*.md"))]
 
 
 def renewed(text: str) -> str:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.documents import diagnosis, outputs
+from app.documents import commands, decisions, diagnosis, effects, outputs, parts, routes, settings
+from rths_engine.parts import actuators, compensators, integrators, physics, specimens, structures
+from rths_engine.planning.shapes import SHAPES
 
 TABLES: dict[str, Callable[[], str]] = {
     "imported channels": outputs.imported_channels,
@@ -15,4 +17,21 @@ TABLES: dict[str, Callable[[], str]] = {
     "glossary": outputs.terms,
     "fields of a verdict": diagnosis.verdict_fields,
     "fields of the plots": diagnosis.pictures_fields,
+    "structures": lambda: parts.kinds(structures.KINDS),
+    "integrators": lambda: parts.kinds(integrators.KINDS),
+    "compensators": lambda: parts.kinds(compensators.KINDS),
+    "actuators": lambda: parts.kinds(actuators.KINDS),
+    "specimens": lambda: parts.kinds(specimens.KINDS),
+    "shapes": lambda: parts.kinds(SHAPES),
+    "safety limits": parts.limits,
+    "effects of a specimen": lambda: effects.effects(physics.SPECIMEN),
+    "effects of an actuator": lambda: effects.effects(physics.ACTUATOR),
+    "effects of sensors": lambda: effects.effects(physics.SENSOR),
+    "effects of a structure": lambda: effects.effects(physics.STRUCTURE),
+    "effects of the ground motion": lambda: effects.effects(physics.INPUT),
+    "routes": routes.routes,
+    "commands": commands.commands,
+    "options": commands.options,
+    "settings": settings.settings,
+    "decisions": decisions.decisions,
 }

@@ -15,8 +15,8 @@ from rths_engine.running import run
 
 @pytest.fixture(autouse=True)
 def no_variables(monkeypatch: pytest.MonkeyPatch) -> None:
-    for key, _ in VARIABLES.values():
-        monkeypatch.delenv(key, raising=False)
+    for variable in VARIABLES.values():
+        monkeypatch.delenv(variable.key, raising=False)
 
 
 def test_without_anything_the_service_is_this_machines_own_with_a_database_file_in_its_data_folder() -> None:
