@@ -16,7 +16,7 @@ PYTEST ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone check docs migration bench prove browser opensees lock clean
+.PHONY: setup run test test-clone test-guides check docs migration bench prove browser opensees lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -28,6 +28,10 @@ test: setup browser opensees check
 
 test-clone: setup
 	$(BIN)/pytest -m slow tests/test_fresh_clone.py $(PYTEST)
+
+# Follow docs/guides to the letter, each in a copy of the project.
+test-guides: setup
+	$(BIN)/pytest -m slow tests/test_guides.py $(PYTEST)
 
 # Measure times on this machine, and compare with OpenSees if it is installed: docs/benchmarks.md.
 bench: setup

@@ -107,7 +107,9 @@ def parser() -> argparse.ArgumentParser:
     prove.add_argument("--cases", type=int, default=100, metavar="N", help="number of recordings (default %(default)s)")
     prove.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the cases (default %(default)s)")
     prove.add_argument("--workers", type=int, default=2, metavar="N", help="diagnoses at the same time (default %(default)s)")
-    prove.add_argument("--only", metavar="KIND/LEVEL", help="cases of one kind of test, of one level, or of both")
+    prove.add_argument(
+        "--only", metavar="KIND/LEVEL", help="cases of one kind of test, of one level, or of both; KIND/EFFECT: of one effect"
+    )
     prove.add_argument("--keep", type=Path, metavar="DIR", help="folder to store plans, recordings, truths and verdicts in")
     prove.add_argument("--json", type=Path, required=True, metavar="OUT", help="write every score as one JSON object")
     prove.add_argument(

@@ -154,6 +154,7 @@ def test_the_same_seed_makes_the_same_cases_and_a_quarter_is_clean() -> None:
     assert made == specs(200, 7) and made != specs(200, 8)
     assert sum(one.level == "clean" for one in made) >= 50
     assert {one.level for one in specs(20, 7, "specimen/two")} == {"two"}
+    assert [one.made["names"] for one in specs(3, 7, "specimen/backlash")] == [["backlash"]] * 3
 
 
 def test_a_case_is_readable_diagnosed_and_its_truth_is_not_shown(tmp_path: Path) -> None:

@@ -56,9 +56,9 @@ class Spec:
 
 
 def specs(count: int, seed: int, only: str | None = None) -> list[Spec]:
-    """`only` is KIND, LEVEL or KIND/LEVEL. Raises ValueError where there is none."""
+    """`only` is KIND, LEVEL, KIND/LEVEL or KIND/EFFECT. Raises ValueError for any other."""
     random = np.random.default_rng(seed)
-    kinds, level = _wanted(only)
+    kinds, level, effect = _wanted(only)
     turns = {name: [_turns(random, some) for some in (one.single, one.pairs, one.strange)] for name, one in KINDS.items()}
     shares = np.array([KINDS[name].share for name in kinds])
     made = []
@@ -77,7 +77,7 @@ def specs(count: int, seed: int, only: str | None = None) -> list[Spec]:
             case "outside":
                 names = (next(strange),)
             case _:
-                names = (next(single),)
+                names = (effect or next(single),)
         what = {"names": list(names), "wanted": wanted, **kind.choice(random, names)}
         made.append(Spec(f"{number:04d}-{name}-{chosen}", name, chosen, int(random.integers(2**31)), what))
     return made
@@ -152,15 +152,18 @@ KINDS = {
 }
 
 
-def _wanted(only: str | None) -> tuple[list[str], str | None]:
+def _wanted(only: str | None) -> tuple[list[str], str | None, str | None]:
+    """The kinds to draw from, and the level and the effect of every case where they are given."""
     first, _, second = (only or "").partition("/")
+    if first in KINDS and second in KINDS[first].single:
+        return [first], "plain", second
     kind, level = (first, second) if first in KINDS else ("", second or first)
     kinds = [kind] if kind else [name for name, one in KINDS.items() if not level or level in (*one.levels, "clean")]
     known = not level or all(level in (*KINDS[name].levels, "clean") for name in kinds)
     if not kinds or not known or (second and not kind):
         levels = sorted({level for one in KINDS.values() for level in one.levels} | {"clean"})
-        raise ValueError(f"kinds are {', '.join(KINDS)}; levels are {', '.join(levels)}")
-    return kinds, level or None
+        raise ValueError(f"kinds are {', '.join(KINDS)}; levels are {', '.join(levels)}; effects are in docs/physics.md")
+    return kinds, level or None, None
 
 
 def _drawn(random: np.random.Generator, shares: dict[str, float]) -> str:
