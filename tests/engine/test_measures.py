@@ -80,7 +80,8 @@ def test_relative_errors_by_hand() -> None:
 def test_a_command_that_never_moved_has_no_relative_measure(x_cmd: Array) -> None:
     shown = of_station(StationSignals({"x_cmd": x_cmd, "x_meas": x_cmd + 1e-6, "f_meas": x_cmd}, DT))
     beyond = {"fei_delay_ms", "fei_amplitude", "nrms_percent", "peak_error_percent", "delay_ms", "energy_error_percent"}
-    assert {name for name, value in shown.items() if value is None} == beyond
+    without = {name for name, value in shown.items() if value is None}
+    assert without == beyond if len(x_cmd) else without >= beyond  # of no sample, other measures may have no value either
 
 
 def test_signals_beyond_every_bound_have_no_measure_and_no_warning() -> None:
