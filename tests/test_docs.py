@@ -52,6 +52,14 @@ def test_every_example_of_a_kind_of_test_runs_to_its_end(text: str) -> None:
     assert simulate(plan_from_yaml(text)).status == "completed"
 
 
+def test_the_example_of_the_engine_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    (text,) = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "architecture.md").read_text(), re.MULTILINE | re.DOTALL)
+    exec(text, {})
+    (shape, period), (largest, mte) = (line.rsplit(" ", 1) for line in capsys.readouterr().out.splitlines())
+    assert shape == "(2, 2)" and float(period) == pytest.approx(1.48, rel=1e-9)  # the published period of the structure
+    assert float(largest) > 0 and float(mte) > 0
+
+
 @pytest.mark.parametrize("kinds", [SHAPES, integrators.KINDS], ids=["shapes", "integrators"])
 def test_the_page_of_tests_names_every_kind(kinds: tuple[type[Any], ...]) -> None:
     page = (ROOT / "docs" / "tests.md").read_text()

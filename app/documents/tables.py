@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.documents import commands, decisions, diagnosis, effects, outputs, parts, routes, settings
+from app.documents import commands, decisions, diagnosis, effects, outputs, parts, rooms, routes, settings
 from rths_engine.parts import actuators, compensators, integrators, physics, specimens, structures
 from rths_engine.planning.shapes import SHAPES
 
@@ -34,4 +34,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "options": commands.options,
     "settings": settings.settings,
     "decisions": decisions.decisions,
+    "rooms of the engine": lambda: rooms.rooms("rths_engine"),
+    "rooms of the parts": lambda: rooms.rooms("rths_engine.parts"),
+    "rooms of the service": lambda: rooms.rooms("app"),
 }
