@@ -1,4 +1,4 @@
-"""What is shown of a result in each kind of test."""
+"""Titles of the kinds of test and sentences of the verdicts."""
 
 KINDS = {
     "hybrid": "Real-time hybrid simulation",
@@ -6,11 +6,11 @@ KINDS = {
     "actuator": "Test of an actuator",
     "structure": "Test of a structure alone",
 }
-# verdict of a diagnosis -> what it says
+# verdict of a diagnosis -> its sentence
 VERDICTS = {
-    "consistent": "The recording is what the plan's models simulate, up to noise.",
-    "recalibrate": "The plan's models fit once their own parameters are moved: no new physics.",
-    "undetermined": "Something beyond noise remains, too small to tell what it is.",
-    "mismatch": "The models leave physics out.",
-    "configuration_error": "What the controller computed is not what the plan computes.",
+    "consistent": "The recording agrees with the plan's models up to noise.",
+    "recalibrate": "The plan's models fit after their own parameters are recalibrated. No physics is left out.",
+    "undetermined": "A mismatch beyond noise remains. It is too small to determine its cause.",
+    "mismatch": "The plan's models leave out physics.",
+    "configuration_error": "The signals that the controller computed differ from those that the plan computes.",
 }

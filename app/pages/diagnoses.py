@@ -1,4 +1,4 @@
-"""The pages of diagnoses: asking for one, all of them, and one with its progress and its result."""
+"""The pages of diagnoses: the list with the form of a new diagnosis, and one diagnosis with its progress and result."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def listed(
     run: str = "",
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
-    """`recording` or `run` is chosen in the form from the start."""
+    """The list of diagnoses with the form. `recording` or `run` is preselected in the form."""
     found, total = diagnoses.listed(LIMIT, LIMIT * (number - 1))
     recorded = [one for one in runs.listed(Filter(states=RECORDED), Page(limit=OFFERED))[0] if one.recording_sha256]
     if run and all(one.id != run for one in recorded):
@@ -71,7 +71,7 @@ def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: C
 
 
 def _overlaid(diagnosis: Diagnosis, diagnoses: Diagnoses, configured: Configured) -> dict[str, Any]:
-    """The plots, or why there are none; no file makes the page fail."""
+    """The plots over the recording, or the reason why they are missing: an unreadable file does not fail the page."""
     try:
         recordings = diagnoses.recordings(diagnosis, configured)
     except RthsError as error:

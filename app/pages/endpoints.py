@@ -1,4 +1,4 @@
-"""The web pages. Lab and Runs are rendered here; New test and Run are shells whose modules use the REST API."""
+"""The web pages. Lab and Runs are rendered on the server; New test and Run are shells whose modules use the REST API."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ def lab_now(request: Request, runs: Runs) -> HTMLResponse:
 
 @router.get("/new")
 def new(request: Request, configured: Configured) -> HTMLResponse:
-    """The page on which a test is planned."""
+    """The page of a new test."""
     return page(request, "new.html", limit_mb=configured.upload_limit // MEGABYTE)
 
 
 @router.get("/runs")
 def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilter, Query()]) -> HTMLResponse:
-    """The page of all runs, by filter and order."""
+    """The page of all runs, filtered and sorted."""
     found: list[Run] = []
     total, problem = 0, None
     try:
@@ -66,12 +66,12 @@ def run(request: Request, run_id: str, runs: Runs) -> HTMLResponse:
 
 @router.get("/{path:page}")
 def missing(request: Request, path: str) -> HTMLResponse:
-    """The page for an address that has none."""
-    return error_page(request, 404, "Not found", f"There is no page /{path}.")
+    """The page for an unknown address."""
+    return error_page(request, 404, "Not found", f"The page /{path} does not exist.")
 
 
 def _progress(hub: Hub, run_id: str) -> dict[str, Any]:
-    """What the worker told last of a running test; nothing when it has not told yet."""
+    """The worker's last progress report on a running test, empty before the first report."""
     live = hub.runs.get(run_id)
     return (live.progress if live else None) or {}
 

@@ -1,4 +1,4 @@
-"""The pages of measured recordings: bringing one in, all of them, and one."""
+"""The pages of measured recordings: the list with the import, and one recording."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def listed(
     recordings: Recordings,
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
-    """The page of recordings, where files are imported."""
+    """The page of all recordings with the import of files."""
     found, total = recordings.listed(LIMIT, LIMIT * (number - 1))
     part: dict[str, Any] = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
     offered: dict[str, Any] = {"formats": FORMATS, "limit_mb": configured.measurements_limit // MEGABYTE}

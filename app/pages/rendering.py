@@ -1,4 +1,4 @@
-"""Pages from templates: filters with units for people, and the headers that keep a page to this service's own parts."""
+"""Pages from templates: the filters of the templates, and headers that restrict a page to this service's own files."""
 
 from __future__ import annotations
 
@@ -34,17 +34,17 @@ PLOTLY = {
 
 
 def fixed(value: Any, decimals: int = 1) -> str:
-    """A number with fixed decimals; a dash where there is none."""
+    """A number with fixed decimals; a dash if there is no value."""
     return "–" if value is None or isinstance(value, Undefined) else f"{value:z.{decimals}f}"
 
 
 def brief(value: float | None) -> str:
-    """A number with four significant digits; a dash where there is none."""
+    """A number with four significant digits; a dash if there is no value."""
     return "–" if value is None else f"{value:.4g}"
 
 
 def ago(moment: datetime | None) -> str:
-    """How long ago, in the two largest units: `3 min 20 s`."""
+    """The time since a moment in its two largest units: `3 min 20 s`."""
     if moment is None:
         return "–"
     seconds = max(0, int((datetime.now(UTC) - moment).total_seconds()))
@@ -64,7 +64,7 @@ def clock(moment: datetime | None) -> str:
 
 
 def kind(test: str) -> str:
-    """A kind of test in a word or two."""
+    """The short name of a kind of test."""
     return {"structure": "structure alone"}.get(test, test)
 
 
@@ -77,12 +77,12 @@ def pace(plan: dict[str, Any]) -> str:
 
 
 def listed_measures() -> list[Measure]:
-    """The measures in lists of runs."""
+    """The measures that the lists of runs show."""
     return [one for one in MEASURES if one.listed]
 
 
 def measured(run: Run, one: Measure) -> str:
-    """A measure of a run in a list: of each station, the largest of the floors, or of the whole test."""
+    """A measure of a run in a list: the value of each station, the largest of the floors, or the value of the whole test."""
     if one.scope == "station":
         return " / ".join(one.text(station.measure(one.key)) for station in run.stations) or "–"
     value = getattr(run, one.key)
@@ -105,12 +105,12 @@ templates.env.globals["listed_measures"] = listed_measures
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:
-    """A template as a response, with the headers that every page has."""
+    """A template as a response with the headers of every page."""
     return templates.TemplateResponse(request, template, context, status_code=status, headers=HEADERS)
 
 
 def plotted(request: Request, template: str, **context: Any) -> HTMLResponse:
-    """A page with plots by Plotly."""
+    """A page with Plotly plots."""
     shown = page(request, template, **context)
     shown.headers.update(PLOTLY)
     return shown

@@ -1,4 +1,4 @@
-"""The Runs page's filter: read from the address, so that an address is a view that can be kept and sent."""
+"""The filter of the Runs page, read from the address: an address is a view that can be stored and sent."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LAST_PAGE = 1_000_000
 
 
 class RunFilter(BaseModel):
-    """The address's query as typed."""
+    """The query of the address as typed."""
 
     q: str = ""
     state: str = ""
@@ -42,16 +42,16 @@ class RunFilter(BaseModel):
         return any((self.q, self.state, self.template, self.submitted_by, self.since, self.until))
 
     def url(self, **changes: Any) -> str:
-        """The address of this view with some of it changed; a new order or filter starts at the first page."""
+        """The address of this view with changes. A new order or filter starts at the first page."""
         changed = self.model_copy(update={"page": "1", **{key: str(value) for key, value in changes.items()}})
         return "/runs?" + urlencode(changed.model_dump(exclude_defaults=True))
 
     def filter(self) -> Filter:
-        """Raises RthsError."""
+        """The filter of the list. Raises RthsError for a value that is not valid."""
         if self.state and self.state not in list(State):
-            raise RthsError(Issue("state", "is no state of a run", self.state, "choose one of " + ", ".join(State)))
+            raise RthsError(Issue("state", "is not a valid status of a run", self.state, "choose one of " + ", ".join(State)))
         if not self._numbered:
-            raise RthsError(Issue("page", f"needs a number from 1 to {LAST_PAGE}", self.page))
+            raise RthsError(Issue("page", f"needs a whole number from 1 to {LAST_PAGE}", self.page))
         until = _day("until", self.until)
         return Filter(
             states=(State(self.state),) if self.state else (),
@@ -72,4 +72,4 @@ def _day(where: str, text: str) -> datetime | None:
     try:
         return datetime.strptime(text, "%Y-%m-%d").replace(tzinfo=UTC)
     except ValueError:
-        raise RthsError(Issue(where, "is no date", text, "give it as 2026-11-23")) from None
+        raise RthsError(Issue(where, "is not a valid date", text, "write the date as 2026-11-23")) from None

@@ -1,4 +1,4 @@
-"""The page of a run's or a template's stability."""
+"""The page of the predicted stability of a run or a template."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def first() -> RedirectResponse:
 
 @router.get("/stability/{name}")
 def stability(request: Request, name: str, plans: Plans, runs: Runs) -> HTMLResponse:
-    """`name` is a template or a run's id."""
+    """The stability of a template or of a run; `name` is the template's name or the run's id."""
     templates = plans.templates()
     known = name in {template["name"] for template in templates}
     source = f"/templates/{name}" if known else f"/runs/{name}"

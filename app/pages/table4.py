@@ -29,7 +29,7 @@ def whole(request: Request, table4: Table4) -> HTMLResponse:
 
 @router.get("/table4/now")
 def now(request: Request, table4: Table4) -> HTMLResponse:
-    """The changing part of the page."""
+    """The changing part of the page of Table IV."""
     return page(request, "table4_now.html", **_now(table4))
 
 

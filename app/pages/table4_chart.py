@@ -1,4 +1,4 @@
-"""Ours over the paper's, measure by measure, as marks on a logarithmic axis."""
+"""The chart of Table IV: the ratio of this program to the paper for each measure, on a logarithmic axis."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rths_engine.table4.comparison import RATIOS
 SHAPES = dict(zip(RATIOS, ("circle", "square", "diamond"), strict=True))
 WIDTH, HEIGHT = 720, 260
 LEFT, RIGHT, TOP, BOTTOM = 50, 12, 12, 30
-LARGEST = 4.0  # factor at the edge; marks beyond lie on it
+LARGEST = 4.0  # ratio at the edge; larger ratios are drawn at the edge
 TICKS = (1 / 3, 1 / 1.5, 1.0, 1.5, 3.0)
 
 
@@ -30,7 +30,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """Drawn by the template: marks, ticks of the ratio (y, label), simulations (x, label)."""
+    """The chart that the template draws: marks, ticks of the ratio (y, label), simulations (x, label)."""
 
     marks: list[Mark]
     ticks: list[tuple[float, str]]
@@ -42,7 +42,7 @@ class Chart:
 
 
 def chart(simulations: Sequence[SimulationOut]) -> Chart | None:
-    """None while there is nothing to show."""
+    """The chart of Table IV, or None before the first simulation has ended."""
     shown = [one for one in simulations if one.paper]
     slot = (WIDTH - LEFT - RIGHT) / len(shown)
     marks, labels = [], []
@@ -57,7 +57,7 @@ def chart(simulations: Sequence[SimulationOut]) -> Chart | None:
                     continue
                 x = LEFT + slot * (place + (1 + k + 3.5 * j) / 7.5)
                 ratio, label = abs(ours / paper), measure(field).label
-                words = f"Simulation {one.simulation}, station {j + 1}, {label}: {ratio:.2f} of the paper's"
+                words = f"Simulation {one.simulation}, station {j + 1}, {label}: {ratio:.2f} times the paper's value"
                 marks.append(Mark(x, _height(ratio), shape, j + 1, words))
     return Chart(marks, [(_height(tick), f"{tick:.2g}") for tick in TICKS], labels) if marks else None
 

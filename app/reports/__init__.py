@@ -1,1 +1,1 @@
-"""Reports of runs and diagnoses as HTML files that stand alone."""
+"""Reports of runs and diagnoses, each a stand-alone HTML file."""

@@ -1,4 +1,4 @@
-"""The report of a diagnosis: one HTML file that needs nothing else, not even a network."""
+"""The report of a diagnosis: one HTML file that needs no network."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ Facts = list[tuple[str, str]]
 
 
 def shown(verdict: Verdict, pictures: Pictures) -> dict[str, Any]:
-    """What the templates of the page and of the report show."""
+    """The tables and plots that the templates of the page and of the report show."""
     return {"told": tables(verdict), "over_time": over_time(pictures), "details": details(pictures)}
 
 
 def report_html(title: str, facts: Facts, verdict: Verdict, pictures: Pictures) -> str:
-    """The report of a diagnosis: one HTML file that stands alone."""
+    """The report of a diagnosis as a stand-alone HTML file."""
     return page.render("diagnosis_report.html", title=title, facts=facts, **shown(verdict, pictures))

@@ -1,4 +1,4 @@
-"""The plots of a diagnosis from its pictures, as specifications that the page's script draws."""
+"""The plots of a diagnosis, as specifications that the script of the page draws."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rths_engine.diagnosis.schema import Pictures
 from rths_engine.diagnosis.schema.pictures import Axis, Channel, Detail, Numbers, OverTime, Residuals, Signals, Spectra, State
 
 ROW, MARGIN, LOWEST = 44, 84, 170  # pixels of the map
-SCALE = {  # decades of standard deviations; a third of the way noise ends, about 3
+SCALE = {  # decades of standard deviations; noise ends at about 3, a third of the scale
     "from": 0.0,
     "to": 1.5,
     "at": [0.0, 0.5, 1.0, 1.5],
@@ -21,9 +21,15 @@ SCALE = {  # decades of standard deviations; a third of the way noise ends, abou
     "title": "Residual over noise",
 }
 MEASURED, BEFORE, AFTER, NOISE = 0, 1, 2, 3
-Models = dict[str, str]  # name of a simulation that is shown -> where it stands
+Models = dict[str, str]  # name of a shown simulation -> its field in the pictures
 Lines = Sequence[tuple[str, Numbers]]
-NAMES = {"measured": "Recording", "before": "Before", "after": "After", "simulated": "Simulation", "noise": "Noise"}
+NAMES = {
+    "measured": "Recording",
+    "before": "Planned model",
+    "after": "Extended model",
+    "simulated": "Simulation",
+    "noise": "Noise",
+}
 COLOURS = {"measured": MEASURED, "before": BEFORE, "after": AFTER, "simulated": BEFORE, "noise": NOISE}
 
 
@@ -35,7 +41,7 @@ class Section(NamedTuple):
 
 
 def over_time(pictures: Pictures) -> Panel:
-    """Components against time: the residual of the planned model in standard deviations of the noise."""
+    """The map of components against time: the residual of the planned model in standard deviations of the noise."""
     components = pictures.components
     rows = []
     for one in components:
@@ -67,10 +73,10 @@ def details(pictures: Pictures) -> list[Section]:
 
 
 def _section(title: str, detail: Detail) -> Section:
-    """Where nothing was selected, after is before: one simulation is shown instead of two that are alike."""
+    """The section of one component. Without a selected effect both models are equal, and only one simulation is shown."""
     if all(channel.signals.before == channel.signals.after for channel in detail.channels):
         return Section(title, _panels(detail, {"simulated": "before"}))
-    return Section(f"{title} before and after", _panels(detail, {"before": "before", "after": "after"}))
+    return Section(f"{title}: planned and extended model", _panels(detail, {"before": "before", "after": "after"}))
 
 
 def _panels(detail: Detail, models: Models) -> list[Panel]:
@@ -88,7 +94,7 @@ def _panels(detail: Detail, models: Models) -> list[Panel]:
 
 
 def _of(signals: Signals | Residuals | Spectra | State, models: Models, group: str = "") -> list[tuple[str, Numbers]]:
-    """What each model that is shown has in the group, by its name."""
+    """The values of each shown model in a group, by the model's name."""
     return [(name, getattr(signals, f"{group}{place}")) for name, place in models.items()]
 
 
@@ -97,7 +103,7 @@ def _lines(title: str, channel: Channel, time: Numbers, lines: Lines, axis: str,
     traces = [trace(name, _array(time), row) for name, row in values]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row, channel.shown)}" for name, row in values)
     spec = {"traces": traces, "x": "Time, s", "y": axis, "from_zero": "", "spans": spans}
-    return Panel(title, f"{title}: {said}. Shaded spans were held out of the fit.", spec, wide=True)
+    return Panel(title, f"{title}: {said}. Shaded spans are held out of the fit.", spec, wide=True)
 
 
 def _spectrum(channel: Channel, models: Models) -> Panel:
@@ -115,7 +121,7 @@ def _spectrum(channel: Channel, models: Models) -> Panel:
 
 
 def _planes(state: State, models: Models) -> list[Panel]:
-    """Output against displacement, then the residual against displacement and velocity."""
+    """Plots of the output against displacement, and of the residual against displacement and velocity."""
     name, unit, factor = state.output.label, state.output.shown, state.output.factor
     moved, speed = state.axes
     given = [("measured", state.measured), *_of(state, models)]
@@ -147,9 +153,9 @@ def _blocks(detail: Detail, models: Models, spans: list[dict[str, Any]]) -> Pane
     spec = {"traces": traces, "x": "Time, s", "y": "Error, %", "from_zero": "", "spans": spans}
     kept = [place for place, one in enumerate(blocks) if one.held_out]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row[kept], '%')}" for name, row in errors.items())
-    title = "Error block by block"
+    title = "Error of each block"
     noise = "unknown" if detail.noise_nrmse is None else f"{floor:.3g} %"
-    return Panel(title, f"{title}; on the blocks held out of the fit {said}; noise floor {noise}.", spec)
+    return Panel(title, f"{title}; on the held-out blocks {said}; noise floor {noise}.", spec)
 
 
 def trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, Any]:
@@ -161,7 +167,7 @@ def trace(name: str, x: Samples, y: Samples, dash: bool = False) -> dict[str, An
 def _beyond(one: OverTime) -> str:
     level = _array(one.level)
     above = int(np.sum(np.nan_to_num(level, nan=np.inf) > one.beyond))
-    return f"beyond the noise in {above} of {len(level)} spans" if above else "within the noise throughout"
+    return f"above the noise in {above} of {len(level)} spans" if above else "within the noise everywhere"
 
 
 def _range(values: Samples, unit: str) -> str:
@@ -170,7 +176,7 @@ def _range(values: Samples, unit: str) -> str:
 
 
 def _array(values: Sequence[float | None]) -> Samples:
-    """Null is NaN, which a plot leaves out."""
+    """The values as an array; null becomes NaN, which a plot leaves out."""
     return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 

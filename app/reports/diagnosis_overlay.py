@@ -1,4 +1,4 @@
-"""Recording, simulation before and simulation after over one another: displacement and force of stations, motion of floors."""
+"""Plots of recording, planned model and extended model together: displacement and force of stations, displacement of floors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ROLES = {"x_meas": "Displacement of station", "f_meas": "Force of station", "x_f
 
 
 def overlay(recording: Measured, before: Measured, after: Measured) -> list[Panel]:
-    """What all three hold."""
+    """One panel for each signal that the recording and both simulations have."""
     keys = [
         (role, number)
         for role in ROLES
@@ -34,7 +34,7 @@ def _panel(role: str, number: int, named: dict[str, Measured]) -> Panel:
         channel = next(channel for channel in one.channels if channel.role == role and (channel.number or 1) == number)
         values, unit = shown(channel.values, channel.unit)
         kept = extremes(values[:, None], BUCKETS)
-        begin = one.dt if one.of_run else 0.0  # both clocks begin where the test does
+        begin = one.dt if one.of_run else 0.0  # both time axes begin at the start of the test
         traces.append(trace(name, begin + kept * one.dt, values[kept]))
         said.append(f"{traces[-1]['name'].lower()} {np.min(values):.3g} to {np.max(values):.3g} {unit}")
     title = f"{ROLES[role]} {number}"

@@ -1,4 +1,4 @@
-"""A verdict in words and tables for people: percent, shown units, effects by their names."""
+"""The sentences and tables of a verdict: errors in percent, shown units, names of effects."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from rths_engine.diagnosis.schema import (
     Where,
 )
 
-LEAST_P = 1e-12  # smaller p-values are not told apart
-SPANS = 6  # time spans that are listed
+LEAST_P = 1e-12  # smaller p-values are shown as < 1e-12
+SPANS = 6  # most time spans listed
 NONE = "–"  # a number that was not computed, or has no unit
 
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """What a page and a report show of a verdict; every entry is text, every row begins with its head."""
+    """The content of a verdict on a page and in a report. Every entry is text, and every row begins with its heading."""
 
     kind: str
     sentence: str
@@ -63,8 +63,8 @@ def tables(verdict: Verdict) -> Tables:
 
 
 def named(effects: Sequence[str]) -> str:
-    """`specimen:1/backlash` for people: backlash of specimen 1."""
-    return " and ".join(_one(effect) for effect in effects) or "no effect of the library"
+    """The names of effects: `specimen:1/backlash` gives `backlash of specimen 1`."""
+    return " and ".join(_one(effect) for effect in effects) or "no left-out effect"
 
 
 def _one(effect: str) -> str:
@@ -118,7 +118,7 @@ def _parameter(effect: NamedEffect, number: Parameter) -> list[str]:
 
 
 def _digits(value: float, width: float) -> str:
-    """As many digits as the width of the interval bears."""
+    """A value with as many digits as the width of its interval justifies."""
     digits = 4
     while digits < 7 and width > 0 and abs(value) * 10.0 ** (1 - digits) > 0.2 * width:
         digits += 1
@@ -126,7 +126,7 @@ def _digits(value: float, width: float) -> str:
 
 
 def _fit(fit: Fit) -> list[list[str]]:
-    planned = ["Planned model, its numbers refitted", *_errors(fit.baseline)]
+    planned = ["Planned model with refitted parameters", *_errors(fit.baseline)]
     return [planned] if fit.baseline == fit.extended else [planned, ["Extended model", *_errors(fit.extended)]]
 
 
@@ -135,7 +135,8 @@ def _errors(model: Errors) -> list[str]:
 
 
 def _unexplained(left: Unexplained) -> list[tuple[str, str]]:
-    found = [("In words", left.words), ("Share", f"{_percent(left.fraction)} % of the deviation of what was measured")]
+    share = f"{_percent(left.fraction)} % of the RMS of the measured signal about its mean"
+    found = [("Description", left.words), ("Share", share)]
     return [*found, ("Formula", left.formula)] if left.formula else found
 
 
@@ -143,7 +144,7 @@ def _next_test(found: NextTest | None) -> str:
     if not found:
         return ""
     names = " from ".join(_named(one) for one in found.separates)
-    expected = f"expected λ = {found.expected_lambda:.3g}; from about 10 on they are told apart"
+    expected = f"expected λ = {found.expected_lambda:.3g}; a value above about 10 separates them"
     return f"{_capital(found.signal)}: it separates {names} ({expected})."
 
 

@@ -1,4 +1,4 @@
-"""What moved a test, as sections of its report: ground motion, forces on floors, or the drive of a station."""
+"""The excitation of a test as sections of its report: ground motion, forces on floors, or the drive of a station."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Section(NamedTuple):
 
 
 def excitation(recording: Recording, motions: MotionLibrary, figures: Figures) -> list[Section]:
-    """One section for each way in which the test was moved."""
+    """One section for each excitation of the test."""
     plan = recording.plan
     found = [_drive(recording)] if plan.driven else []
     if plan.motion.kind != "none":
@@ -46,8 +46,8 @@ def _drive(recording: Recording) -> Section:
     limits = plan.stations[0].limits
     facts = [
         ("Shape", type(plan.drive.shape).title),
-        ("Peak displacement", f"{peak * 1e3:.4g} mm of {limits.displacement * 1e3:g} mm allowed"),
-        ("Largest velocity", f"{velocity * 1e3:.4g} mm/s of {limits.velocity * 1e3:g} mm/s allowed"),
+        ("Peak displacement", f"{peak * 1e3:.4g} mm (limit {limits.displacement * 1e3:g} mm)"),
+        ("Largest velocity", f"{velocity * 1e3:.4g} mm/s (limit {limits.velocity * 1e3:g} mm/s)"),
         ("Duration", f"{duration:g} s"),
     ]
     return Section("Drive", facts, [])
@@ -86,7 +86,7 @@ def _ground(recording: Recording, motions: MotionLibrary, figures: Figures) -> S
             ("Event", unscaled.event),
             ("Station", unscaled.station),
             ("Component", unscaled.component),
-            ("Step and length", f"{unscaled.dt:g} s, {len(unscaled.acceleration)} samples, {unscaled.duration:.2f} s"),
+            ("Time step and length", f"{unscaled.dt:g} s, {len(unscaled.acceleration)} samples, {unscaled.duration:.2f} s"),
             ("PGA of the record", f"{unscaled.pga / STANDARD_GRAVITY:.3f} g"),
             ("Scaling", f"{type(plan.motion.scale).title.lower()}, record × {factor:.4g}"),
         ]
@@ -95,9 +95,9 @@ def _ground(recording: Recording, motions: MotionLibrary, figures: Figures) -> S
     sa_t1 = spectral_acceleration(applied, period, _DAMPING) / STANDARD_GRAVITY
     spectrum = response_spectrum(applied.acceleration, applied.dt, _PERIODS, _DAMPING) / STANDARD_GRAVITY
     facts += [
-        ("PGA as applied", f"{applied.pga / STANDARD_GRAVITY:.3f} g"),
+        ("PGA of the applied motion", f"{applied.pga / STANDARD_GRAVITY:.3f} g"),
         ("First period T₁", f"{period:.3f} s (analytical substructure, undamped)"),
-        ("Sa(T₁) as applied", f"{sa_t1:.3f} g at {_DAMPING * 100:g} % damping"),
+        ("Sa(T₁) of the applied motion", f"{sa_t1:.3f} g at {_DAMPING * 100:g} % damping"),
     ]
     if applied.provenance:
         facts.append(("Provenance", applied.provenance))
@@ -106,7 +106,7 @@ def _ground(recording: Recording, motions: MotionLibrary, figures: Figures) -> S
 
 
 def _recorded_motion(recording: Recording) -> Motion | None:
-    """The ground acceleration at integration steps as recorded, where the record itself is out of reach."""
+    """The recorded ground acceleration at integration steps, used when the record file is not available."""
     substeps = recording.plan.substeps
     samples = recording.signal("ag")[substeps - 1 :: substeps]
     return Motion("recorded", "recorded", recording.dt * substeps, samples) if len(samples) > 1 else None
@@ -115,4 +115,4 @@ def _recorded_motion(recording: Recording) -> Motion | None:
 def _recorded_facts(recording: Recording) -> list[tuple[str, str]]:
     name = getattr(recording.plan.motion, "record", recording.plan.motion.kind)
     scale = type(recording.plan.motion.scale).title.lower()
-    return [("Record", name), ("Scaling", scale), ("Spectrum of", "the ground acceleration in this recording")]
+    return [("Record", name), ("Scaling", scale), ("Source of the spectrum", "ground acceleration in this recording")]

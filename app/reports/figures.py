@@ -1,4 +1,4 @@
-"""The report's plots as data: titles, axes with units and packed traces; the page's script draws them in its theme."""
+"""The plots of a report as data: titles, axes with units and packed traces. The script of the page draws them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ DETAIL = 1.5  # s on each side
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """One plot. `spec` is what the script draws, `alt` what a screen reader says."""
+    """One plot. The script draws `spec`; a screen reader reads `alt`."""
 
     title: str
     alt: str
@@ -30,7 +30,7 @@ class Panel:
 
 
 class Figures:
-    """Makes panels of a recording's channels in shown units; `panels` share the points there are."""
+    """Makes panels of a recording's channels in shown units. All panels share the POINTS."""
 
     def __init__(self, recording: Any):
         self.time: Samples = recording.time
@@ -60,7 +60,7 @@ class Figures:
         part: slice | None = None,
         wide: bool = False,
     ) -> Panel:
-        """`keys`: channel and name of each trace; `part`: the rows shown, all by default."""
+        """A panel of channels against time. `keys`: channel and name of each trace; `part`: the shown rows, all by default."""
         rows = part or slice(None)
         time, unit = self.time[rows], self.unit(keys[0][0])
         signals = np.column_stack([self.shown(key)[rows] for key, _ in keys])
@@ -73,7 +73,7 @@ class Figures:
         return Panel(title, _sentence(title, of, time, signals, unit), spec, wide)
 
     def work(self, title: str, number: int, of: str) -> Panel:
-        """Energy that a station's specimen took up, integral of f dx (kN m), against time."""
+        """A panel of the energy that a station's specimen absorbed, the integral of f dx (kN m), against time."""
         x, force = self.shown(key("x_meas", number)) * 1e-3, self.shown(key("f_meas", number))
         energy = np.cumsum(0.5 * (force + np.append(0.0, force[:-1])) * np.diff(x, prepend=0.0))
         kept = extremes(energy[:, None], self.buckets)
@@ -84,7 +84,7 @@ class Figures:
     def against(
         self, title: str, x: tuple[str, str], y: tuple[str, str], of: str, large: bool = False, equal: bool = False
     ) -> Panel:
-        """One channel over another, each with its quantity: a hysteresis loop; `equal` also draws where both are equal."""
+        """A panel of one channel against another, for example a hysteresis loop. `equal` adds the line where both are equal."""
         pair = np.column_stack([self.shown(x[0]), self.shown(y[0])])
         kept = extremes(pair, self.buckets)
         traces = [{"name": "Measured" if equal else of, **_line(pair[kept]), "colour": 0, "thin": True}]
@@ -103,7 +103,7 @@ class Figures:
 
 
 def station_panels(figures: Figures, number: int, station: Station, test: str) -> list[Panel]:
-    """What is looked at in a kind of test; of a hybrid one what Figures 8 and 9 of the paper show of an actuator."""
+    """The panels of a station in a kind of test; for a hybrid test those of Figures 8 and 9 of the paper."""
     name = station.name
 
     def alone(role: str) -> Panel:
@@ -128,7 +128,7 @@ def station_panels(figures: Figures, number: int, station: Station, test: str) -
 
 
 def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, damping: float) -> Panel:
-    """Sa (g) over period (s) with T1 marked."""
+    """The panel of a response spectrum: Sa (g) against period (s), with T1 marked."""
     title = f"Response spectrum, {damping * 100:g} % damping"
     mark = {"x": t1, "y": sa_t1_g, "text": f"T₁ = {t1:.3g} s, Sa = {sa_t1_g:.3f} g"}
     trace = {"name": "Sa", "x": packed(periods), "y": packed(sa_g), "colour": 0}
@@ -159,7 +159,7 @@ def _labelled(quantity: str, unit: str) -> str:
 def _sentence(title: str, of: str, time: Samples, signals: Samples, unit: str) -> str:
     whose = f" of {of}" if of else ""
     if not len(time):
-        return f"{title}{whose}: nothing recorded."
+        return f"{title}{whose}: no samples."
     return f"{title}{whose} from {time[0]:.1f} to {time[-1]:.1f} s: {_range(signals, unit)}."
 
 

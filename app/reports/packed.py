@@ -1,4 +1,4 @@
-"""Numbers as Plotly reads them out of JSON."""
+"""Arrays in the form that Plotly reads from JSON."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A page in one file that needs nothing else, not even a network: template, style, plots and plotly.js."""
+"""A page as one HTML file that needs no network: template, style, plots and plotly.js."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FRONTEND = Path(__file__).parents[2] / "frontend"
 
 
 def render(template: str, **context: Any) -> str:
-    """A report by its template, with Plotly in it."""
+    """A report from its template, with plotly.js included."""
     text: str = _environment().get_template(template).render(plotly=plotly(), **context)
     return text
 

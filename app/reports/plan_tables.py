@@ -1,4 +1,4 @@
-"""A plan as tables for people: labels, units and factors come from the fields' own declarations."""
+"""A plan as tables: labels, units and factors come from the declarations of the fields."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 _HIDDEN = {"kind", "schema_", "name", "notes", "template"}
-_LISTED = 12  # values of a list that are written out
+_LISTED = 12  # a longer list is shown as its number of values
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Equal parts, one a row: storeys with mass, stiffness and height."""
+    """A table of equal parts, one per row: for example storeys with mass, stiffness and height."""
 
     title: str
     columns: list[str]
@@ -33,7 +33,7 @@ class Grid:
 
 @dataclass(slots=True)
 class Group:
-    """One part of the plan: its own fields, and the lists of parts in it."""
+    """One part of the plan: its fields, and its lists of parts."""
 
     title: str
     rows: list[Row] = field(default_factory=list)
@@ -41,7 +41,7 @@ class Group:
 
 
 def groups(title: str, part: BaseModel, test: str = "", leave_out: Sequence[str] = ()) -> list[Group]:
-    """`part` as a group, followed by one group for each part nested in it; without what the kind of `test` does not use."""
+    """The groups of `part` and of each part nested in it, without fields that the kind of `test` does not use."""
     own = Group(title)
     nested: list[Group] = []
     for info, value in _fields(part, test, leave_out):
@@ -63,7 +63,7 @@ def groups(title: str, part: BaseModel, test: str = "", leave_out: Sequence[str]
 
 
 def written(value: Any, info: FieldInfo) -> str:
-    """A field's value as people read it, in the shown unit."""
+    """The text of a field's value in the shown unit."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, tuple | list):

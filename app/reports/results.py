@@ -1,4 +1,4 @@
-"""The measures of a test as tables of its report."""
+"""The tables of measures in the report of a test."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, Stati
 from rths_engine.results.measures import of
 
 PAPERS = "Chen and Ricles (2012)"
-UNSTABLE = "unstable: the test was stopped by its limits"
+UNSTABLE = "unstable: a limit stopped the test"
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row: its name, its cells, and whether they are published values; `instead` stands across the row."""
+    """One row: its name, its cells, and whether they are published values. `instead` is text across the row."""
 
     name: str
     cells: list[str]
@@ -26,7 +26,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Measures in columns; `first` heads the column of names."""
+    """A table with one measure per column; `first` is the heading of the column of names."""
 
     caption: str
     first: str
@@ -36,7 +36,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Results:
-    """Tables of stations, of floors, and the measures of the whole test with their values."""
+    """The results of a test: tables of stations and of floors, and the measures of the whole test."""
 
     stations: list[Table]
     floors: Table | None
@@ -44,13 +44,13 @@ class Results:
 
 
 def results(recording: Recording) -> Results:
-    """The measures that say something in the recording's kind of test; a dash for one that its summary does not hold."""
+    """The measures of the recording's kind of test. A dash marks a measure that the recording's summary does not contain."""
     test, summary = recording.plan.test, recording.summary
     measures = of(StationMeasure, test)
     tables = []
     if summary["stations"]:
         paper = PAPER.get(recording.plan.template or "")
-        caption = "Measures of each station" + (", with those published for this simulation" if paper else "")
+        caption = "Measures of each station" + (", with the published values of this simulation" if paper else "")
         tables = [
             _stations(caption, recording, [one for one in measures if not one.further], published=bool(paper)),
             _stations("Further measures of each station", recording, [one for one in measures if one.further]),
@@ -92,5 +92,5 @@ def _text(one: Measure, value: float | None) -> str:
 
 
 def _minus(text: str) -> str:
-    """With a real minus."""
+    """The text with minus signs instead of hyphens."""
     return text.replace("-", "−")

@@ -1,4 +1,4 @@
-"""The report of a run: one HTML file that needs nothing else, not even a network."""
+"""The report of a run: one HTML file that needs no network."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rths_engine.results.metrics.decay import free_decay
 
 
 def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrary | None = None) -> str:
-    """The report of `run` (a RunOut as JSON) with its `recording`; `motions` finds the stored records besides the bundled."""
+    """The report of `run` (a RunOut as JSON) with its `recording`. `motions` finds the stored and the bundled records."""
     figures = Figures(recording)
     stations = [
         (number, station.name, station_panels(figures, number, station, recording.plan.test))
@@ -40,7 +40,7 @@ def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrar
 
 
 def _verdict(run: dict[str, Any], recording: Recording) -> tuple[str, str]:
-    """State and how the sentence that begins with it goes on."""
+    """The status, and the rest of the sentence that begins with the status."""
     simulated, trip = recording.summary["simulated_s"], recording.summary["trip"]
     if recording.status == "completed":
         limits = "; no safety limit was exceeded" if recording.plan.stations else ""
@@ -73,18 +73,18 @@ def _floors(recording: Recording, figures: Figures) -> list[Panel]:
 
 
 def _decay(recording: Recording) -> list[tuple[str, str]]:
-    """Period and damping of the highest floor where it swings freely."""
+    """Period and damping of the highest floor in free vibration."""
     plan = recording.plan
     if plan.start.at_rest or plan.forces or plan.motion.kind != "none":
         return []
     floors = [channel for channel in recording.channels if channel.role == "x_floor"]
     found = free_decay(recording.signal(floors[-1].key), recording.dt)
     if found is None:
-        return [("Free decay", "too few cycles for period and damping")]
+        return [("Free decay", "too few cycles to determine period and damping")]
     cycles = f"{found.cycles} cycles of floor {len(floors)}"
     return [
         ("Period of the free decay", f"{found.period:.4g} s, {cycles}"),
-        ("Damping ratio", f"{found.ratio * 100:.3g} %, logarithmic decrement of the same cycles"),
+        ("Damping ratio", f"{found.ratio * 100:.3g} %, from the logarithmic decrement of the same cycles"),
     ]
 
 

@@ -1,4 +1,4 @@
-"""Plans to start from for every kind of test: a damper, an actuator or a structure alone, and a first hybrid test."""
+"""Example plans for every kind of test: a damper, an actuator or a structure alone, and a first hybrid test."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def linear_damper(name: str) -> Plan:
     """A one-storey building with a linear viscous damper."""
     return Plan(
         name="Linear viscous damper in a one-storey building",
-        notes="A first test: one station, one linear specimen, inverse compensation that matches the actuator.",
+        notes="A first test with one station and a linear specimen. The inverse compensation matches the actuator.",
         template=name,
         motion=RecordMotion(record=EL_CENTRO, scale=ToPga(pga=0.15 * STANDARD_GRAVITY)),
         structure=ShearBuilding(storeys=(Storey(mass=2.0e5, stiffness=8.0e6, height=3.5),), damping_ratio=0.02),
@@ -62,8 +62,8 @@ def specimen_mr_damper(name: str) -> Plan:
     )
     return Plan(
         name="MR damper, cycles of increasing amplitude",
-        notes="Characterisation before a hybrid test: three cycles each at 10, 20, 30, 40 and 50 mm, 0.25 Hz, by an actuator "
-        "without delay.",
+        notes="Characterisation before a hybrid test: three cycles at each of 10, 20, 30, 40 and 50 mm, at 0.25 Hz. The "
+        "actuator has no delay.",
         template=name,
         test="specimen",
         drive=Drive(amplitude=0.05, shape=IncreasingCycles(frequency=0.25, levels=(0.2, 0.4, 0.6, 0.8, 1.0), cycles_each=3)),
@@ -84,7 +84,7 @@ def actuator_sweep(name: str) -> Plan:
     )
     return Plan(
         name="Actuator tracking a sweep from 0.1 to 10 Hz",
-        notes="How delay and amplitude of the actuator change with frequency, against a spring of 2 kN/mm, uncompensated.",
+        notes="Delay and amplitude of the actuator against frequency, with a spring of 2 kN/mm and without compensation.",
         template=name,
         test="actuator",
         drive=Drive(amplitude=0.005, shape=Chirp(start_frequency=0.1, end_frequency=10.0, duration=40.0)),
@@ -99,7 +99,7 @@ def structure_earthquake(name: str) -> Plan:
     storeys = tuple(FrameStorey(height=h, mass=662.9e3, column="W14x120", beam=beam) for h, beam in sections)
     return Plan(
         name="Moment frame without dampers under Northridge",
-        notes="The steel frame of Chen and Ricles (2012) alone, its members yielding: what the dampers have to improve on.",
+        notes="The steel frame of Chen and Ricles (2012) without dampers, to compare with tests of dampers. Its members yield.",
         template=name,
         test="structure",
         motion=RecordMotion(record="northridge-1994-beverly-hills-009"),
@@ -113,7 +113,7 @@ def structure_free_vibration(name: str) -> Plan:
     storeys = tuple(Storey(mass=5.0e4, stiffness=k, height=3.2) for k in (4.0e7, 3.2e7, 2.4e7))
     return Plan(
         name="Pull and release of a three-storey building",
-        notes="The roof is pulled by 30 mm with a cable and let go; the decay shows period and damping of the first mode.",
+        notes="A cable pulls the roof by 30 mm and releases the roof. The decay gives period and damping of the first mode.",
         template=name,
         test="structure",
         start=Start(displacement=_pulled_at_the_top(storeys, 0.03)),
@@ -129,8 +129,8 @@ def structure_matrices(name: str) -> Plan:
     stiffness = ((7.2e7, -3.2e7, 0.0), (-3.2e7, 5.6e7, -2.4e7), (0.0, -2.4e7, 2.4e7))
     damping = ((1.3e5, -4.0e4, 0.0), (-4.0e4, 1.1e5, -3.0e4), (0.0, -3.0e4, 6.0e4))
     return Plan(
-        name="Model given by M, C, K with a shaker on its roof",
-        notes="Three degrees of freedom from another program; a harmonic force near the first mode builds up its resonance.",
+        name="Structure given by M, C and K with a shaker on its roof",
+        notes="Three degrees of freedom from another program. A harmonic force near the first mode causes resonance.",
         template=name,
         test="structure",
         forces=(FloorForce(floor=3, amplitude=2.0e4, shape=Sine(frequency=2.0, cycles=60, ramps=2)),),
@@ -141,7 +141,7 @@ def structure_matrices(name: str) -> Plan:
 
 
 def _pulled_at_the_top(storeys: tuple[Storey, ...], top: float) -> tuple[float, ...]:
-    """Displacements (m) under one force at the top: each storey takes it, x_j = top sum_(i<=j) 1/k_i / sum_i 1/k_i."""
+    """Displacements (m) under one force at the top, which every storey carries: x_j = top sum_(i<=j) 1/k_i / sum_i 1/k_i."""
     flexibility = [sum(1 / storey.stiffness for storey in storeys[: j + 1]) for j in range(len(storeys))]
     return tuple(top * one / flexibility[-1] for one in flexibility)
 

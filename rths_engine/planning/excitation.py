@@ -1,4 +1,4 @@
-"""What moves a test beside the ground: a drive, forces on floors, a start away from rest."""
+"""The excitation of a test besides ground motion: a drive, forces on floors, and a start away from rest."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Drive(Value):
 
 
 class FloorForce(Value):
-    """A force on a floor: amplitude times shape, positive as its displacement."""
+    """A force on a floor: amplitude times shape, positive in the direction of the floor's displacement."""
 
     floor: int = quantity("Floor", ge=1, le=2000, default=1)
     amplitude: float = quantity("Amplitude", "N", "kN", ge=-1e10, le=1e10, default=1e5)
@@ -40,10 +40,10 @@ class Start(Value):
     """Displacements and velocities of the floors at the start; the other degrees of freedom follow them statically."""
 
     displacement: tuple[Displacement, ...] = quantity(
-        "Displacement of each floor", "m", "mm", default=(), max_length=2000, help="empty: none"
+        "Displacement of each floor", "m", "mm", default=(), max_length=2000, help="empty: zero"
     )
     velocity: tuple[Velocity, ...] = quantity(
-        "Velocity of each floor", "m/s", "mm/s", default=(), max_length=2000, help="empty: none"
+        "Velocity of each floor", "m/s", "mm/s", default=(), max_length=2000, help="empty: zero"
     )
 
     @property

@@ -1,4 +1,4 @@
-"""The ground motion of a plan: which record and how it is scaled."""
+"""The ground motion of a plan: the record and its scaling."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from rths_engine.parts.ground_motions.scaling import Factor, Scale
 
 
 class RecordMotion(Value):
-    """A record of the library by name; `sha256`, when given, must be the record's."""
+    """A record of the library by name. If `sha256` is given, it must equal the SHA-256 of the record."""
 
     kind: Literal["record"] = "record"
     record: str = Field(title="Record", min_length=1, max_length=200)
-    sha256: str | None = Field(None, title="Record's SHA-256", pattern="^[0-9a-f]{64}$")
+    sha256: str | None = Field(None, title="SHA-256 of the record", pattern="^[0-9a-f]{64}$")
     scale: Scale = Field(Factor(), title="Scaling")
     title: ClassVar[str] = "Record of the library"
 
@@ -41,7 +41,7 @@ class InlineMotion(Value):
     """Ground acceleration written in the plan itself."""
 
     kind: Literal["inline"] = "inline"
-    dt: float = quantity("Step of the record", "s", gt=0, le=1)
+    dt: float = quantity("Time step of the record", "s", gt=0, le=1)
     acceleration: tuple[float, ...] = quantity("Ground acceleration", "m/s^2", min_length=2, max_length=1_000_000)
     scale: Scale = Field(Factor(), title="Scaling")
     title: ClassVar[str] = "Written in the plan"
@@ -58,8 +58,8 @@ class FileMotion(Value):
 
     kind: Literal["file"] = "file"
     path: str = Field(title="Record file", min_length=1, max_length=4096)
-    unit: str | None = Field(None, title="Unit, where the file does not say")
-    dt: float | None = quantity("Step, where the file does not say", "s", gt=0, le=1, default=None)
+    unit: str | None = Field(None, title="Unit, if the file does not give it")
+    dt: float | None = quantity("Time step, if the file does not give it", "s", gt=0, le=1, default=None)
     scale: Scale = Field(Factor(), title="Scaling")
     title: ClassVar[str] = "Record file"
 

@@ -45,7 +45,7 @@ class Station(Value):
     """One experimental substructure: actuator, specimen and sensors; it stands for `dampers` equal ones in its storey."""
 
     name: str = Field("Station", title="Name", min_length=1, max_length=80)
-    storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground", tests=ONLY_HYBRID)
+    storey: int = quantity("Storey", ge=1, le=100, default=1, help="storey 1 is the lowest", tests=ONLY_HYBRID)
     dampers: int = quantity("Dampers in the storey", ge=1, le=1000, default=1, tests=ONLY_HYBRID)
     equivalent_stiffness: float = quantity(
         "Equivalent stiffness of one damper", "N/m", "kN/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
@@ -58,8 +58,8 @@ class Station(Value):
     specimen: Specimen = Field(MrDamper(), title="Specimen")
     noise: Noise = Field(Noise(), title="Sensor noise")
     limits: Limits = Field(Limits(), title="Safety limits")
-    actuator_physics: tuple[ActuatorEffect, ...] = Field((), title="Physics the actuator's model leaves out", max_length=8)
-    specimen_physics: tuple[SpecimenEffect, ...] = Field((), title="Physics the specimen's model leaves out", max_length=8)
+    actuator_physics: tuple[ActuatorEffect, ...] = Field((), title="Left-out physics of the actuator", max_length=8)
+    specimen_physics: tuple[SpecimenEffect, ...] = Field((), title="Left-out physics of the specimen", max_length=8)
     sensor_physics: tuple[SensorEffect, ...] = Field((), title="Errors of the sensors", max_length=8)
 
     @property
@@ -74,17 +74,17 @@ class Station(Value):
 
 
 class Fastest(Value):
-    """As fast as the machine can."""
+    """The test runs as fast as the computer allows."""
 
     kind: Literal["fastest"] = "fastest"
     title: ClassVar[str] = "As fast as possible"
 
 
 class RealTime(Value):
-    """At the wall clock, times a factor (2 is twice as fast as the test)."""
+    """The test runs in real time times a speed factor; 2 is twice as fast."""
 
     kind: Literal["real_time"] = "real_time"
-    factor: float = quantity("Speed", shown="1", ge=0.01, le=1000, default=1.0, help="1 is real time")
+    factor: float = quantity("Speed factor", shown="1", ge=0.01, le=1000, default=1.0, help="1: real time")
     title: ClassVar[str] = "Real time"
 
 
@@ -101,7 +101,7 @@ class Plan(Value):
 
     model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
 
-    schema_: Literal["rths-plan/1"] = Field("rths-plan/1", alias="schema", title="Form of the plan")
+    schema_: Literal["rths-plan/1"] = Field("rths-plan/1", alias="schema", title="Format of the plan")
     name: str = Field("Untitled test", title="Name", min_length=1, max_length=200)
     notes: str = Field("", title="Notes", max_length=10_000)
     template: str | None = Field(None, title="Template", max_length=80)
@@ -117,13 +117,13 @@ class Plan(Value):
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
     stations: tuple[Station, ...] = Field((), title="Stations", max_length=MOST_STATIONS, json_schema_extra=TESTED)
     structure_physics: tuple[StructureEffect, ...] = Field(
-        (), title="Physics the structure's model leaves out", max_length=8, json_schema_extra=COMPUTED
+        (), title="Left-out physics of the structure", max_length=8, json_schema_extra=COMPUTED
     )
     motion_physics: tuple[InputEffect, ...] = Field(
         (), title="Errors of the ground motion", max_length=8, json_schema_extra=COMPUTED
     )
     seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
-    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: as long as what moves it")
+    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: duration of the excitation")
     pace: Pace = Field(Fastest(), title="Pace")
 
     def as_dict(self) -> dict[str, Any]:

@@ -13,7 +13,7 @@ LIMITS = {
     "displacement": ("command displacement", "m", "mm"),
     "velocity": ("command velocity", "m/s", "mm/s"),
     "force": ("measured force", "N", "kN"),
-    "oscillation": ("number of half waves in a row of the command", "1", "1"),
+    "oscillation": ("number of consecutive half waves of the command", "1", "1"),
 }
 
 
@@ -28,7 +28,11 @@ class Limits(Value):
     velocity: float = quantity("Command velocity limit", "m/s", "mm/s", gt=0, le=10, default=0.3)
     force: float = quantity("Measured force limit", "N", "kN", gt=0, le=1e9, default=1.0e6)
     oscillation: int = quantity(
-        "Half waves of an oscillation in a row", ge=0, le=1000, default=0, help="above 2.5 Hz, 20 mm/s, not dying out; 0: any"
+        "Limit of consecutive half waves",
+        ge=0,
+        le=1000,
+        default=0,
+        help="oscillation of the command above 2.5 Hz and 20 mm/s that does not decay; 0: no limit",
     )
 
 

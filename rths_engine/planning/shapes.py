@@ -1,4 +1,4 @@
-"""Shapes of prescribed signals: functions of time to be multiplied by an amplitude."""
+"""Shapes of prescribed signals: functions of time that are multiplied by an amplitude."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Share = Annotated[float, Field(ge=-1e6, le=1e6)]  # of the amplitude
 
 
 class Still(Value):
-    """y(t) = 0."""
+    """The signal is zero: y(t) = 0."""
 
     kind: Literal["still"] = "still"
     title: ClassVar[str] = "At rest"
@@ -35,7 +35,7 @@ class Sine(Value):
     kind: Literal["sine"] = "sine"
     frequency: float = quantity("Frequency", "Hz", gt=0, le=200, default=0.5)
     cycles: float = quantity("Cycles", gt=0, le=100_000, default=10.0)
-    ramps: float = quantity("Cycles of rise and of fall", ge=0, le=1000, default=1.0)
+    ramps: float = quantity("Ramp cycles at each end", ge=0, le=1000, default=1.0)
     title: ClassVar[str] = "Sine"
 
     @property
@@ -48,7 +48,7 @@ class Sine(Value):
 
 
 class Triangle(Value):
-    """Constant speed 4 f between -1 and 1, from 0 upwards."""
+    """A triangle wave between -1 and 1 with the constant speed 4 f; it starts upwards from 0."""
 
     kind: Literal["triangle"] = "triangle"
     frequency: float = quantity("Frequency", "Hz", gt=0, le=200, default=0.1)
@@ -65,12 +65,12 @@ class Triangle(Value):
 
 
 class IncreasingCycles(Value):
-    """Sines, some cycles at each level, one level after the other."""
+    """Sine cycles at one level after the other, with the same number of cycles at each level."""
 
     kind: Literal["increasing_cycles"] = "increasing_cycles"
     frequency: float = quantity("Frequency", "Hz", gt=0, le=200, default=0.25)
     levels: tuple[Share, ...] = quantity(
-        "Levels, shares of the amplitude", default=(0.25, 0.5, 0.75, 1.0), min_length=1, max_length=1000
+        "Levels as fractions of the amplitude", default=(0.25, 0.5, 0.75, 1.0), min_length=1, max_length=1000
     )
     cycles_each: int = quantity("Cycles at each level", ge=1, le=1000, default=3)
     title: ClassVar[str] = "Cycles of increasing amplitude"
@@ -102,7 +102,7 @@ class Chirp(Value):
 
 
 class BandNoise(Value):
-    """Tones of equal amplitude and random phase between f_0 and f_1, scaled to a peak of 1; the same for the same seed."""
+    """Tones of equal amplitude and random phase between f_0 and f_1, scaled to a peak of 1. The seed determines the tones."""
 
     kind: Literal["band_noise"] = "band_noise"
     low_frequency: float = quantity("Lowest frequency f₀", "Hz", gt=0, le=200, default=0.1)
@@ -131,7 +131,7 @@ class BandNoise(Value):
 
 
 class Step(Value):
-    """From 0 to 1 as half a cosine."""
+    """A step from 0 to 1 that rises as half a cosine."""
 
     kind: Literal["step"] = "step"
     delay: float = quantity("Time of the step", "s", ge=0, le=3600, default=1.0)
@@ -144,11 +144,11 @@ class Step(Value):
 
 
 class Samples(Value):
-    """Given values, linear in between, at rest after the last."""
+    """Given values with linear interpolation; 0 after the last value."""
 
     kind: Literal["samples"] = "samples"
-    dt: float = quantity("Step of the samples", "s", gt=0, le=10)
-    values: tuple[Share, ...] = quantity("Values, shares of the amplitude", min_length=2, max_length=1_000_000)
+    dt: float = quantity("Time step of the samples", "s", gt=0, le=10)
+    values: tuple[Share, ...] = quantity("Values as fractions of the amplitude", min_length=2, max_length=1_000_000)
     title: ClassVar[str] = "Written in the plan"
 
     @property
@@ -164,7 +164,7 @@ SHAPES = (Still, Sine, Triangle, IncreasingCycles, Chirp, BandNoise, Step, Sampl
 
 
 def _tapered(time: Array, duration: float, rise: float) -> Array:
-    """1 within, half a cosine from and to 0 over `rise` at both ends, 0 outside."""
+    """The envelope of a signal: 1 inside, half a cosine over `rise` at both ends, 0 outside."""
     inside = (time >= 0) & (time <= duration)
     if rise <= 0:
         return inside.astype(float)

@@ -78,12 +78,12 @@ def names() -> list[str]:
 
 
 def group(name: str) -> str:
-    """Under what heading people find a template."""
+    """The heading under which a template is listed."""
     return TABLE3 if name in PAPER else GROUPS[template(name).test]
 
 
 def template(name: str) -> Plan:
-    """The plan named `name`. Raises PlanError naming the templates there are."""
+    """The plan named `name`. Raises PlanError with the names of all templates."""
     if name in PAPER:
         return _table3(name, PAPER[name])
     if name in EXAMPLES:
@@ -96,7 +96,7 @@ def _table3(name: str, row: PaperRow) -> Plan:
     alphas = f"α_es = {row.alpha_es[0]:g} and {row.alpha_es[1]:g}{kp}"
     return Plan(
         name=f"Table III, simulation {row.simulation} ({alphas})",
-        notes="After Chen and Ricles (2012), EESD 41, 549-569: a shear building stands for the moment-resisting frame.",
+        notes="Source: Chen and Ricles (2012), EESD 41, 549-569. A shear building replaces the moment-resisting frame.",
         template=name,
         motion=NORTHRIDGE,
         structure=_building(),
@@ -127,7 +127,7 @@ def _station(j: int, compensator: Compensator) -> Station:
 
 
 def _with_brace(stiffness: float, dampers: int) -> float:
-    """One damper's spring in series with its share of the braces, which the shear building has no degree of freedom for."""
+    """The spring of one damper in series with its share of the braces, which are no degree of freedom of the shear building."""
     return 1 / (1 / stiffness + dampers / BRACE_STIFFNESS)
 
 

@@ -47,7 +47,7 @@ def test_a_report_has_the_sections_of_its_kind_of_test_and_no_empty_plot(
     name: str, reports: dict[str, tuple[Recording, Page]]
 ) -> None:
     _, page = reports[name]
-    assert headings(page) == ["Results", *WANTED[name], "Test plan", "To run it again"]
+    assert headings(page) == ["Results", *WANTED[name], "Test plan", "Repeating this test"]
     assert page.specs
     assert all(trace["x"]["bdata"] for spec in page.specs for trace in spec["traces"])
 
@@ -59,7 +59,7 @@ def test_a_specimens_report_shows_its_loop_and_the_energy_it_dissipated(
     assert page.specs[0]["x"] == "Measured displacement, mm" and page.specs[0]["y"] == "Measured force, kN"
     assert any(spec["y"] == "Energy, kN·m" for spec in page.specs)
     assert "MTI" not in page.text and "Storey" not in page.text
-    assert "50 mm of 80 mm allowed" in page.text
+    assert "50 mm (limit 80 mm)" in page.text
 
 
 def test_the_energy_of_a_specimen_is_the_area_of_its_loops(reports: dict[str, tuple[Recording, Page]]) -> None:

@@ -232,11 +232,11 @@ def test_a_file_that_is_gone_from_the_folder_is_told_and_comes_back_by_uploading
 
 
 def test_the_pages_list_recordings_and_show_one_and_say_where_there_is_none(client: TestClient) -> None:
-    assert "Nothing was imported yet" in client.get("/recordings").text
+    assert "There is no imported recording yet" in client.get("/recordings").text
     recording = add(client, title="Sine <b>of</b> 25 mm")
     assert "Sine &lt;b&gt;of&lt;/b&gt; 25 mm" in client.get("/recordings").text
     assert "Measured displacement, station 1" in client.get(f"/recordings/{recording['id']}").text
-    assert "past the last of 1" in client.get("/recordings", params={"page": 9}).text
+    assert "Page 9 is empty: there are only 1 recordings" in client.get("/recordings", params={"page": 9}).text
     for path, status in (("/recordings/nothing", 404), ("/recordings?page=0", 422)):
         answer = client.get(path)
         assert answer.status_code == status and answer.headers["content-type"].startswith("text/html")

@@ -129,7 +129,7 @@ def test_the_further_measures_have_a_table_with_a_dash_where_there_is_none(tmp_p
 
 def test_an_unstable_simulation_of_the_paper_is_called_so(tmp_path: Path) -> None:
     text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-01")))).text
-    assert text.count("unstable: the test was stopped by its limits") == 2
+    assert text.count("unstable: a limit stopped the test") == 2
 
 
 def test_a_plan_of_another_template_has_no_row_of_the_paper(tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ def test_an_empty_table_still_shows_the_paper(client: TestClient) -> None:
     assert [one["simulation"] for one in table["simulations"] if one["paper"] is None] == [1, 7, 10]
     assert table["simulations"][1]["paper"]["mte_mm"] == [2.0, 3.2]
     page = client.get("/table4").text
-    assert "None of the twelve was run here yet" in page and "2.0 / 3.2" in page
+    assert "None of the twelve simulations has run yet" in page and "2.0 / 3.2" in page
 
 
 def test_ended_runs_are_compared_with_the_paper(client: TestClient, settings: Settings) -> None:

@@ -37,22 +37,22 @@ def test_a_run_is_diagnosed_against_a_plan_file_and_the_result_read(
     path.write_text(service.http.post("/api/v1/plans/write", json=plan()).text, encoding="utf-8")
     page = opened(f"/runs/{played}")
     page.get_by_role("link", name="Diagnose this run").click()
-    page.get_by_label("Plan whose models are doubted").select_option("file")
+    page.get_by_label("Plan to check").select_option("file")
     page.get_by_label("Plan file", exact=True).set_input_files(path)
-    page.get_by_role("button", name="Diagnose").click()
+    page.get_by_role("button", name="Diagnose the recording").click()
     page.wait_for_url("**/diagnoses/*-*")
     expect(page.locator(".verdict")).to_contain_text("backlash was left out", timeout=DONE_MS)
     expect(page.get_by_text("by Ana Ruiz")).to_be_visible()
     components = page.get_by_role("region", name="Components", exact=True)
     expect(components.locator("tr", has_text="specimen:1")).to_contain_text("mismatch")
-    ranking = page.get_by_role("region", name="Ranking of what may be left out").locator("tbody tr")
+    ranking = page.get_by_role("region", name="Ranking of the candidates").locator("tbody tr")
     expect(ranking.first).to_contain_text("backlash of specimen 1")
-    parameters = page.get_by_role("region", name="Parameters of what was left out").locator("tbody tr")
+    parameters = page.get_by_role("region", name="Parameters of the left-out physics").locator("tbody tr")
     expect(parameters).to_have_count(1)
     expect(parameters).to_contain_text("mm")
     for plot in ("Residual of each component over time", "Force: recording and simulation", "Residual of the force",
                  "Spectrum of the residual of the force", "Force against displacement", "Residual against velocity",
-                 "Error block by block"):  # fmt: skip
+                 "Error of each block"):  # fmt: skip
         expect(page.get_by_role("img", name=plot).locator("svg.main-svg").first).to_be_attached()
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
 
@@ -61,7 +61,7 @@ def test_progress_is_shown_and_a_cancel_leaves_only_the_word(service: Service, p
     ahead = [ask(service, played) for _ in range(2)]  # so that the third waits while the page is looked at
     page = opened(f"/diagnoses/{ask(service, played)}")
     expect(page.get_by_role("progressbar")).to_be_visible()
-    expect(page.get_by_role("status").filter(has_text="waiting in the queue")).to_be_visible()
+    expect(page.get_by_role("status").filter(has_text="Waiting in the queue")).to_be_visible()
     expect_accessible(page)
     page.get_by_role("button", name="Cancel this diagnosis").click()
     expect(page.get_by_text("Cancelled by Ana Ruiz before it started.")).to_be_visible()
@@ -90,14 +90,14 @@ def test_the_extended_plan_is_queued_by_keyboard_and_laid_over_the_recording(
 
 def test_a_form_without_recording_or_plan_says_so(service: Service, played: str, opened: Opener) -> None:
     page = opened("/diagnoses", allow=("422",))
-    page.get_by_role("button", name="Diagnose").click()
-    expect(page.get_by_role("alert")).to_have_text("Choose the recording.")
+    page.get_by_role("button", name="Diagnose the recording").click()
+    expect(page.get_by_role("alert")).to_have_text("Select a recording.")
     page.get_by_label("Recording", exact=True).select_option(f"run:{played}")
-    page.get_by_label("Plan whose models are doubted").select_option("file")
-    page.get_by_role("button", name="Diagnose").click()
-    expect(page.get_by_role("alert")).to_have_text("Choose the plan file, or another plan.")
-    page.get_by_label("Plan whose models are doubted").select_option("template:table3-04")
-    page.get_by_role("button", name="Diagnose").click()
+    page.get_by_label("Plan to check").select_option("file")
+    page.get_by_role("button", name="Diagnose the recording").click()
+    expect(page.get_by_role("alert")).to_have_text("Select a plan file, or select another plan.")
+    page.get_by_label("Plan to check").select_option("template:table3-04")
+    page.get_by_role("button", name="Diagnose the recording").click()
     expect(page.get_by_role("alert")).to_contain_text("the plan's is 'hybrid'")
 
 

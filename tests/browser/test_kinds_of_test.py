@@ -44,11 +44,11 @@ def test_another_kind_of_test_hides_what_it_does_not_use_and_brings_it_back(form
 def test_a_drive_is_drawn_with_its_peaks_beside_the_limits(form: Page) -> None:
     form.get_by_label("Start from a template").select_option("specimen-mr-damper")
     shown = form.locator("[data-path=drive] .facts-line")
-    allowed = "Peak displacement 50.00 mm of 80.00 mm allowed, largest velocity 78.54 mm/s of 200.0 mm/s allowed, 60.00 s"
+    allowed = "Peak displacement 50.00 mm (limit 80.00 mm), largest velocity 78.54 mm/s (limit 200.0 mm/s), 60.00 s"
     expect(shown).to_have_text(allowed)
     expect(form.get_by_role("img", name=re.compile("^Prescribed displacement, mm: 50"))).to_be_visible()
     form.get_by_label("Amplitude, mm").fill("90")
-    expect(form.locator(".beyond")).to_have_text("Peak displacement 90.00 mm of 80.00 mm allowed")
+    expect(form.locator(".beyond")).to_have_text("Peak displacement 90.00 mm (limit 80.00 mm)")
     expect(form.locator("[id='e-drive.amplitude']")).to_contain_text("beyond the station's limit of 80 mm")
 
 
@@ -69,8 +69,8 @@ def test_samples_of_a_shape_are_pasted(form: Page) -> None:
     form.get_by_label("Kind of test").select_option("actuator")
     form.get_by_label("Shape", exact=True).select_option("samples")
     expect(form.locator("[id='e-drive.shape.values']")).to_have_text("needs at least 2 numbers")
-    form.get_by_label("Step of the samples, s").fill("0.5")
-    form.get_by_label("Values, shares of the amplitude").fill("0\n0.5\n1\n0.5\n0")
+    form.get_by_label("Time step of the samples, s").fill("0.5")
+    form.get_by_label("Values as fractions of the amplitude").fill("0\n0.5\n1\n0.5\n0")
     expect(form.locator(".good")).to_be_visible()
     expect(form.locator("[data-path=drive] .facts-line")).to_contain_text("Peak displacement 20.00 mm")
 

@@ -86,13 +86,13 @@ def test_a_plan_exported_and_imported_is_the_same_plan(form: Page, tmp_path: Pat
     expect(form.get_by_label("Name", exact=True).first).to_have_value("Table III, simulation 9 (α_es = 1 and 60, kp = 0.4)")
     digest = _digest(form)
     with form.expect_download() as download:
-        form.get_by_role("button", name="Export the plan, YAML").click()
+        form.get_by_role("button", name="Export the plan as YAML").click()
     path = tmp_path / "plan.yaml"
     download.value.save_as(path)
     form.get_by_label("Start from a template").select_option("table3-02")
     expect(form.get_by_label("Name", exact=True).first).to_have_value("Table III, simulation 2 (α_es = 1 and 1, kp = 0.4)")
     assert _digest(form) != digest
-    form.get_by_label("Import a plan, YAML").set_input_files(path)
+    form.get_by_label("Import a plan from YAML").set_input_files(path)
     expect(form.get_by_label("Name", exact=True).first).to_have_value("Table III, simulation 9 (α_es = 1 and 60, kp = 0.4)")
     assert _digest(form) == digest
 
@@ -112,8 +112,8 @@ def test_stations_are_duplicated_and_removed_and_their_parts_exchanged(form: Pag
 def test_a_record_is_previewed_and_added_to_the_library(form: Page, tmp_path: Path) -> None:
     record = tmp_path / "Site shake.txt"
     record.write_text("\n".join(f"{0.3 * ((-1) ** n) * n / 400:.6f}" for n in range(400)))
-    form.get_by_text("Bring in a record").click()
-    form.get_by_label("Step, s").fill("0.01")
+    form.get_by_text("Upload a record").click()
+    form.get_by_label("Time step, s").fill("0.01")
     form.get_by_label("Unit of the acceleration").select_option("g")
     form.get_by_label("File").set_input_files(record)
     expect(form.locator(".upload .preview canvas").first).to_be_visible()
@@ -126,12 +126,12 @@ def test_two_gigabytes_are_refused_before_they_are_sent(form: Page, tmp_path: Pa
     huge = tmp_path / "huge.AT2"
     huge.touch()
     os.truncate(huge, 2 << 30)
-    form.get_by_text("Bring in a record").click()
+    form.get_by_text("Upload a record").click()
     form.get_by_label("File").set_input_files(huge)
     alert = form.locator(".upload").get_by_role("alert")
-    expect(alert).to_have_text("huge.AT2 has 2147.5 MB; 20 MB is the most that is taken.")
+    expect(alert).to_have_text("huge.AT2 is too large: 2147.5 MB. The largest accepted size is 20 MB.")
     form.get_by_label("Import a plan").set_input_files(huge)
-    expect(form.locator("#verdict .error")).to_contain_text("20 MB is the most")
+    expect(form.locator("#verdict .error")).to_contain_text("The largest accepted size is 20 MB")
 
 
 def _velocity_limit(plan: dict[str, Any]) -> float:

@@ -76,7 +76,7 @@ def test_an_unknown_page_says_so_and_leads_back(opened: Opener) -> None:
     page = opened("/nowhere", allow=("404",))
     expect(page.get_by_role("heading", name="Not found")).to_be_visible()
     expect_accessible(page)
-    page.get_by_role("link", name="To the Lab").click()
+    page.get_by_role("link", name="Open the Lab").click()
     expect(page).to_have_title("Lab · RTHS control room")
 
 

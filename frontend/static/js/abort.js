@@ -14,7 +14,7 @@ const button = el("button", { type: "button", class: "danger", "aria-describedby
 const words = el(
   "span",
   { id: "abort-words", class: "words" },
-  "Stops the tests of this program and holds the queue. It is NOT the laboratory's emergency stop.",
+  "Abort stops the tests of this program and holds the queue. It is NOT the laboratory's emergency stop.",
 );
 bar.append(names, words, note, button);
 
@@ -38,7 +38,7 @@ button.addEventListener("click", async () => {
   note.textContent = "Stopping …";
   try {
     await api.post("/abort", { by: person() });
-    note.textContent = "Stopped; the queue is held. Release it on the Lab page.";
+    note.textContent = "Stopped. The queue is held: release the queue on the Lab page.";
     document.dispatchEvent(new Event("aborted"));
   } catch (error) {
     note.textContent = `Not stopped: ${explain(error)}`;
@@ -56,7 +56,7 @@ async function refresh() {
       bar.hidden = false;
     } else {
       bar.hidden = !note.textContent.startsWith("Stopped") || bar.hidden;
-      if (!bar.hidden) names.textContent = "No test runs. ";
+      if (!bar.hidden) names.textContent = "No test is running. ";
     }
     button.disabled = !total;
   } catch (error) {

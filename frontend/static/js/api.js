@@ -2,7 +2,7 @@
 
 /** @typedef {{where: string, problem: string, value?: any, fix?: string | null}} Problem */
 
-/** A refusal of the service, or no answer at all (status 0). */
+/** An error response of the service. Status 0: the service did not answer. */
 export class ApiError extends Error {
   /** @param {number} status @param {string} message @param {Problem[]} errors */
   constructor(status, message, errors = []) {
@@ -24,12 +24,12 @@ async function request(path, init) {
     response = await fetch(`/api/v1${path}`, init);
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new ApiError(0, "The service does not answer. Check that it runs and that you are connected.");
+    throw new ApiError(0, "The service does not answer. Check that the service runs and that this computer is connected to it.");
   }
   if (response.ok) return response;
   const body = await response.json().catch(() => ({}));
   const errors = Array.isArray(body.errors) ? body.errors : [];
-  throw new ApiError(response.status, body.detail || body.title || `The service answered ${response.status}.`, errors);
+  throw new ApiError(response.status, body.detail || body.title || `The service answered with the HTTP status ${response.status}.`, errors);
 }
 
 /** @param {any} data @param {AbortSignal} [signal] @returns {RequestInit} */

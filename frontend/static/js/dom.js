@@ -1,7 +1,8 @@
 // @ts-check
 
 /**
- * An element with attributes and children; strings become text nodes, `on` holds listeners, true and false set or leave out.
+ * Create an element with attributes and children. A string child becomes a text node, `on` maps events to listeners,
+ * true sets an attribute without a value, and false leaves the attribute out.
  * @param {string} tag
  * @param {Record<string, any>} [attributes]
  * @param {...(Node | string | null | undefined | false)} children
@@ -21,11 +22,11 @@ export function el(tag, attributes = {}, ...children) {
 /** @param {string} id @returns {any} */
 export function byId(id) {
   const node = document.getElementById(id);
-  if (!node) throw new Error(`no element #${id}`);
+  if (!node) throw new Error(`The page has no element #${id}.`);
   return node;
 }
 
-/** The value of a CSS custom property holding a colour, as the browser resolves it in the theme shown. @param {string} name */
+/** The colour of a CSS custom property in the current theme, as the browser resolves it. @param {string} name */
 export function colour(name) {
   const probe = document.createElement("span");
   probe.style.color = `var(${name})`;
@@ -35,5 +36,5 @@ export function colour(name) {
   return found;
 }
 
-/** The HTML elements among some, as an array. @param {Iterable<Element>} some */
+/** The HTML elements of a collection, as an array. @param {Iterable<Element>} some */
 export const htmlElements = (some) => [...some].filter((one) => one instanceof HTMLElement);

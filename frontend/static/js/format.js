@@ -10,19 +10,19 @@ export function number(value, digits = 4) {
   return value.toFixed(decimals);
 }
 
-/** A value read off a chart: as `number`, but what is next to nothing reads 0.000. @param {number | null | undefined} value */
+/** A value read off a chart: like `number`, but a value below 0.001 is shown with three decimals. @param {number | null | undefined} value */
 export function reading(value) {
   return value != null && Math.abs(value) < 1e-3 ? fixed(value, 3) : number(value);
 }
 
-/** With fixed decimals; what rounds to nothing has no sign. @param {number | null | undefined} value */
+/** A number with fixed decimals; zero after rounding has no sign. @param {number | null | undefined} value */
 export function fixed(value, decimals = 1) {
   if (value == null || !Number.isFinite(value)) return "–";
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
-/** Date and time of day where the reader is. @param {string | null | undefined} iso */
+/** Date and time in the time zone of the browser. @param {string | null | undefined} iso */
 export function when(iso) {
   if (!iso) return "–";
   const date = new Date(iso);

@@ -1,5 +1,5 @@
 // @ts-check
-// Buttons of the Lab page that ask the service for something; the page's next look shows what came of it.
+// The buttons of the Lab page: each sends a request, and the next refresh of the page shows the result.
 import { api, explain } from "./api.js";
 import { byId } from "./dom.js";
 import { person } from "./person.js";

@@ -2,7 +2,7 @@
 
 const KEY = "rths.name";
 
-/** The name under which this browser's reader submits and stops tests. */
+/** The name of the user of this browser, stored with tests that the user submits or stops. */
 export const person = () => localStorage.getItem(KEY) ?? "";
 
 /** @param {string} name */

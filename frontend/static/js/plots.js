@@ -1,5 +1,5 @@
 // @ts-check
-// Draws every `.plot` by the specification in the script element after it: in a report that is one file, and on a page.
+// Draws every `.plot` from the JSON specification in the script element after it, on a page and in a stand-alone report.
 (() => {
   "use strict";
   const LIGHT = { dark: false, text: "#1c2429", muted: "#55626a", grid: "#e4e8ea", zero: "#b4bdc2", shade: "#55626a", scale: ["#f3f5f6", "#f2c893", "#c24d00", "#6d1f00"], lines: ["#0072b2", "#c24d00", "#007a5a", "#9a4a86"] };
@@ -40,7 +40,7 @@
     type: "bar", name: trace.name, x: trace.x, y: trace.y, hoverinfo: "x+y+name", marker: { color: colour(trace, theme) },
   });
 
-  /** One row of a map; a third of the way up its scale noise ends. @param {PlotRow} row @param {number} i @param {PlotSpec} spec @param {PlotTheme} theme */
+  /** One row of a map. The noise ends at one third of the colour scale. @param {PlotRow} row @param {number} i @param {PlotSpec} spec @param {PlotTheme} theme */
   const heat = (row, i, spec, theme) => ({
     type: "heatmap", x: row.x, y: [i], z: [row.z], customdata: [row.said], zmin: spec.scale.from, zmax: spec.scale.to, xgap: 1, ygap: 6,
     colorscale: theme.scale.map((one, k) => [k / (theme.scale.length - 1), one]), showscale: i === 0,
@@ -81,7 +81,7 @@
     };
   }
 
-  /** @param {PlotTheme} theme @param {(box: HTMLElement) => number} [width] of a print; on a screen plots fill their boxes */
+  /** @param {PlotTheme} theme @param {(box: HTMLElement) => number} [width] the width in print; on a screen, a plot fills its box */
   function draw(theme, width) {
     for (const { box, spec } of plots) {
       if (spec.height) box.style.height = `${spec.height}px`;

@@ -1,5 +1,5 @@
 // @ts-check
-// Queues the twelve simulations; the page's next look shows them.
+// Queues the twelve simulations; the next refresh of the page shows them.
 import { api, explain } from "./api.js";
 import { byId } from "./dom.js";
 import { person } from "./person.js";

@@ -1,5 +1,5 @@
 // @ts-check
-// A classic script in the head, so that the kept theme is set before the first paint.
+// A classic script in the head: it sets the stored theme before the first paint.
 (() => {
   const key = "rths.theme";
   const root = document.documentElement;

@@ -23,7 +23,7 @@ class FirstOrderDelay(Part):
     """
 
     kind: Literal["first_order_delay"] = "first_order_delay"
-    alpha: float = quantity("Delay constant α", ge=1, le=1000, default=30.0, help="delay of (α − 1) controller steps")
+    alpha: float = quantity("Delay constant α", ge=1, le=1000, default=30.0, help="the delay is (α − 1) controller steps")
     velocity_limit: float = quantity("Velocity limit", "m/s", "mm/s", gt=0, le=10, default=0.56)
     force_limit: float = quantity("Force capacity", "N", "kN", gt=0, le=1e8, default=2.3e6)
     title: ClassVar[str] = "First-order delay"

@@ -61,12 +61,12 @@ class AdaptiveTimeSeries(Part):
 
     kind: Literal["ats"] = "ats"
     delay: float = quantity("Estimated delay τ", "s", "ms", ge=0, le=0.2, default=29 / 1024, help="start value of a1")
-    largest_delay: float = quantity("Largest a1 τ_max", "s", "ms", gt=0, le=0.2, default=0.06)
-    gain_range: float = quantity("Range of the amplitude |a0 − 1|", ge=0, le=0.9, default=0.3)
+    largest_delay: float = quantity("Largest delay a1, τ_max", "s", "ms", gt=0, le=0.2, default=0.06)
+    gain_range: float = quantity("Range of the amplitude coefficient |a0 − 1|", ge=0, le=0.9, default=0.3)
     window: float = quantity("Moving window", "s", ge=0.05, le=10, default=1.0)
     derivative_step: float = quantity("Step of the derivatives h", "s", "ms", gt=0, le=0.05, default=10 / 1024)
     cutoff: float = quantity("Low-pass filter before the fit", "Hz", gt=0, le=1000, default=20.0)
-    threshold: float = quantity("Smallest RMS displacement to adapt", "m", "mm", ge=0, le=1, default=0.25e-3)
+    threshold: float = quantity("Smallest RMS displacement for adaptation", "m", "mm", ge=0, le=1, default=0.25e-3)
     title: ClassVar[str] = "Adaptive time series (ATS)"
 
     def build(self, dt: float) -> tuple[Array, Array]:

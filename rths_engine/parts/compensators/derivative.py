@@ -22,7 +22,9 @@ class DerivativeFeedForward(Part):
     """
 
     kind: Literal["derivative"] = "derivative"
-    velocity_gain: float = quantity("Velocity gain g_v", "s", "ms", ge=0, le=1, default=29 / 1024, help="the actuator's lag")
+    velocity_gain: float = quantity(
+        "Velocity gain g_v", "s", "ms", ge=0, le=1, default=29 / 1024, help="the lag of the actuator"
+    )
     acceleration_root: float = quantity(
         "Root of the acceleration gain √g_a", "s", "ms", ge=0, le=1, default=0.0, help="1/ω of a second-order actuator"
     )

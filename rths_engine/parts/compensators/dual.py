@@ -24,7 +24,9 @@ class DualCompensation(Part):
     """
 
     kind: Literal["dual"] = "dual"
-    alpha_es: float = quantity("Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="(α_es − 1) steps of delay")
+    alpha_es: float = quantity(
+        "Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="compensates (α_es − 1) controller steps"
+    )
     kp: float = quantity("Proportional gain on the tracking error", ge=0, le=100, default=1.0)
     title: ClassVar[str] = "Dual (inverse and proportional)"
 

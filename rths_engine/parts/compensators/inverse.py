@@ -20,7 +20,7 @@ class InverseCompensation(Part):
 
     kind: Literal["inverse"] = "inverse"
     alpha_es: float = quantity(
-        "Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="(α_es − 1) controller steps of delay"
+        "Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="compensates (α_es − 1) controller steps"
     )
     title: ClassVar[str] = "Inverse"
 

@@ -25,7 +25,7 @@ class PhaseLead(Part):
 
     kind: Literal["phase_lead"] = "phase_lead"
     lead_time: float = quantity("Lead time T", "s", "ms", ge=0, le=1, default=0.032)
-    lag_ratio: float = quantity("Lag time over lead time r", ge=0, lt=1, default=0.1, help="noise grows at most 1/r times")
+    lag_ratio: float = quantity("Lag time over lead time r", ge=0, lt=1, default=0.1, help="amplifies noise by at most 1/r")
     title: ClassVar[str] = "Phase lead"
 
     def build(self, dt: float) -> tuple[Array, Array]:

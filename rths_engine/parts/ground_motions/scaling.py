@@ -14,7 +14,7 @@ from rths_engine.parts.ground_motions.spectrum import spectral_acceleration
 
 
 class Factor(Value):
-    """The record times a factor."""
+    """Multiplies the record by a factor."""
 
     kind: Literal["factor"] = "factor"
     factor: float = quantity("Scale factor", gt=0, le=100, default=1.0)
@@ -25,7 +25,7 @@ class Factor(Value):
 
 
 class ToPga(Value):
-    """Scaled so that the peak ground acceleration is `pga`."""
+    """Scales the record to a peak ground acceleration."""
 
     kind: Literal["pga"] = "pga"
     pga: float = quantity(
@@ -38,7 +38,7 @@ class ToPga(Value):
 
 
 class ToSpectralAcceleration(Value):
-    """Scaled so that the spectral acceleration at the structure's first period T1 is `sa`."""
+    """Scales the record to a spectral acceleration at the first period T1 of the structure."""
 
     kind: Literal["sa_t1"] = "sa_t1"
     sa: float = quantity(

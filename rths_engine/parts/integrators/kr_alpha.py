@@ -27,7 +27,7 @@ class KrAlphaIntegrator(Stepping):
     """
 
     kind: Literal["kr_alpha"] = "kr_alpha"
-    rho: float = quantity("Spectral radius at high frequency ρ∞", ge=0, le=1, default=0.75, help="1 dissipates nothing")
+    rho: float = quantity("Spectral radius at high frequency ρ∞", ge=0, le=1, default=0.75, help="1: no dissipation")
     title: ClassVar[str] = "KR-α (Kolay and Ricles)"
 
     def build(self, mass: Array, damping: Array, stiffness: Array) -> Scheme:

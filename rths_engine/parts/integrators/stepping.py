@@ -15,7 +15,11 @@ class Stepping(Value):
 
     dt: float = quantity("Integration step Δt", "s", "ms", gt=0, le=0.1, default=10 / 1024)
     substeps: int = quantity(
-        "Substeps per step n", ge=1, le=1000, default=10, help="ramp from command to command in n controller steps"
+        "Substeps per step n",
+        ge=1,
+        le=1000,
+        default=10,
+        help="controller steps of the command ramp per integration step",
     )
     title: ClassVar[str]
     stable_up_to: ClassVar[float] = math.inf  # omega dt of the highest mode of a linear elastic structure

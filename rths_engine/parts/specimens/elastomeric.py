@@ -33,7 +33,7 @@ class Elastomeric(Part):
         "Branch stiffnesses kᵢ", "N/m", "kN/m", min_length=1, max_length=4, default=(8.0e6, 4.0e6)
     )
     relaxation_times: tuple[RelaxationTime, ...] = quantity(
-        "Relaxation times τᵢ", "s", min_length=1, max_length=4, default=(0.05, 0.5), help="one for each branch"
+        "Relaxation times τᵢ", "s", min_length=1, max_length=4, default=(0.05, 0.5), help="one time for each branch"
     )
     title: ClassVar[str] = "Elastomeric (Maxwell chain)"
 

@@ -25,7 +25,7 @@ class FrictionSlider(Part):
     kind: Literal["friction_slider"] = "friction_slider"
     slip_force: float = quantity("Slip force f_s", "N", "kN", ge=0, le=1e9, default=1.0e5)
     stiffness: float = quantity("Stiffness before slip k", "N/m", "kN/m", gt=0, le=1e12, default=1.0e8)
-    slack: float = quantity("Slack each way g", "m", "mm", ge=0, le=1, default=0.0)
+    slack: float = quantity("Slack in each direction g", "m", "mm", ge=0, le=1, default=0.0)
     title: ClassVar[str] = "Friction slider with slack"
 
     def build(self, dt: float) -> tuple[Array, Array]:

@@ -47,15 +47,17 @@ class MatricesStructure(Value):
     damping: Rows = quantity(
         "Damping matrix C", "N*s/m", "kN*s/m", max_length=MOST_DOF, default=(), help="empty: Rayleigh damping"
     )
-    damping_ratio: float = quantity("Damping ratio of modes 1 and 2, without C", shown="%", ge=0, lt=1, default=0.02)
+    damping_ratio: float = quantity("Damping ratio of modes 1 and 2, if C is empty", shown="%", ge=0, lt=1, default=0.02)
     floors: tuple[int, ...] = quantity(
-        "Floors", max_length=MOST_DOF, default=(), help="degrees of freedom counted from 1; empty: every one"
+        "Floors", max_length=MOST_DOF, default=(), help="numbers of the degrees of freedom, from 1; empty: all"
     )
-    influence: Row = quantity("Influence of the ground ι", max_length=MOST_DOF, default=(), help="empty: 1 at floors, else 0")
+    influence: Row = quantity(
+        "Influence vector of the ground motion ι", max_length=MOST_DOF, default=(), help="empty: 1 at the floors, 0 elsewhere"
+    )
     drifts: Rows = quantity(
-        "Strokes of dampers L, a row a storey", max_length=MOST_DOF, default=(), help="empty: between neighbouring floors"
+        "Damper strokes L, one row per storey", max_length=MOST_DOF, default=(), help="empty: between neighbouring floors"
     )
-    title: ClassVar[str] = "Given matrices M, C, K"
+    title: ClassVar[str] = "Matrices M, C and K"
 
     @field_validator("mass", "stiffness", "damping")
     @classmethod

@@ -30,7 +30,9 @@ class FrameStorey(Value):
     """One storey: its columns, the beams of the floor on top of it, the floor's mass and the braces to its dampers."""
 
     height: float = quantity("Storey height", "m", ge=0.1, le=50)
-    mass: float = quantity("Floor mass", "kg", "t", gt=0, le=1e9, help="the frame's tributary mass, also its gravity load")
+    mass: float = quantity(
+        "Floor mass", "kg", "t", gt=0, le=1e9, help="tributary mass of the frame; also gives its gravity load"
+    )
     column: str = Field(title="Column section", min_length=1)
     beam: str = Field(title="Beam section", min_length=1)
     title: ClassVar[str] = "Storey"
@@ -41,7 +43,7 @@ class FrameStorey(Value):
         ge=0,
         le=1e13,
         default=0.0,
-        help="in series with the dampers; 0 is rigid",
+        help="in series with the dampers; 0: rigid",
     )
 
 
@@ -63,9 +65,9 @@ class MomentFrame(Value):
     storeys: tuple[FrameStorey, ...] = Field(title="Storeys", min_length=1, max_length=50)
     damping_ratio: float = quantity("Damping ratio of modes 1 and 2", shown="%", ge=0, lt=1, default=0.02)
     fixed_base: bool = Field(True, title="Fixed column bases")
-    inelastic: bool = Field(True, title="Members yield")
+    inelastic: bool = Field(True, title="Yielding members")
     p_delta: bool = Field(True, title="P-delta of the gravity frames")
-    hinge_fraction: float = quantity("Length of an end segment", shown="%", ge=1e-3, le=0.49, default=0.05)
+    hinge_fraction: float = quantity("Length of an end segment over member length", shown="%", ge=1e-3, le=0.49, default=0.05)
     hardening: float = quantity("Strain hardening", shown="%", ge=0, lt=1, default=0.03)
     elastic_modulus: float = quantity("Elastic modulus", "N/m^2", "GPa", gt=0, le=1e13, default=200e9)
     yield_stress: float = quantity("Yield stress", "N/m^2", "MPa", gt=0, le=1e11, default=345e6)

@@ -10,7 +10,7 @@ const { id, name, state } = byId("diagnosis").dataset;
 /** @param {unknown} error */
 const complain = (error) => (byId("refusal").textContent = explain(error));
 
-/** A button that asks the service for something; a refusal leaves it as it was. @param {string} button @param {() => Promise<any>} ask */
+/** Send a request when a button is pressed. After an error the button can be pressed again. @param {string} button @param {() => Promise<any>} ask */
 function asks(button, ask) {
   const found = /** @type {HTMLButtonElement | null} */ (document.getElementById(button));
   found?.addEventListener("click", async () => {
@@ -25,7 +25,7 @@ function asks(button, ask) {
   });
 }
 
-/** Ask until it is over, then show the page anew. @param {() => Promise<boolean>} over */
+/** Poll until `over` is true, then reload the page. @param {() => Promise<boolean>} over */
 async function until(over) {
   try {
     if (await over()) return location.reload();
@@ -39,7 +39,7 @@ async function progressed() {
   const now = await api.get(`/diagnoses/${id}`);
   byId("progress").value = now.share;
   const percent = `${Math.round(100 * now.share)} %`;
-  byId("doing").textContent = now.state === "queued" ? "waiting in the queue" : [percent, now.doing].filter(Boolean).join(", ");
+  byId("doing").textContent = now.state === "queued" ? "Waiting in the queue" : [percent, now.doing].filter(Boolean).join(", ");
   byId("refusal").textContent = "";
   return ended(now.state);
 }
@@ -58,7 +58,7 @@ asks("simulate", async () => {
   location.reload();
 });
 asks("remove", async () => {
-  if (!confirm(`Delete the diagnosis ${name}? This can't be undone.`)) throw new Error("");
+  if (!confirm(`Delete the diagnosis ${name}? You cannot undo this.`)) throw new Error("");
   await api.remove(`/diagnoses/${id}`);
   location.assign("/diagnoses");
 });

@@ -7,13 +7,13 @@ const form = byId("diagnose");
 const plan = /** @type {HTMLSelectElement} */ (byId("plan"));
 const file = /** @type {HTMLInputElement} */ (byId("plan-file"));
 
-/** `run:ID` as the service takes it. @param {string} chosen @returns {Record<string, string>} */
+/** Convert `run:ID` to the object that the service expects. @param {string} chosen @returns {Record<string, string>} */
 function source(chosen) {
   const at = chosen.indexOf(":");
   return { [chosen.slice(0, at)]: chosen.slice(at + 1) };
 }
 
-/** What is asked for as the plan. @returns {Promise<Record<string, string>>} */
+/** The part of the request that names the plan. @returns {Promise<Record<string, string>>} */
 async function planned() {
   if (plan.value === "own") return {};
   if (plan.value !== "file") {
@@ -21,13 +21,13 @@ async function planned() {
     return template ? { template } : { plan_of_run: run };
   }
   const chosen = file.files?.[0];
-  if (!chosen) throw new Error("Choose the plan file, or another plan.");
+  if (!chosen) throw new Error("Select a plan file, or select another plan.");
   return { plan: await chosen.text() };
 }
 
 async function asked() {
   const recording = byId("recording").value;
-  if (!recording) throw new Error("Choose the recording.");
+  if (!recording) throw new Error("Select a recording.");
   return {
     recording: source(recording),
     heldout: [...byId("heldout").selectedOptions].map((option) => source(option.value)),

@@ -3,7 +3,7 @@ import { ApiError } from "../api.js";
 
 /** @typedef {Record<string, any>} Node */
 
-/** Without the noise of a conversion: 0.3 * 0.001 is 0.0003. @param {number} value */
+/** Round off the error of a unit conversion: 0.3 * 0.001 gives 0.0003. @param {number} value */
 const clean = (value, digits = 15) => Number(value.toPrecision(digits));
 
 /** An SI value as text in the unit shown. @param {any} si @param {Node} node */
@@ -12,7 +12,7 @@ export function shown(si, node) {
   return typeof si === "number" ? String(clean(si / (node.factor ?? 1), 12)) : String(si);
 }
 
-/** Text in the unit shown as an SI value; text that is no number is left for the service, which reads `12 kip` too. @param {string} text @param {Node} node */
+/** Convert text in the shown unit to an SI value. Other text is passed on: the service also reads `12 kip`. @param {string} text @param {Node} node */
 export function toSi(text, node) {
   const trimmed = text.trim().replaceAll("−", "-");
   if (!trimmed) return null;
@@ -20,7 +20,7 @@ export function toSi(text, node) {
   return Number.isFinite(value) ? clean(value * (node.factor ?? 1)) : trimmed;
 }
 
-/** What is wrong with a number, its bound in the unit shown, or null. @param {any} si @param {Node} node @returns {string | null} */
+/** The problem of a number, with its bound in the shown unit, or null. @param {any} si @param {Node} node @returns {string | null} */
 export function outOfBounds(si, node) {
   if (si === null) return node.nullable ? null : "is required";
   if (typeof si !== "number") return null;
@@ -33,7 +33,7 @@ export function outOfBounds(si, node) {
   return null;
 }
 
-/** The problems of a refused plan with paths into the plan, however the request wrapped it. @param {unknown} error */
+/** The problems of a refused plan, with paths relative to the plan. @param {unknown} error */
 export function planProblems(error) {
   if (!(error instanceof ApiError)) throw error;
   if (!error.errors.length) return [{ where: "", problem: error.message }];

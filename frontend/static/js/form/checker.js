@@ -5,7 +5,7 @@ import { planProblems } from "./bounds.js";
 const QUIET_MS = 400;
 
 /**
- * Ask the service about the plan a moment after the last change; answers to older questions are dropped.
+ * Check the plan with the service shortly after the last change. Answers to older checks are ignored.
  * @param {() => any} read @param {(checked: any | null, problems: any[]) => void} tell @param {(error: unknown) => void} failed
  */
 export function liveCheck(read, tell, failed) {

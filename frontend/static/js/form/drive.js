@@ -11,7 +11,7 @@ const QUIET_MS = 300;
 const MM = 1e-3;
 
 /**
- * The drive with a picture of it that follows what is typed, its peak and velocity beside the station's limits.
+ * The fields of the drive with a live plot, and its peak displacement and velocity beside the station's limits.
  * @param {Schema} schema @param {Node} node @param {any} value @param {() => any} plan the whole plan as it stands @returns {Part}
  */
 export function drivePart(schema, node, value, plan) {
@@ -30,8 +30,8 @@ export function drivePart(schema, node, value, plan) {
       if (mine === asked) shown.replaceChildren(...picture(preview, stations[0]?.limits ?? {}));
     } catch (error) {
       if (mine !== asked) return;
-      const refused = error instanceof ApiError && error.errors.length; // told beside the fields
-      shown.replaceChildren(refused ? el("p", { class: "muted" }, "No picture until the drive can be read.") : el("p", { class: "error" }, explain(error)));
+      const refused = error instanceof ApiError && error.errors.length; // the fields show these errors
+      shown.replaceChildren(refused ? el("p", { class: "muted" }, "There is no plot because the drive has errors.") : el("p", { class: "error" }, explain(error)));
     }
   };
   const refresh = () => {
@@ -47,7 +47,7 @@ export function drivePart(schema, node, value, plan) {
 function picture({ time, displacement, peak, velocity, duration }, limits) {
   const beside = (/** @type {string} */ what, /** @type {number} */ reached, /** @type {any} */ limit, /** @type {string} */ unit) => {
     const bounded = typeof limit === "number";
-    const text = `${what} ${number(reached / MM)} ${unit}${bounded ? ` of ${number(limit / MM)} ${unit} allowed` : ""}`;
+    const text = `${what} ${number(reached / MM)} ${unit}${bounded ? ` (limit ${number(limit / MM)} ${unit})` : ""}`;
     return el("span", { class: bounded && reached > limit ? "beyond" : "" }, text);
   };
   const facts = el(

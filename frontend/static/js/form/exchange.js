@@ -3,7 +3,7 @@ import { api } from "../api.js";
 import { el } from "../dom.js";
 import { withinLimit } from "../limit.js";
 
-/** Hand the plan to the browser as a YAML file. @param {any} plan */
+/** Download the plan as a YAML file. @param {any} plan */
 export async function exportYaml(plan) {
   const text = await api.postForText("/plans/write", plan);
   const url = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
@@ -12,7 +12,7 @@ export async function exportYaml(plan) {
   URL.revokeObjectURL(url);
 }
 
-/** The plan in the YAML file chosen. @param {HTMLInputElement} input */
+/** Read a plan from the selected YAML file. @param {HTMLInputElement} input */
 export async function importYaml(input) {
   const text = await withinLimit(/** @type {FileList} */ (input.files)[0]).text();
   input.value = "";

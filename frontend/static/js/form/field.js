@@ -4,13 +4,13 @@ import { outOfBounds, shown, toSi } from "./bounds.js";
 import { hintOf } from "./schema.js";
 
 /**
- * Part of the form: `read` gives its value in SI, `problems` what it finds wrong by itself.
- * `refresh` follows a change of the kind of test.
+ * Part of the form: `read` gives its value in SI, `problems` gives the errors that the form finds without the service,
+ * and `refresh` updates the part after a change of the kind of test.
  * @typedef {{element: HTMLElement, read: () => any, problems: () => {where: string, problem: string}[], refresh?: () => void}} Part
  * @typedef {Record<string, any>} Node
  */
 
-/** A labelled control with its hint and the place of its error. @param {string} path @param {string} label @param {any} control @param {string} hint */
+/** A control with its label, its hint and an element for its error. @param {string} path @param {string} label @param {any} control @param {string} hint */
 export function labelled(path, label, control, hint = "", unit = "", wide = false) {
   control.id = `f-${path}`;
   control.dataset.path = path;
@@ -25,7 +25,7 @@ export function labelled(path, label, control, hint = "", unit = "", wide = fals
   );
 }
 
-/** A number or a text. @param {Node} node @param {string} path @param {any} value @returns {Part} */
+/** A field for a number or a text. @param {Node} node @param {string} path @param {any} value @returns {Part} */
 export function scalarField(node, path, value) {
   const numeric = node.type === "number" || node.type === "integer";
   const text = numeric ? shown(value, node) : (value ?? "");
@@ -44,22 +44,22 @@ export function scalarField(node, path, value) {
   return { element: labelled(path, node.title, control, hintOf(node), node.shown_label, node.maxLength > 100), read, problems };
 }
 
-/** Yes or no. @param {Node} node @param {string} path @param {any} value @returns {Part} */
+/** A switch: yes or no. @param {Node} node @param {string} path @param {any} value @returns {Part} */
 export function switchField(node, path, value) {
   const control = el("input", { type: "checkbox", role: "switch", checked: Boolean(value) });
   return { element: labelled(path, node.title, control, hintOf(node)), read: () => control.checked, problems: () => [] };
 }
 
-/** One of some choices. @param {string} path @param {string} label @param {Map<string, string>} choices @param {string} value */
+/** A field that selects one of several choices. @param {string} path @param {string} label @param {Map<string, string>} choices @param {string} value */
 export function choiceField(path, label, choices, value, hint = "", wide = false) {
   const options = [...choices].map(([key, text]) => el("option", { value: key, selected: key === value }, text));
   const control = el("select", {}, ...options);
   return { element: labelled(path, label, control, hint, "", wide), control, read: () => control.value, problems: () => [] };
 }
 
-const MANY = 2000; // numbers that are not written into their field
+const MANY = 2000; // more numbers than this are not written into their field
 
-/** Some numbers in one field; very many are kept, and others can be pasted over them. @param {Node} node @param {string} path @param {number[] | undefined} values @returns {Part} */
+/** A field for several numbers. A very long list is kept unchanged until other numbers are pasted over it. @param {Node} node @param {string} path @param {number[] | undefined} values @returns {Part} */
 export function numbersField(node, path, values = []) {
   const many = node.maxItems > MANY;
   const text = values.length > MANY ? "" : values.map((value) => shown(value, node)).join(many ? " " : ", ");
@@ -71,16 +71,16 @@ export function numbersField(node, path, values = []) {
     if (found.length < (node.minItems ?? 0)) return [{ where: path, problem: `needs at least ${node.minItems} ${node.minItems === 1 ? "number" : "numbers"}` }];
     const wrong = found.findIndex((/** @type {unknown} */ one) => typeof one !== "number" || outOfBounds(one, bounds));
     if (wrong < 0) return [];
-    const problem = typeof found[wrong] === "number" ? outOfBounds(found[wrong], bounds) : `is no number: ${found[wrong]}`;
+    const problem = typeof found[wrong] === "number" ? outOfBounds(found[wrong], bounds) : `is not a valid number: ${found[wrong]}`;
     return [{ where: path, problem: `number ${wrong + 1} ${problem}` }];
   };
-  const how = values.length > MANY ? `${values.length} numbers are kept; paste others to replace them` : "numbers with spaces or commas between";
+  const how = values.length > MANY ? `${values.length} numbers, kept unchanged; paste numbers to replace them` : "numbers separated by spaces or commas";
   const hint = [hintOf(node), how].filter(Boolean).join("; ");
   return { element: labelled(path, node.title, control, hint, node.shown_label, many), read, problems };
 }
 
-/** A value that the form keeps as it is. @param {Node} node @param {any} value @returns {Part} */
+/** A value that the form keeps unchanged. @param {Node} node @param {any} value @returns {Part} */
 export function keptField(node, value) {
   const what = Array.isArray(value) ? `${value.length} values` : String(value);
-  return { element: el("p", { class: "muted" }, `${node.title}: ${what}, kept as they are`), read: () => value, problems: () => [] };
+  return { element: el("p", { class: "muted" }, `${node.title}: ${what}, kept unchanged`), read: () => value, problems: () => [] };
 }

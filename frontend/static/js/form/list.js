@@ -5,7 +5,7 @@ import { kindLabel } from "./schema.js";
 /** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
 
 /**
- * A list whose items can be added, duplicated and removed (stations, storeys); in some kinds of test only its first is used.
+ * A list whose items can be added, duplicated and removed (stations, storeys). Some kinds of test use only the first item.
  * @param {Schema} schema @param {Node} node @param {string} path @param {any[]} values
  * @param {(schema: Schema, node: Node, path: string, value: any) => Part} part
  * @returns {Part}
@@ -64,7 +64,7 @@ export function listPart(schema, node, path, values, part) {
   return { element, refresh, read: () => used().map((one) => one.read()), problems: () => used().flatMap((one) => one.problems()) };
 }
 
-/** A new item whose name no other bears. @param {any} value @param {any[]} others */
+/** A new item with a name that no other item has. @param {any} value @param {any[]} others */
 function named(value, others) {
   if (!value || typeof value.name !== "string") return value;
   const taken = new Set(others.map((other) => other.name));

@@ -10,13 +10,13 @@ import { uploadBox } from "./upload.js";
 /** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
 
 /**
- * The ground motion: none, a record of the library, or acceleration that the plan carries itself, which is kept.
+ * The ground motion: none, a record of the library, or an acceleration written in the plan, which is kept unchanged.
  * @param {Schema} schema @param {Node} unresolved @param {any} value @param {any[]} records @returns {Part}
  */
 export function motionPart(schema, unresolved, value, records) {
   const node = schema.resolve(unresolved);
   const kinds = schema.kinds(node);
-  const first = value?.kind === "none" || value?.kind === "inline" ? value.kind : "record"; // a file is the command line's
+  const first = value?.kind === "none" || value?.kind === "inline" ? value.kind : "record"; // only the command line uses record files
   const offered = [...kinds].filter(([kind]) => kind === "record" || kind === "none" || kind === first);
   const choice = choiceField("motion.kind", node.title, new Map(offered.map(([kind, option]) => [kind, kindLabel(option)])), first);
   const body = el("div", {});
@@ -39,7 +39,7 @@ export function motionPart(schema, unresolved, value, records) {
   return { element, read: () => current().read(), problems: () => current().problems() };
 }
 
-/** A record with its preview, its scale, and a way to bring in a new one. @param {Schema} schema @param {Node} node @param {any} value @param {any[]} records @returns {Part} */
+/** A record with its preview, its scaling and the upload of a new record. @param {Schema} schema @param {Node} node @param {any} value @param {any[]} records @returns {Part} */
 function recordPart(schema, node, value, records) {
   const scale = scalePart(schema, node, value);
   const known = new Map(records.map((one) => [one.name, label(one)]));
@@ -50,7 +50,7 @@ function recordPart(schema, node, value, records) {
 
   const show = async () => {
     const name = choice.read();
-    shown.replaceChildren(el("p", { class: "muted" }, "Reading the record …"));
+    shown.replaceChildren(el("p", { class: "muted" }, "Loading the record …"));
     try {
       const preview = await api.get(`/motions/${encodeURIComponent(name)}/preview`);
       if (name === choice.read()) shown.replaceChildren(previewOf(preview));

@@ -16,7 +16,7 @@ const who = byId("who");
 const templates = byId("template");
 /** @type {PlanForm} */
 let form;
-/** @type {{template: string | null, digest: string | null}} the template the form was filled from, and its digest */
+/** @type {{template: string | null, digest: string | null}} the template that filled the form, and its digest */
 let origin = { template: null, digest: null };
 
 const check = liveCheck(() => form.read(), told, (error) => (verdict.textContent = explain(error)));
@@ -28,7 +28,7 @@ function told(checked, refused) {
   const problems = [...own, ...refused.filter((problem) => !paths.has(problem.where))];
   form.mark(problems);
   if (problems.length) {
-    const count = problems.length === 1 ? "One thing needs attention" : `${problems.length} things need attention`;
+    const count = problems.length === 1 ? "1 error" : `${problems.length} errors`;
     verdict.replaceChildren(el("p", { class: "error" }, count), problemList(problems, (where) => form.control(where)));
     return problems;
   }
@@ -36,8 +36,8 @@ function told(checked, refused) {
     origin.digest ??= checked.digest;
     const changed = origin.template && origin.digest !== checked.digest;
     form.kept.template = changed ? null : origin.template;
-    const paper = origin.template?.startsWith("table3-") ? ": its result is not the paper's row" : "";
-    const note = changed && el("p", { class: "muted" }, `Changed from ${origin.template}${paper}.`);
+    const paper = origin.template?.startsWith("table3-") ? " The result cannot be compared with the paper." : "";
+    const note = changed && el("p", { class: "muted" }, `The plan differs from the template ${origin.template}.${paper}`);
     verdict.replaceChildren(el("p", { class: "good" }, "Ready to queue"), ...summaryOf(checked), note || "");
   }
   return problems;
@@ -78,7 +78,7 @@ async function submit(event) {
 }
 
 function refuseWho() {
-  byId("e-who").textContent = "is required: it is kept with the run (it is remembered here)";
+  byId("e-who").textContent = "is required: the name is stored with the run. This browser remembers the name.";
   who.setAttribute("aria-invalid", "true");
   who.focus();
 }

@@ -26,8 +26,8 @@ export function part(schema, unresolved, path, value) {
 }
 
 /**
- * The fields of an object, without `kind`, which is read back as it stands. Fields that other kinds of test use are hidden and
- * read back as they are by default; what was typed in them stays.
+ * The fields of an object. `kind` has no field and is read back unchanged. A field that the kind of test does not use is hidden
+ * and gives its default; the typed text is kept.
  * @param {Schema} schema @param {Node} node @param {string} path @param {any} value
  */
 export function fieldsOf(schema, node, path, value) {
@@ -44,7 +44,7 @@ export function fieldsOf(schema, node, path, value) {
   };
 }
 
-/** A part that is shown and read while the kind of test chosen uses it. @param {Schema} schema @param {Node} node @param {Part} one @returns {Part} */
+/** A part that is shown and read while the selected kind of test uses it. @param {Schema} schema @param {Node} node @param {Part} one @returns {Part} */
 export function usedIn(schema, node, one) {
   if (!node.tests) return one;
   one.element.dataset.tests = node.tests.join(" ");
@@ -71,7 +71,7 @@ function effectsPart(schema, node, path, value) {
   return { ...list, element };
 }
 
-/** A choice of kinds whose fields follow the choice; what was typed for a kind is kept while others are tried. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */
+/** A choice of kinds with the fields of the selected kind. The text typed for a kind is kept while another kind is selected. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */
 function unionPart(schema, node, path, value) {
   const kinds = schema.kinds(node);
   const first = value?.kind ?? [...kinds.keys()][0];

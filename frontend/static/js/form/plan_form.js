@@ -19,7 +19,7 @@ const SECTIONS = [
 ];
 const KEPT = ["schema", "template"];
 
-/** The whole plan as a form made from its schema. */
+/** The form of a plan, built from the plan's JSON schema. */
 export class PlanForm {
   /** @param {HTMLElement} host @param {Schema} schema @param {any[]} records */
   constructor(host, schema, records) {
@@ -33,7 +33,7 @@ export class PlanForm {
     for (const event of ["input", "change"]) host.addEventListener(event, () => this.#refresh());
   }
 
-  /** Show a plan. @param {any} plan */
+  /** Fill the form with a plan. @param {any} plan */
   write(plan) {
     const properties = this.schema.root.properties;
     this.kept = Object.fromEntries(KEPT.map((name) => [name, plan[name] ?? null]));
@@ -49,7 +49,7 @@ export class PlanForm {
     this.#refresh();
   }
 
-  /** Show what the kind of test chosen uses. */
+  /** Show the fields that the selected kind of test uses. */
   #refresh() {
     this.schema.test = this.parts.get("test")?.read();
     for (const one of htmlElements(this.host.querySelectorAll("[data-tests]"))) one.hidden = !one.dataset.tests?.split(" ").includes(this.schema.test);
@@ -66,17 +66,17 @@ export class PlanForm {
     return part(this.schema, node, name, value ?? this.schema.initial(node));
   }
 
-  /** The plan as it stands, in SI. @returns {any} */
+  /** The plan in the form, in SI units. @returns {any} */
   read() {
     return { ...this.kept, ...Object.fromEntries([...this.parts].map(([name, one]) => [name, one.read()])) };
   }
 
-  /** What the form finds wrong by itself, with bounds in the units shown. @returns {Problem[]} */
+  /** The errors that the form finds without the service, with bounds in the shown units. @returns {Problem[]} */
   problems() {
     return [...this.parts.values()].flatMap((one) => one.problems());
   }
 
-  /** Show each problem beside its field, the first told of a field; those without a field are returned. @param {Problem[]} problems */
+  /** Show the first problem of each field beside the field. Returns the problems without a field. @param {Problem[]} problems */
   mark(problems) {
     for (const control of this.host.querySelectorAll("[aria-invalid]")) control.removeAttribute("aria-invalid");
     for (const place of this.host.querySelectorAll("small.error")) place.textContent = "";
@@ -91,7 +91,7 @@ export class PlanForm {
     });
   }
 
-  /** The control of a path, or the nearest above it that can show an error. @param {string} where @returns {HTMLElement | null} */
+  /** The control of a path, or the nearest enclosing control that can show an error. @param {string} where @returns {HTMLElement | null} */
   control(where) {
     for (let path = where; path; path = path.slice(0, Math.max(0, path.lastIndexOf(".")))) {
       const found = document.getElementById(`f-${path}`) ?? document.getElementById(`f-${path}.kind`) ?? this.#list(path);

@@ -5,14 +5,14 @@ import { number } from "../format.js";
 import { axis, fit, padded, themed } from "../run/plot_style.js";
 
 /**
- * What the service tells of a record: its samples and its spectrum of `damping`, in SI.
+ * The preview of a record from the service: its samples and its response spectrum with `damping`, in SI units.
  * @typedef {{name: string, title: string, dt: number, duration: number, pga: number, provenance: string,
  *   time: number[], acceleration: number[], spectrum: {periods: number[], sa: number[], damping: number}}} Preview
  */
 
 const GRAVITY = 9.80665;
 
-/** Plots of a record's acceleration and its response spectrum, with the facts above them. @param {Preview} preview @returns {HTMLElement} */
+/** Plots of a record's acceleration and response spectrum, below its key figures. @param {Preview} preview @returns {HTMLElement} */
 export function previewOf(preview) {
   const { spectrum } = preview;
   const inG = (/** @type {number[]} */ values) => values.map((value) => value / GRAVITY);

@@ -1,10 +1,10 @@
 // @ts-check
 /**
- * One node of the plan's JSON schema, references resolved.
+ * One node of the plan's JSON schema with its references resolved.
  * @typedef {Record<string, any>} Node
  */
 
-/** Reads the plan's JSON schema: the one source of labels, units, bounds and defaults of the form. */
+/** Reads the plan's JSON schema, the only source of the form's labels, units, bounds and defaults. */
 export class Schema {
   /** @param {Node} root */
   constructor(root) {
@@ -12,12 +12,12 @@ export class Schema {
     this.test = root.properties.test.default;
   }
 
-  /** Whether a field is used in the kind of test chosen. @param {Node} node */
+  /** Whether the selected kind of test uses a field. @param {Node} node */
   applies(node) {
     return !node.tests || node.tests.includes(this.test);
   }
 
-  /** The node itself with what its reference and its nullable form hold; `nullable` tells whether null is allowed. @param {Node} node @returns {Node} */
+  /** The node merged with its reference and its non-null option; `nullable` is true if null is allowed. @param {Node} node @returns {Node} */
   resolve(node) {
     if (node.$ref) {
       const { $ref, ...own } = node;
@@ -31,7 +31,7 @@ export class Schema {
     return node;
   }
 
-  /** The kinds a union offers, by name. @param {Node} node @returns {Map<string, Node>} */
+  /** The kinds of a union by name. @param {Node} node @returns {Map<string, Node>} */
   kinds(node) {
     const order = node.oneOf.map((/** @type {Node} */ option) => option.$ref);
     const mapping = /** @type {[string, string][]} */ (Object.entries(node.discriminator.mapping));
@@ -39,7 +39,7 @@ export class Schema {
     return new Map(mapping.map(([kind, $ref]) => [kind, this.resolve({ $ref })]));
   }
 
-  /** A value to start from: the default, or the defaults of all fields. @param {Node} node @returns {any} */
+  /** The initial value: the default, or the defaults of all fields. @param {Node} node @returns {any} */
   initial(node) {
     const found = this.resolve(node);
     if ("default" in found) return structuredClone(found.default);
@@ -53,12 +53,12 @@ export class Schema {
   }
 }
 
-/** The label of a kind: its title; a bare class name in words, `FrameStorey` as `Frame storey`. @param {Node} node */
+/** The label of a kind: its title. A class name is split into words: `FrameStorey` gives `Frame storey`. @param {Node} node */
 export function kindLabel(node) {
   return node.title.replace(/([a-z])([A-Z])/g, (/** @type {string} */ _, /** @type {string} */ a, /** @type {string} */ b) => `${a} ${b.toLowerCase()}`);
 }
 
-/** The first line of a description that is prose, which helps in a form; formulas stay in the documentation. @param {Node} node */
+/** The hint of a field: its description if it is a single line. Longer descriptions with formulas are for the documentation. @param {Node} node */
 export function hintOf(node) {
   return node.description && !node.description.includes("\n") ? node.description : "";
 }

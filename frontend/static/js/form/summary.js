@@ -2,14 +2,14 @@
 import { el } from "../dom.js";
 import { number } from "../format.js";
 
-/** The facts of a checked plan. @param {any} checked @returns {HTMLElement[]} */
+/** The key figures of a valid plan, and its warnings. @param {any} checked @returns {HTMLElement[]} */
 export function summaryOf({ digest, summary, warnings }) {
   const periods = summary.periods_s.slice(0, 2).map((/** @type {number} */ period, /** @type {number} */ i) => [`T${i + 1}`, `${number(period)} s`]);
   const rows = [
     ...periods,
     ["Steps", summary.steps],
     ["Duration", `${number(summary.duration_s)} s`],
-    ...(summary.pga == null ? [] : [["Scale factor", number(summary.scale_factor)], ["PGA as scaled", `${number(summary.pga / 9.80665, 3)} g`]]),
+    ...(summary.pga == null ? [] : [["Scale factor", number(summary.scale_factor)], ["Scaled PGA", `${number(summary.pga / 9.80665, 3)} g`]]),
     ["Digest", digest],
   ];
   const facts = rows
@@ -19,7 +19,7 @@ export function summaryOf({ digest, summary, warnings }) {
   return [el("dl", { class: "facts" }, ...facts), ...(told.length ? [el("ul", { class: "warnings" }, ...told)] : [])];
 }
 
-/** Problems as links to their fields. @param {any[]} problems @param {(where: string) => HTMLElement | null} control */
+/** A list of problems, each with a link to its field. @param {any[]} problems @param {(where: string) => HTMLElement | null} control */
 export function problemList(problems, control) {
   const items = problems.map(({ where, problem, fix }) => {
     const text = [problem, fix && `(${fix})`].filter(Boolean).join(" ");

@@ -9,11 +9,11 @@ const UNITS = ["g", "m/s^2", "cm/s^2", "mm/s^2", "in/s^2"];
 
 const QUIET_MS = 400;
 
-/** A file's way into the library: preview first, then add. @param {(motion: any) => void} added @returns {HTMLElement} */
+/** The upload of a record: first a preview, then the entry in the library. @param {(motion: any) => void} added @returns {HTMLElement} */
 export function uploadBox(added) {
   const file = el("input", { type: "file", accept: ".at2,.AT2,.v2,.V2,.txt,.csv,.dat,.tsv,.acc,text/*" });
-  const unit = el("select", {}, el("option", { value: "" }, "as the file says"), ...UNITS.map((name) => el("option", { value: name }, name)));
-  const dt = el("input", { type: "text", inputmode: "decimal", placeholder: "as the file says", autocomplete: "off" });
+  const unit = el("select", {}, el("option", { value: "" }, "from the file"), ...UNITS.map((name) => el("option", { value: name }, name)));
+  const dt = el("input", { type: "text", inputmode: "decimal", placeholder: "from the file", autocomplete: "off" });
   const name = el("input", { type: "text", placeholder: "from the file's name", autocomplete: "off" });
   const told = el("p", { class: "error", role: "alert" });
   const shown = el("div");
@@ -57,7 +57,7 @@ export function uploadBox(added) {
     looks++;
     try {
       const motion = await api.postForm("/motions", form());
-      shown.replaceChildren(el("p", { role: "status" }, `${motion.name} is in the library and chosen.`));
+      shown.replaceChildren(el("p", { role: "status" }, `${motion.name} was added to the library and selected.`));
       file.value = "";
       added(motion);
     } catch (error) {
@@ -71,13 +71,13 @@ export function uploadBox(added) {
   const box = el(
     "details",
     { class: "upload" },
-    el("summary", {}, "Bring in a record: PEER AT2, COSMOS V2 or columns of numbers"),
+    el("summary", {}, "Upload a record: PEER AT2, COSMOS V2 or columns of numbers"),
     el(
       "div",
       { class: "fields" },
       labelled("upload.file", "File", file),
       labelled("upload.unit", "Unit of the acceleration", unit),
-      labelled("upload.dt", "Step", dt, "", "s"),
+      labelled("upload.dt", "Time step", dt, "", "s"),
       labelled("upload.name", "Name in the library", name),
     ),
     told,

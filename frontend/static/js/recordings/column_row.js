@@ -7,19 +7,19 @@ import { number } from "../format.js";
  * @typedef {{roles: Record<string, {label: string, counts: string, dimensions: string[]}>, units: Record<string, string[]>}} Roles
  */
 
-/** Units that a role begins with, where the column does not say. @type {Record<string, string>} */
+/** Default units of the roles, for columns without a unit. @type {Record<string, string>} */
 const USUAL = { length: "mm", velocity: "mm/s", acceleration: "g", force: "kN", temperature: "degC" };
 
-/** One column of the file and what it is: role, station or floor, unit, gain, offset, sign; why, and what is wrong with it. */
+/** One column of the file with its role, station or floor, unit, gain, offset and sign, the reason for the proposal and the problems. */
 export class ColumnRow {
-  /** @param {Column} column @param {Roles} roles @param {string} id @param {(role: string) => number} free the next number of a role */
+  /** @param {Column} column @param {Roles} roles @param {string} id @param {(role: string) => number} free returns the next free number of a role */
   constructor(column, roles, id, free) {
     this.column = column;
     this.roles = roles;
     this.kept = {};
     const named = (/** @type {string} */ what) => ({ "aria-label": `${what} of ${column.name}`, "aria-describedby": id });
     const choices = Object.entries(roles.roles).map(([name, { label }]) => el("option", { value: name }, label));
-    this.role = el("select", named("Meaning"), el("option", { value: "" }, "not used"), ...choices);
+    this.role = el("select", named("Role"), el("option", { value: "" }, "not used"), ...choices);
     this.number = el("input", { ...named("Station or floor"), type: "number", min: 1, max: 999 });
     this.unit = el("select", named("Unit"));
     this.gain = el("input", { ...named("Gain"), type: "text", autocomplete: "off", placeholder: "1" });
@@ -33,7 +33,7 @@ export class ColumnRow {
       "tr",
       {},
       el("th", { scope: "row" }, el("span", {}, column.name), el("small", { class: "muted" }, extent(column))),
-      cell("Meaning", this.role),
+      cell("Role", this.role),
       cell("Station or floor", this.number),
       cell("Unit", this.unit),
       cell("Gain", this.gain),
@@ -43,7 +43,7 @@ export class ColumnRow {
     );
   }
 
-  /** @param {any} channel of a mapping, or undefined where the column is not used @param {string} why */
+  /** @param {any} channel of a mapping, or undefined if the column is not used @param {string} why */
   fill(channel, why) {
     const { column: _, role = "", number: at, unit, gain, offset, reverse, ...kept } = channel ?? {};
     this.kept = kept;
@@ -58,7 +58,7 @@ export class ColumnRow {
     this.#show();
   }
 
-  /** The channel as the mapping has it, or null where the column is not used. */
+  /** The channel in the form of a mapping, or null if the column is not used. */
   read() {
     const role = this.role.value;
     if (!role) return null;
@@ -75,7 +75,7 @@ export class ColumnRow {
     };
   }
 
-  /** Show what is wrong here. @param {{severity: string, text: string}[]} findings */
+  /** Show the problems of this column. @param {{severity: string, text: string}[]} findings */
   tell(findings) {
     this.wrong.replaceChildren(...findings.map(wrongItem));
     this.element.classList.toggle("refused", findings.some(({ severity }) => severity === "error"));
@@ -86,13 +86,13 @@ export class ColumnRow {
     const role = this.role.value;
     this.number.value = "";
     if (role && this.roles.roles[role].counts) this.number.value = String(free(role));
-    this.why.textContent = role ? "as you chose" : "";
+    this.why.textContent = role ? "your choice" : "";
     this.kept = {};
     this.#offerUnits(this.unit.value || this.column.unit);
     this.#show();
   }
 
-  /** The units that fit the role first, then those that need a gain. @param {string} wanted */
+  /** Offer the units that match the role first, then the units that need a gain. @param {string} wanted */
   #offerUnits(wanted) {
     if (!this.role.value) return this.unit.replaceChildren();
     const { dimensions } = this.roles.roles[this.role.value];
@@ -100,8 +100,8 @@ export class ColumnRow {
     const others = Object.values(this.roles.units).flat().filter((unit) => !fitting.includes(unit));
     const options = (/** @type {string[]} */ units) => units.map((unit) => el("option", { value: unit }, unit));
     this.unit.replaceChildren(
-      el("optgroup", { label: "fit" }, ...options(fitting)),
-      el("optgroup", { label: "with a gain" }, ...options(others)),
+      el("optgroup", { label: "units of this role" }, ...options(fitting)),
+      el("optgroup", { label: "units that need a gain" }, ...options(others)),
     );
     const kept = fitting.includes(wanted) || (others.includes(wanted) && (this.gain.value || ["V", "mV"].includes(wanted)));
     this.unit.value = kept ? wanted : (USUAL[dimensions[0]] ?? fitting[0] ?? "");
@@ -119,14 +119,14 @@ export class ColumnRow {
 /** @param {{severity: string, text: string}} finding */
 export const wrongItem = ({ severity, text }) => el("li", { class: severity }, el("strong", {}, severity === "error" ? "Error: " : "Warning: "), text);
 
-/** Text that is a number as one; other text for the service to refuse. @param {string} text */
+/** Convert text to a number. Other text is passed on: the service refuses it. @param {string} text */
 export function numeric(text) {
   const trimmed = text.trim();
   if (!trimmed) return null;
   return Number.isFinite(Number(trimmed)) ? Number(trimmed) : trimmed;
 }
 
-/** The mean, 0 where it is next to nothing beside the values. @param {{smallest: number | null, largest: number | null, mean: number | null}} of */
+/** The mean as text; 0 if the mean is negligible beside the values. @param {{smallest: number | null, largest: number | null, mean: number | null}} of */
 export function meanOf({ smallest, largest, mean }) {
   const size = Math.max(Math.abs(smallest ?? 0), Math.abs(largest ?? 0));
   return Math.abs(mean ?? 0) < 1e-9 * size ? "0" : number(mean);

@@ -11,11 +11,11 @@ import { MappingSettings } from "./settings.js";
 /** @typedef {import("./column_row.js").Roles} Roles */
 
 const QUIET_MS = 400;
-const HEADS = ["Column", "Meaning", "Station or floor", "Unit", "Gain", "Offset", "Reversed", "Why, and what is wrong"];
+const HEADS = ["Column", "Role", "Station or floor", "Unit", "Gain", "Offset", "Reversed", "Reason and problems"];
 
-/** Work out the mapping of an uploaded file, see what it makes of it, and import it. */
+/** The editor of a mapping: assigns roles to the columns of an uploaded file, previews the recording and imports it. */
 export class Editor {
-  /** @param {any} sent what the service says of the file @param {Roles} roles @param {(recording: any) => void} imported */
+  /** @param {any} sent the service's description of the file @param {Roles} roles @param {(recording: any) => void} imported */
   constructor(sent, roles, imported) {
     this.sent = sent;
     this.imported = imported;
@@ -45,8 +45,8 @@ export class Editor {
       el("thead", {}, el("tr", {}, ...HEADS.map((text) => el("th", { scope: "col" }, text)))),
       el("tbody", {}, ...this.rows.map((row) => row.element)),
     );
-    const offered = sent.mappings.map((/** @type {any} */ one, /** @type {number} */ i) => el("option", { value: i }, `as ${one.name}, imported ${one.imported_at.slice(0, 10)}`));
-    const from = el("select", {}, el("option", { value: "" }, "guessed from names and signals"), ...offered);
+    const offered = sent.mappings.map((/** @type {any} */ one, /** @type {number} */ i) => el("option", { value: i }, `mapping of ${one.name}, imported ${one.imported_at.slice(0, 10)}`));
+    const from = el("select", {}, el("option", { value: "" }, "proposed from names and signals"), ...offered);
     from.addEventListener("change", () => this.#apply(from.value));
     const fits = offered.length ? `${offered.length} earlier ${offered.length === 1 ? "mapping fits" : "mappings fit"} this file` : "no earlier mapping fits this file";
     const text = el("input", { type: "file", accept: ".yaml,.yml" });
@@ -58,12 +58,12 @@ export class Editor {
       el("h3", {}, sent.filename),
       el("p", { class: "muted" }, `${sent.format}, ${size(sent.size)}, SHA-256 ${sent.sha256.slice(0, 12)}…`),
       notes.length > 0 && el("ul", { class: "warnings" }, ...notes),
-      el("div", { class: "starters" }, labelled("mapping.from", "Mapping", from, fits), labelled("mapping.text", "Mapping from a file, YAML", text)),
+      el("div", { class: "starters" }, labelled("mapping.from", "Mapping", from, fits), labelled("mapping.text", "Load a mapping from YAML", text)),
       el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Columns of the file" }, this.table),
       this.settings.element,
       this.general,
       this.verdict,
-      el("div", { class: "starters sending" }, labelled("mapping.who", "Your name", this.who), el("button", { type: "submit" }, "Import")),
+      el("div", { class: "starters sending" }, labelled("mapping.who", "Your name", this.who), el("button", { type: "submit" }, "Import the recording")),
       this.plots,
     );
   }
@@ -83,20 +83,20 @@ export class Editor {
     const { guess, mappings, reasons, left_out } = this.sent;
     if (!chosen) return this.#fill(guess ?? { channels: [] }, (name) => reasons[name] ?? left_out[name] ?? "");
     const { mapping, name } = mappings[Number(chosen)];
-    this.#fill({ ...mapping, title: "" }, () => `as in ${name}`);
+    this.#fill({ ...mapping, title: "" }, () => `from the mapping of ${name}`);
   }
 
   /** @param {any} input */
   async #load(input) {
     try {
       const { mapping } = await api.post("/recordings/preview", { file: this.sent.sha256, mapping: await input.files[0].text() });
-      this.#fill(mapping, () => `as in ${input.files[0].name}`);
+      this.#fill(mapping, () => `from ${input.files[0].name}`);
     } catch (error) {
       this.#refused(error);
     }
   }
 
-  /** The channels in use with their rows, in the order in which they are sent. */
+  /** The used channels with their rows, in the order of the request. */
   #used() {
     return this.rows.map((row) => ({ row, channel: row.read() })).filter(({ channel }) => channel);
   }
@@ -123,7 +123,7 @@ export class Editor {
     const mine = (this.asking = new AbortController());
     if (!this.#used().length) {
       this.#clear();
-      return this.#say("Say of at least one column what it means.");
+      return this.#say("Not ready to import. Assign a role to at least one column.");
     }
     try {
       const found = await api.post("/recordings/preview", { file: this.sent.sha256, mapping: this.#mapping() }, mine.signal);
@@ -140,8 +140,8 @@ export class Editor {
     const errors = found.findings.filter((/** @type {any} */ one) => one.severity === "error").length;
     const warnings = found.findings.length - errors;
     const counted = [errors && `${errors} ${errors === 1 ? "error" : "errors"}`, warnings && `${warnings} ${warnings === 1 ? "warning" : "warnings"}`];
-    const judged = counted.filter(Boolean).join(" and ") || "the checks find nothing wrong";
-    this.#say(found.samples ? `${factsLine(found)}: ${judged}` : `It can't be imported so: ${judged}`);
+    const judged = counted.filter(Boolean).join(" and ") || "no errors or warnings";
+    this.#say(found.samples ? `${factsLine(found)}: ${judged}` : `Not ready to import: ${judged}`);
     this.plots.replaceChildren(plotsOf(found));
   }
 
@@ -156,10 +156,10 @@ export class Editor {
       return { ...one, row, severity: "error" };
     });
     this.#place(problems);
-    this.#say("It can't be imported so; what is wrong is beside the columns and fields.");
+    this.#say("Not ready to import. The errors are beside the columns and fields.");
   }
 
-  /** Each problem beside its column or its field, the rest below. @param {any[]} problems */
+  /** Show each problem beside its column or its field, and the other problems below the table. @param {any[]} problems */
   #place(problems) {
     /** @type {Map<ColumnRow, any[]>} */
     const beside = new Map();
@@ -199,5 +199,5 @@ export class Editor {
   }
 }
 
-/** A channel's name in the recording. @param {any} channel */
+/** The key of a channel in the recording. @param {any} channel */
 const keyOf = ({ role, number }) => (number ? `${role}.${number}` : role);

@@ -12,7 +12,7 @@ const status = byId("reading");
 const roles = api.get("/recordings/roles");
 let uploads = 0;
 
-/** Show the mapping of a file that the service keeps. @param {() => Promise<any>} sending @param {string} told */
+/** Open the mapping editor for a file that the service stores. @param {() => Promise<any>} sending @param {string} told */
 async function edit(sending, told) {
   const mine = ++uploads;
   byId("refusal").textContent = "";

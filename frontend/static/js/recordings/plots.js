@@ -13,10 +13,10 @@ import { meanOf } from "./column_row.js";
  * @typedef {{channels: Channel[], loops: Loop[], samples: number | null, dt_s: number, start_s: number}} Preview
  */
 
-const MOST = 24; // plots at a time
+const MOST = 24; // most plots shown
 const COLOURS = /** @type {Record<string, string>} */ ({ x: "--line-1", v: "--line-3", f: "--line-2" });
 
-/** Plots of a recording's channels, and of force against displacement. @param {Preview} preview @returns {HTMLElement} */
+/** Plots of a recording's channels and of force against displacement. @param {Preview} preview @returns {HTMLElement} */
 export function plotsOf({ channels, loops }) {
   const shown = channels.slice(0, MOST);
   const rest = channels.length - shown.length;

@@ -3,9 +3,9 @@ import { el } from "../dom.js";
 import { labelled } from "../form/field.js";
 import { numeric } from "./column_row.js";
 
-const KINDS = { "": "not said", hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone" };
+const KINDS = { "": "not given", hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone" };
 
-/** What a mapping says besides its columns: name, kind of test, rate, and what part of the file is taken. */
+/** The settings of a mapping besides its columns: name, kind of test, sampling rates, and the part of the file to import. */
 export class MappingSettings {
   constructor() {
     const text = (/** @type {string} */ mode) => el("input", { type: "text", inputmode: mode, autocomplete: "off" });
@@ -24,10 +24,10 @@ export class MappingSettings {
       { class: "fields" },
       labelled("mapping.title", "Name of the recording", title),
       labelled("mapping.test", "Kind of test", test),
-      labelled("mapping.rate", "Rate of the file", rate, "only where no column is time", "Hz"),
+      labelled("mapping.rate", "Sampling rate of the file", rate, "needed only if no column is time", "Hz"),
       labelled("mapping.start", "Start", start, "in the file's time", "s"),
       labelled("mapping.stop", "Stop", stop, "in the file's time", "s"),
-      labelled("mapping.target_rate", "Rate of the recording", target_rate, "empty: the highest of the channels", "Hz"),
+      labelled("mapping.target_rate", "Sampling rate of the recording", target_rate, "empty: the highest rate of the channels", "Hz"),
     );
   }
 
@@ -49,7 +49,7 @@ export class MappingSettings {
     };
   }
 
-  /** Show a problem at its field; whether there is one for it. @param {string} where @param {string} text */
+  /** Show a problem beside its field. Returns whether the problem has a field. @param {string} where @param {string} text */
   tell(where, text) {
     const name = where.replace("mapping.dt", "mapping.rate").match(/^mapping\.(title|test|rate|start|stop|target_rate)\b/)?.[1];
     const place = name && this.element.querySelector(`[id="e-mapping.${name}"]`);

@@ -10,7 +10,7 @@ import { View } from "./view.js";
 const COLOURS = ["--line-1", "--line-2", "--line-3", "--line-4"];
 const MOST_FLOORS = 8;
 
-/** Charts of a station: signals against time by `keys`, or one signal (y) against another (x). A title is given where the label of the channel is none. */
+/** Charts of a station: signals against time (`keys`), or one signal (y) against another (x). Without a `title`, the channel's label is the title. */
 const CHARTS = {
   displacement: { title: "Displacement", keys: ["x_cmd", "x_meas"], labels: ["command", "measured"] },
   force: { keys: ["f_meas"], labels: [""] },
@@ -22,14 +22,14 @@ const CHARTS = {
   subspace: { title: "Synchronisation subspace", x: ["x_cmd", "command"], y: ["x_meas", "measured"], alike: true },
 };
 
-/** What a station shows in each kind of test, and what of it is large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], large: Record<string, string>}>} */
+/** The charts of a station in each kind of test, and the charts that are large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], large: Record<string, string>}>} */
 const SHOWN = {
   hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "subspace", "ti", "d_alpha", "energy_error"], large: { displacement: "double" } },
   specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "error"], large: { hysteresis: "square", displacement: "double" } },
   actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "ti", "d_alpha"], large: { displacement: "wide" } },
 };
 
-/** Build the charts of a plan's test into `host`; the view draws them, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan @param {{measures: import("./measures.js").Measure[], channels: Record<string, any>}} declared */
+/** Build the charts of a test in `host`. The view draws the charts, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan @param {{measures: import("./measures.js").Measure[], channels: Record<string, any>}} declared */
 export function buildCharts(host, store, plan, declared) {
   const view = new View(store);
   const tiles = new Tiles(plan, declared.measures);
@@ -59,11 +59,11 @@ export function buildCharts(host, store, plan, declared) {
 function stationChart(view, { title, keys, labels, x, y, alike }, number, series) {
   if (x) return new LoopChart(view, title, series(`${x[0]}.${number}`, x[1], 0), series(`${y[0]}.${number}`, y[1], 0), alike);
   const lines = keys.map((/** @type {string} */ key, /** @type {number} */ j) => series(`${key}.${number}`, labels[j], j));
-  if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // seen behind the measured line
+  if (lines.length > 1) Object.assign(lines[0], { width: 4, colour: "--line-wide" }); // visible behind the measured line
   return new TimeChart(view, title, lines[0].unit, lines);
 }
 
-/** Floor displacements, of a tall structure some; large where nothing else is measured. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {HTMLElement} tiles @param {boolean} alone */
+/** The chart of floor displacements: at most eight floors of a tall structure, and large if nothing else is measured. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {HTMLElement} tiles @param {boolean} alone */
 function structure(view, store, series, tiles, alone) {
   const floors = store.channels.filter((channel) => channel.role === "x_floor");
   if (!floors.length) return null;
@@ -76,7 +76,7 @@ function structure(view, store, series, tiles, alone) {
   return section("Structure", tiles, [chart]);
 }
 
-/** What moves the structure: the ground, and forces on floors. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {any} plan */
+/** The charts of the excitation: ground acceleration and forces on floors. @param {View} view @param {Store} store @param {(key: string, label: string, i: number) => any} series @param {any} plan */
 function inputs(view, store, series, plan) {
   const still = plan.motion.kind === "none";
   const channels = store.channels.filter(({ role }) => role === "force_ext" || (role === "ag" && !still));

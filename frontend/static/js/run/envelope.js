@@ -1,7 +1,7 @@
 // @ts-check
 /** @typedef {import("./store.js").Store} Store */
 
-/** The part of a run that fits a chart's pixels: two points a column, in the order in which the signal passed them. */
+/** The signals reduced to a chart's pixels: the minimum and maximum of each pixel column, in their order in time. */
 export class Envelope {
   /** @param {number} series */
   constructor(series) {
@@ -13,7 +13,7 @@ export class Envelope {
   }
 
   /**
-   * Fill with the buckets between two times, in at most `columns` columns; the points' number is kept in `points`.
+   * Fill with the buckets between two times, in at most `columns` columns; `points` holds the number of points.
    * @param {Store} store @param {number[]} channels @param {number} from @param {number} to @param {number} columns
    */
   fill(store, channels, from, to, columns) {

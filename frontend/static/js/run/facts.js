@@ -12,7 +12,7 @@ const ENDED = ["completed", "tripped", "cancelled", "failed"];
 /** @param {string} state */
 export const ended = (state) => ENDED.includes(state);
 
-/** What is known of a run besides the measures in tables, as terms and their values. @param {any} run @param {Measure[]} measures @returns {HTMLElement[]} */
+/** The facts of a run besides the tables of measures, as terms and values. @param {any} run @param {Measure[]} measures @returns {HTMLElement[]} */
 export function facts(run, measures) {
   const rows = [
     ["Submitted", `${when(run.submitted_at)} by ${run.submitted_by || "unknown"}`],
@@ -22,8 +22,8 @@ export function facts(run, measures) {
     ...(run.plan ? excitation(run.plan) : []),
     ["Template", run.template],
     ["Seed", run.seed],
-    ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or engine of the one before died)` : null],
-    ["Digest of the plan", run.digest],
+    ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or the engine stopped during the previous attempt)` : null],
+    ["Plan digest", run.digest],
     ["Code version", run.code_version],
     ...of(measures, "floor", run.test).map((one) => ofFloors(run, one)),
     ...of(measures, "run", run.test).map((one) => ofTest(run, one)),
@@ -34,19 +34,19 @@ export function facts(run, measures) {
     .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
 }
 
-/** A measure of the floors, where no table shows it. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
+/** A measure of the floors that no table shows. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
 const ofFloors = (run, { key, label, decimals, shown_label }) => [
   label,
   run.stations?.length && run[key]?.length ? `${run[key].map((/** @type {number} */ value) => fixed(value, decimals)).join(", ")} ${shown_label}` : null,
 ];
 
-/** A measure of the whole test, where no tile of a structure shows it. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
+/** A measure of the whole test that no tile shows. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
 const ofTest = (run, { key, label, decimals, shown_label }) => [
   label,
   COMPUTED.includes(run.test) || run[key] == null ? null : `${fixed(run[key], decimals)} ${shown_label}`,
 ];
 
-/** What moves the test. @param {any} plan @returns {[string, string | null][]} */
+/** The excitation of the test. @param {any} plan @returns {[string, string | null][]} */
 function excitation({ motion, drive, forces = [], start }) {
   const drawn = (/** @type {any} */ { amplitude, shape }, /** @type {number} */ factor, /** @type {string} */ unit) =>
     `${number(amplitude / factor)} ${unit}, ${shape.kind.replaceAll("_", " ")}`;
@@ -56,8 +56,8 @@ function excitation({ motion, drive, forces = [], start }) {
     ["Drive", drive && drive.shape.kind !== "still" ? drawn(drive, 1e-3, "mm") : null],
     ["Record", motion.kind === "none" ? null : record(motion)],
     ...forces.map((/** @type {any} */ force) => [`Force on floor ${force.floor}`, drawn(force, 1e3, "kN")]),
-    ["Floors displaced", mm(start?.displacement, "mm")],
-    ["Floors moving", mm(start?.velocity, "mm/s")],
+    ["Start displacements", mm(start?.displacement, "mm")],
+    ["Start velocities", mm(start?.velocity, "mm/s")],
   ];
 }
 
@@ -68,14 +68,14 @@ function record(planned) {
   return `${planned.record ?? "written in the plan"} ${how[/** @type {keyof typeof how} */ (scale?.kind)] ?? ""}`;
 }
 
-/** Why a run ended, for people, or null where it simply completed or has not ended. @param {any} run */
+/** The reason why a run ended, or null if the run completed or has not ended. @param {any} run */
 export function reason(run) {
   if (run.trip?.sentence) return run.trip.sentence;
   if (run.state === "completed" || !ended(run.state)) return null;
   return run.reason || run.state;
 }
 
-/** Simulated and elapsed time against the clock. @param {any} at @returns {string} */
+/** Simulated time, elapsed time and speed as text. @param {any} at @returns {string} */
 export function clock({ simulated_s, duration_s, elapsed_s }) {
   const parts = [`${fixed(simulated_s, 2)} of ${fixed(duration_s, 2)} s simulated`];
   if (elapsed_s >= 0.01) parts.push(`${number(elapsed_s, 3)} s elapsed`, `${number(simulated_s / elapsed_s, 3)} × real time`);

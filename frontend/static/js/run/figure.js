@@ -4,9 +4,9 @@ import { reading } from "../format.js";
 
 /** @typedef {{index: number, label: string, unit: string, colour: string, width?: number}} Series */
 
-const KEYS = "Arrow keys move the cursor, plus and minus zoom, Escape shows the whole test.";
+const KEYS = "Arrow keys move the cursor. Plus and minus zoom. Escape shows the whole test.";
 
-/** A figure with its heading, the series' values beside their names, and the box for the plot, which the keyboard can reach. */
+/** A figure: its heading, the name and value of each series, and a box for the plot with keyboard control. */
 export class Figure {
   /** @param {string} title @param {string} unit @param {Series[]} series @param {boolean} keys whether the plot takes keys */
   constructor(title, unit, series, keys) {
@@ -29,7 +29,7 @@ export class Figure {
     );
   }
 
-  /** Show values and say them in the plot's description. @param {number | null} time @param {number[]} values @param {boolean} atCursor */
+  /** Show values and update the plot's description for screen readers. @param {number | null} time @param {number[]} values @param {boolean} atCursor */
   show(time, values, atCursor) {
     values.forEach((value, i) => (this.values[i].textContent = reading(value)));
     this.at.textContent = atCursor && time !== null ? `at ${time.toFixed(3)} s` : "";

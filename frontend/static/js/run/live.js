@@ -2,7 +2,7 @@
 /** @typedef {import("./store.js").Schema} Schema */
 
 /**
- * What a view does with the feed. `received` says from which bucket to go on after a lost connection, or null to begin anew.
+ * The handlers of a live feed. `received` gives the first missing bucket, from which the feed continues after a lost connection.
  * @typedef {{
  *   schema: (schema: Schema) => void,
  *   frame: (frame: ArrayBuffer) => boolean,
@@ -15,9 +15,9 @@
 
 const FIRST_DELAY_MS = 300;
 const LONGEST_DELAY_MS = 8000;
-const REFUSED = 4400; // close codes from here on are the service's own: it will not answer otherwise when asked again
+const REFUSED = 4400; // the service's own close codes start here: a new connection would get the same answer
 
-/** Follow the live protocol of one run until its end, across lost connections. @param {string} runId @param {Viewer} viewer */
+/** Follow the live feed of one run until its end, and reconnect when the connection is lost. @param {string} runId @param {Viewer} viewer */
 export function follow(runId, viewer) {
   let delay = FIRST_DELAY_MS;
   let ended = false;

@@ -5,11 +5,11 @@ import { axis, fit, padded, themed } from "./plot_style.js";
 
 /** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
 
-/** One signal against another, from the last sample of each bucket in the range of time shown. */
+/** A chart of one signal against another: the last sample of each bucket in the shown time range. */
 export class LoopChart {
   visible = false;
 
-  /** @param {View} view @param {string} title @param {Series} x @param {Series} y @param {boolean} [alike] equal axes, and a line where both are equal */
+  /** @param {View} view @param {string} title @param {Series} x @param {Series} y @param {boolean} [alike] equal axes, and a line where both signals are equal */
   constructor(view, title, x, y, alike = false) {
     this.view = view;
     this.alike = alike;
@@ -34,7 +34,7 @@ export class LoopChart {
     this.figure.show(k < 0 ? null : store.time(k), values, false);
   }
 
-  /** The data of a plot in uPlot's mode 2: nothing for x, then x and y of each series. @returns {any} */
+  /** The data for uPlot's mode 2: null, then x and y of each series. @returns {any} */
   #points() {
     const { store } = this.view;
     const [from, to] = this.view.range();
@@ -44,7 +44,7 @@ export class LoopChart {
     return this.alike ? [null, [this.#range(), this.#range()], points] : [null, points];
   }
 
-  /** The range of one channel, or of both where the axes are equal. @param {number} [channel] @returns {[number, number]} */
+  /** The range of one channel, or of both channels if the axes are equal. @param {number} [channel] @returns {[number, number]} */
   #range(channel) {
     const { lowest, highest } = this.view.store;
     const shown = this.alike || channel === undefined ? [this.x.index, this.y.index] : [channel];
@@ -88,7 +88,7 @@ const line = (label, colour, width) => ({
   paths: loopPath,
 });
 
-/** A path through all points in their order, leaving out those that fall on the pixel before. @param {any} u @param {number} series */
+/** A path through all points in order, without points on the same pixel as the point before. @param {any} u @param {number} series */
 export function loopPath(u, series) {
   const [xs, ys] = u.data[series];
   const { left, top, width, height } = u.bbox;

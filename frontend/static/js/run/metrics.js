@@ -6,9 +6,9 @@ import { heading, meaning, of } from "./measures.js";
 /** @typedef {import("./measures.js").Measure} Measure */
 
 /**
- * Tables of the measures of each station, and beneath each station the values published, when the plan is one of the paper's
- * simulations; of a test without stations, a table of the measures of each floor. `paper` holds a pair of values a measure, or null
- * where the paper's test was unstable.
+ * The tables of measures: for each station, with the published values below each station if the plan is a simulation of the paper;
+ * for a test without stations, for each floor. `paper` holds a pair of values for each measure, or null if the paper's simulation
+ * was unstable.
  * @param {any} run @param {Record<string, any> | null} paper @param {Measure[]} measures
  */
 export function metricsTables(run, paper, measures) {
@@ -20,7 +20,7 @@ export function metricsTables(run, paper, measures) {
   ];
 }
 
-/** How many floors a run has measures of. @param {any} run @param {Measure[]} measures */
+/** The number of floors for which a run has measures. @param {any} run @param {Measure[]} measures */
 export const floorCount = (run, measures) => Math.max(0, ...measures.filter(({ scope }) => scope === "floor").map(({ key }) => run[key]?.length ?? 0));
 
 /** @param {any} run @param {Measure[]} measures */

@@ -5,7 +5,7 @@ import { colour } from "../dom.js";
 const resolved = new Map();
 document.addEventListener("themechange", () => resolved.clear());
 
-/** A theme colour for the canvas, looked up once a theme. @param {string} name */
+/** A theme colour for the canvas, looked up once for each theme. @param {string} name */
 export function themed(name) {
   let found = resolved.get(name);
   if (!found) resolved.set(name, (found = colour(name)));
@@ -24,10 +24,20 @@ export function axis(label, size) {
     labelSize: 16,
     gap: 3,
     space: label ? 50 : 24,
+    values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => tickLabels(ticks),
     stroke: () => themed("--pico-muted-color"),
     grid: { stroke: () => themed("--grid"), width: 1 },
     ticks: { stroke: () => themed("--grid"), width: 1, size: 4 },
   };
+}
+
+/** Labels of an axis with as many decimals as the distance of its ticks needs. @param {number[]} ticks */
+export function tickLabels(ticks) {
+  const step = ticks.length > 1 ? ticks[1] - ticks[0] : Math.abs(ticks[0] ?? 1) || 1;
+  const size = Math.max(...ticks.map(Math.abs), 0);
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(step)));
+  if (step < 1e-3 || size >= 1e6) return ticks.map((tick) => (tick === 0 ? "0" : String(Number(tick.toPrecision(4)).toExponential())));
+  return ticks.map((tick) => String(Number(tick.toFixed(decimals))));
 }
 
 /** A range around the data that is never empty. @param {number} low @param {number} high @returns {[number, number]} */
@@ -37,7 +47,7 @@ export function padded(low, high) {
   return [low - pad, high + pad];
 }
 
-/** Keep a plot as large as its box. @param {HTMLElement} box @param {(width: number, height: number) => void} resize */
+/** Resize a plot with its box. @param {HTMLElement} box @param {(width: number, height: number) => void} resize */
 export function fit(box, resize) {
   new ResizeObserver(() => {
     if (box.clientWidth && box.clientHeight) resize(box.clientWidth, box.clientHeight);

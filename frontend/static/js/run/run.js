@@ -77,7 +77,7 @@ function showActions() {
     download("plan.yaml", "Plan, YAML"),
     ...(run.test === "specimen" || run.test === "actuator" ? [] : [el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability")]),
     ...(run.recording ? [el("a", { href: `/diagnoses?run=${id}`, class: "button quiet" }, "Diagnose this run")] : []),
-    el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Run again or edit as a new test"),
+    el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Edit and run again"),
   );
 }
 
@@ -139,7 +139,7 @@ const viewer = {
 /** @param {unknown} error */
 const complain = (error) => (byId("refusal").textContent = explain(error));
 
-/** Until the live feed tells the state, ask for it. */
+/** Poll the status of a queued run until the live feed reports it. */
 async function poll() {
   if (run.state === "queued") await load().catch(complain);
   if (run.state === "queued") setTimeout(poll, POLL_MS);

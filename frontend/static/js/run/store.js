@@ -5,7 +5,7 @@
  * @typedef {{run: any, attempt: number, dt: number, bucket: number, buckets: number, channels: Channel[]}} Schema
  */
 
-/** All buckets of a run: minimum, maximum and last sample of every channel, in arrays made once for the whole run. */
+/** All buckets of a run: minimum, maximum and last sample of every channel, in arrays allocated once. */
 export class Store {
   /** @param {Schema} schema */
   constructor(schema) {
@@ -36,7 +36,7 @@ export class Store {
   }
 
   /**
-   * Take one binary frame; buckets known already are written again. False when buckets before it are missing.
+   * Store one binary frame. Known buckets are overwritten. Returns false if earlier buckets are missing.
    * @param {ArrayBuffer} frame
    */
   take(frame) {

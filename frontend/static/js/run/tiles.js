@@ -5,7 +5,7 @@ import { meaning, of } from "./measures.js";
 
 /** @typedef {import("./measures.js").Measure} Measure */
 
-/** The measures beside the charts, those so far while the test runs: a list for each station and one for the structure. */
+/** The measures beside the charts: one list for each station and one for the structure. During a test they show the values so far. */
 export class Tiles {
   /** @param {any} plan @param {Measure[]} measures */
   constructor(plan, measures) {
@@ -19,7 +19,7 @@ export class Tiles {
     this.structure.show(measures);
   }
 
-  /** Hide the measures of the stations, which stand in tables once the test has ended. */
+  /** Hide the measures of the stations: after the test, tables show them. */
   fold() {
     this.stations.forEach((/** @type {List} */ list) => (list.element.hidden = true));
   }

@@ -6,7 +6,7 @@ import { axis, fit, padded, themed } from "./plot_style.js";
 
 /** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
 
-/** Signals against time: each drawn as the minimum and maximum of every pixel column. */
+/** A chart of signals against time, drawn as the minimum and maximum of every pixel column. */
 export class TimeChart {
   visible = false;
 

@@ -5,14 +5,14 @@
 
 const READOUT_MS = 200;
 
-/** What all charts of the page share: the data, the range of time shown, and one redraw an animation frame. */
+/** The shared state of all charts: the data, the shown time range, and one redraw for each animation frame. */
 export class View {
   /** @param {Store} store */
   constructor(store) {
     this.store = store;
     /** @type {Drawable[]} */
     this.charts = [];
-    /** @type {[number, number] | null} the range zoomed to */
+    /** @type {[number, number] | null} the zoomed range */
     this.zoom = null;
     /** @type {number | null} length of the window that follows the newest data (s); null shows the whole test */
     this.window = null;
@@ -30,7 +30,7 @@ export class View {
     this.observer.observe(element);
   }
 
-  /** The range of time shown (s). @returns {[number, number]} */
+  /** The shown time range (s). @returns {[number, number]} */
   range() {
     if (this.zoom) return this.zoom;
     if (this.window === null) return [0, this.store.end];
@@ -44,7 +44,7 @@ export class View {
     this.redraw();
   }
 
-  /** Draw the charts in sight at the next animation frame; asking again before it costs nothing. */
+  /** Draw the visible charts at the next animation frame. Further calls before that frame have no effect. */
   redraw() {
     this.frame ||= requestAnimationFrame((now) => {
       this.frame = 0;

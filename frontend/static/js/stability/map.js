@@ -5,9 +5,9 @@ import { fixed } from "../format.js";
 /** @typedef {{axes: {station: number, label: string, present: number, values: number[]}[], radius: number[][]}} StabilityMap */
 
 const LIMIT = 1;
-// seen from the corner of no delay, the plan's side of the limit
+// view from the corner without delay, on the stable side
 const VIEW = { camera: { eye: { x: -1.5, y: -1.7, z: 1.1 } }, aspectmode: "manual", aspectratio: { x: 1.2, y: 1.2, z: 0.7 } };
-// from well damped to fast growing; the middle, white or black, is the limit
+// from well damped to fast growing; the middle colour is the limit
 const COLOURS = ["#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"];
 
 /** @param {StabilityMap} map @param {{radius: number, stable: boolean}} found */
@@ -16,8 +16,8 @@ export function mapWords(map, found) {
   const unstable = all.filter((radius) => radius > LIMIT + 1e-9).length;
   const [first, second] = map.axes;
   return (
-    `The line is the limit, a spectral radius of 1; ${Math.round((100 * unstable) / all.length)} % of the map is unstable. ` +
-    `The mark is this plan: ${first.label} ${fixed(first.present, 1)}, ${second.label} ${fixed(second.present, 1)}, ` +
+    `The line marks the stability limit, a spectral radius of 1. ${Math.round((100 * unstable) / all.length)} % of the map is unstable. ` +
+    `The mark shows this plan: ${first.label} ${fixed(first.present, 1)}, ${second.label} ${fixed(second.present, 1)}, ` +
     `${found.stable ? "stable" : "unstable"}.`
   );
 }
@@ -33,7 +33,7 @@ export function drawMap(box, map, radius, kind) {
     y: second.values,
     z: map.radius,
     colorscale: COLOURS.map((one, i) => [i / (COLOURS.length - 1), one]),
-    colorbar: { title: { text: "Radius" }, thickness: 12, tickformat: ".3f" },
+    colorbar: { title: { text: "Spectral radius" }, thickness: 12, tickformat: ".3f" },
   };
   const axis = (/** @type {string} */ title) => ({ title: { text: title }, gridcolor: grid, zerolinecolor: grid, automargin: true });
   const axis3d = (/** @type {string} */ title) => ({ title: { text: title }, gridcolor: grid, zerolinecolor: grid });
@@ -46,7 +46,7 @@ export function drawMap(box, map, radius, kind) {
     margin: surface ? { l: 0, r: 0, t: 0, b: 0 } : { l: 60, r: 10, t: 15, b: 60 },
     showlegend: false,
     ...(surface
-      ? { scene: { ...VIEW, xaxis: axis3d(`Station ${first.station}`), yaxis: axis3d(`Station ${second.station}`), zaxis: axis3d("Radius") } }
+      ? { scene: { ...VIEW, xaxis: axis3d(`Station ${first.station}`), yaxis: axis3d(`Station ${second.station}`), zaxis: axis3d("Spectral radius") } }
       : { xaxis: axis(first.label), yaxis: axis(second.label) }),
   };
   plotly().react(box, drawn, layout, { responsive: true, displaylogo: false });
@@ -59,13 +59,13 @@ const surfaceOf = (shown, away) => ({
   cmin: LIMIT - away,
   cmax: LIMIT + away,
   contours: { z: { show: true, start: LIMIT, end: LIMIT + 1e-6, size: 1, color: "#000", width: 4 } },
-  hovertemplate: "%{x:.1f}, %{y:.1f}: radius %{z:.5f}<extra></extra>",
+  hovertemplate: "%{x:.1f}, %{y:.1f}: spectral radius %{z:.5f}<extra></extra>",
 });
 
 /** @param {StabilityMap} map */
 const span = (map) => Math.max(...map.radius.flat()) - Math.min(...map.radius.flat());
 
-/** The mark stands a little above the surface, to be seen. @param {any} first @param {any} second @param {number} height */
+/** The mark of this plan, a little above the surface so that it is visible. @param {any} first @param {any} second @param {number} height */
 const present3d = (first, second, height) => ({
   type: "scatter3d",
   mode: "markers",
@@ -84,7 +84,7 @@ const contourOf = (shown, away, first, second) => [
     zsmooth: "best",
     zmin: LIMIT - away,
     zmax: LIMIT + away,
-    hovertemplate: "%{x:.1f}, %{y:.1f}: radius %{z:.5f}<extra></extra>",
+    hovertemplate: "%{x:.1f}, %{y:.1f}: spectral radius %{z:.5f}<extra></extra>",
   },
   {
     x: shown.x,

@@ -37,29 +37,29 @@ function showVerdict() {
   const verdict = byId("verdict");
   verdict.classList.add(found.stable ? "held" : "bad");
   const mode = found.least_damped;
-  const least = mode ? ` Least damped: ${number(mode.frequency_hz)} Hz with a damping ratio of ${fixed(100 * mode.damping_ratio, 2)} %.` : "";
+  const least = mode ? ` Least damped mode: ${number(mode.frequency_hz)} Hz, damping ratio ${fixed(100 * mode.damping_ratio, 2)} %.` : "";
   verdict.textContent =
-    `${found.name}: predicted ${found.stable ? "stable" : "unstable"} about rest, spectral radius ${fixed(found.radius, 5)} a step.${least}`;
+    `${found.name}: predicted ${found.stable ? "stable" : "unstable"} for small motions about rest. Spectral radius ${fixed(found.radius, 5)} per step.${least}`;
 }
 
-/** @param {string[]} heads @param {number} words how many of them head words, not numbers */
+/** @param {string[]} heads @param {number} words number of columns with words instead of numbers */
 const head = (heads, words = 0) =>
   el("thead", {}, el("tr", {}, ...heads.map((text, i) => el("th", { scope: "col", class: i < words ? null : "number" }, text))));
 
 function margins() {
   const rows = found.stations.map((/** @type {any} */ station) => {
     const steps = station.delay_margin_steps;
-    const words = steps == null ? ["beyond 1000", "–"] : [fixed(steps, 1), fixed(1000 * station.delay_margin_s, 1)];
+    const words = steps == null ? ["more than 1000", "–"] : [fixed(steps, 1), fixed(1000 * station.delay_margin_s, 1)];
     return el("tr", {}, el("td", { class: "name" }, station.name), ...words.map((text) => el("td", { class: "number" }, text)));
   });
-  return [head(["Station", "Controller steps", "ms"], 1), el("tbody", {}, ...rows)];
+  return [head(["Station", "Margin, controller steps", "Margin, ms"], 1), el("tbody", {}, ...rows)];
 }
 
 function modes() {
   const rows = found.modes.map((/** @type {any} */ mode) =>
     el("tr", {}, ...[number(mode.frequency_hz), fixed(100 * mode.damping_ratio, 2), fixed(mode.radius, 5)].map((text) =>
       el("td", { class: "number" }, text))));
-  return [head(["Frequency, Hz", "Damping ratio, %", "Radius"]), el("tbody", {}, ...rows)];
+  return [head(["Frequency, Hz", "Damping ratio, %", "Spectral radius"]), el("tbody", {}, ...rows)];
 }
 
 function showMap() {

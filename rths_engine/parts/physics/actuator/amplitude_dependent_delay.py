@@ -32,7 +32,7 @@ class AmplitudeDependentDelay(Effect):
 
     kind: Literal["amplitude_dependent_delay"] = "amplitude_dependent_delay"
     slope: float = quantity("Delay per amplitude b", "s/m", "ms/mm", ge=0, le=100, default=0.0)
-    memory: float = quantity("Memory of the amplitude T_a", "s", gt=0, le=100, default=2.0)
+    memory: float = quantity("Memory time of the amplitude T_a", "s", gt=0, le=100, default=2.0)
     title: ClassVar[str] = "Amplitude-dependent delay"
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"slope": 0.0}

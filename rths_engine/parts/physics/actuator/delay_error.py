@@ -27,7 +27,7 @@ class DelayError(Effect):
     """
 
     kind: Literal["delay_error"] = "delay_error"
-    delay: float = quantity("Delay beyond the model T", "s", "ms", ge=-0.1, le=0.2, default=0.0)
+    delay: float = quantity("Additional delay T", "s", "ms", ge=-0.1, le=0.2, default=0.0)
     title: ClassVar[str] = "Delay error"
     hook: ClassVar[int] = COMMAND
     neutral: ClassVar = {"delay": 0.0}

@@ -29,7 +29,7 @@ class StickFriction(Effect):
 
     kind: Literal["stick_friction"] = "stick_friction"
     breakaway: float = quantity("Breakaway displacement b", "m", "mm", ge=0, le=0.1, default=0.0)
-    catching: float = quantity("Time to catch up τ", "s", "ms", gt=0, le=1, default=0.02)
+    catching: float = quantity("Catch-up time τ", "s", "ms", gt=0, le=1, default=0.02)
     title: ClassVar[str] = "Stick friction"
     hook: ClassVar[int] = PISTON
     neutral: ClassVar = {"breakaway": 0.0}

@@ -24,7 +24,7 @@ class TimeShift(Effect):
     """
 
     kind: Literal["time_shift"] = "time_shift"
-    delay: float = quantity("Time shift T, positive where late", "s", "ms", ge=-10, le=10, default=0.0)
+    delay: float = quantity("Time shift T (positive: late)", "s", "ms", ge=-10, le=10, default=0.0)
     title: ClassVar[str] = "Time shift of the ground motion"
     hook: ClassVar[int] = GROUND
     neutral: ClassVar = {"delay": 0.0}

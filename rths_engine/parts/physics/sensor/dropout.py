@@ -25,7 +25,7 @@ class Dropout(Reading):
     """
 
     kind: Literal["dropout"] = "dropout"
-    time: float = quantity("Begin t₀", "s", ge=0, le=1e5, default=0.0)
+    time: float = quantity("Start time t₀", "s", ge=0, le=1e5, default=0.0)
     duration: float = quantity("Duration D", "s", ge=0, le=1e5, default=0.0)
     neutral: ClassVar = {"duration": 0.0}
 

@@ -26,7 +26,7 @@ class TimeSkew(Reading):
     """
 
     kind: Literal["time_skew"] = "time_skew"
-    delay: float = quantity("Time skew T, positive where late", "s", "ms", ge=-0.1, le=0.2, default=0.0)
+    delay: float = quantity("Time skew T (positive: late)", "s", "ms", ge=-0.1, le=0.2, default=0.0)
     neutral: ClassVar = {"delay": 0.0}
 
     def build(self, dt: float) -> tuple[Array, Array]:

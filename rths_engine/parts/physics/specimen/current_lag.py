@@ -29,7 +29,7 @@ class CurrentLag(Effect):
 
     kind: Literal["current_lag"] = "current_lag"
     lag: float = quantity("Lag τ", "s", "ms", ge=0, le=10, default=0.0)
-    off_current: float = quantity("Current of the force without current i₀", "A", gt=0, le=100, default=0.5)
+    off_current: float = quantity("Equivalent current of the zero-current force i₀", "A", gt=0, le=100, default=0.5)
     title: ClassVar[str] = "Current lag"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"lag": 0.0}

@@ -28,8 +28,8 @@ class StribeckFriction(Effect):
     """
 
     kind: Literal["stribeck_friction"] = "stribeck_friction"
-    friction: float = quantity("Friction at speed F_c", "N", "kN", ge=0, le=1e9, default=0.0)
-    breakaway: float = quantity("Breakaway friction above it F_b", "N", "kN", ge=0, le=1e9, default=0.0)
+    friction: float = quantity("Coulomb friction at high velocity F_c", "N", "kN", ge=0, le=1e9, default=0.0)
+    breakaway: float = quantity("Additional breakaway friction F_b", "N", "kN", ge=0, le=1e9, default=0.0)
     stribeck_velocity: float = quantity("Stribeck velocity v_s", "m/s", "mm/s", gt=0, le=10, default=0.01)
     presliding: float = quantity("Pre-sliding displacement x_e", "m", "mm", ge=1e-7, le=0.1, default=1e-4)
     title: ClassVar[str] = "Stribeck friction"

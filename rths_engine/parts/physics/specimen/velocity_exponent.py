@@ -31,7 +31,7 @@ class VelocityExponent(Effect):
     """
 
     kind: Literal["velocity_exponent"] = "velocity_exponent"
-    exponent: float = quantity("Exponent beyond the model's e", ge=-0.95, le=2, default=0.0)
+    exponent: float = quantity("Additional exponent e", ge=-0.95, le=2, default=0.0)
     reference_velocity: float = quantity("Reference velocity v_r", "m/s", "mm/s", gt=0, le=10, default=0.1)
     title: ClassVar[str] = "Velocity exponent"
     hook: ClassVar[int] = FORCE

@@ -31,7 +31,7 @@ class ViscousHeating(Effect):
     """
 
     kind: Literal["viscous_heating"] = "viscous_heating"
-    fade: float = quantity("Fade per dissipated energy φ", "1/J", "1/MJ", ge=0, le=1, default=0.0)
+    fade: float = quantity("Force loss per dissipated energy φ", "1/J", "1/MJ", ge=0, le=1, default=0.0)
     title: ClassVar[str] = "Viscous heating"
     hook: ClassVar[int] = FORCE
     neutral: ClassVar = {"fade": 0.0}

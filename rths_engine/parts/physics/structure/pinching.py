@@ -27,8 +27,8 @@ class Pinching(OfStorey):
     """
 
     kind: Literal["pinching"] = "pinching"
-    depth: float = quantity("Depth of the pinch d", "1", "%", ge=0, le=0.99, default=0.0)
-    width: float = quantity("Half width of the pinch x_p", "m", "mm", gt=0, le=1, default=5e-3)
+    depth: float = quantity("Pinching depth d", "1", "%", ge=0, le=0.99, default=0.0)
+    width: float = quantity("Pinching half width x_p", "m", "mm", gt=0, le=1, default=5e-3)
     title: ClassVar[str] = "Pinching of a storey"
     neutral: ClassVar = {"depth": 0.0}
 

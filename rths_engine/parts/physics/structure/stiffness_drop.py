@@ -25,8 +25,8 @@ class StiffnessDrop(OfStorey):
     """
 
     kind: Literal["stiffness_drop"] = "stiffness_drop"
-    share: float = quantity("Share lost d", "1", "%", ge=0, le=0.95, default=0.0)
-    time: float = quantity("Moment t_d", "s", ge=0, le=1e5, default=0.0)
+    share: float = quantity("Lost fraction d", "1", "%", ge=0, le=0.95, default=0.0)
+    time: float = quantity("Time of the drop t_d", "s", ge=0, le=1e5, default=0.0)
     title: ClassVar[str] = "Stiffness drop"
     neutral: ClassVar = {"share": 0.0}
 

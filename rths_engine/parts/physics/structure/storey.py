@@ -18,7 +18,7 @@ from rths_engine.parts.structures.assembled import Assembled
 class OfStorey(Effect):
     """y = f(drift of storey s), against the drift."""
 
-    storey: int = quantity("Storey", ge=1, le=100, default=1, help="counted from 1 at the ground")
+    storey: int = quantity("Storey", ge=1, le=100, default=1, help="storey 1 is the lowest")
     hook: ClassVar[int] = STOREY
 
     def check(self, built: Assembled) -> None:
