@@ -107,10 +107,10 @@ def test_the_report_is_one_file_with_the_verdict_its_tables_and_its_plots(folder
     assert not re.search(r"<(script|link|img)[^>]+(src|href)=\"(?!data:)", html)
     assert len(html.encode()) - len(plotly().encode()) < 1e6
     assert "backlash was left out" in html.partition("<main>")[0]
-    for heading in ("Where recording and simulation differ", "What was left out", "Proof on held-out data"):
+    for heading in ("Where recording and simulation differ", "Left-out physics", "Proof on held-out data"):
         assert heading in html
     found = re.findall(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)
     specs = [json.loads(text, parse_constant=pytest.fail) for text in found]
     assert [row["name"] for row in specs[0]["rows"]] == ["actuator:1", "specimen:1"]
-    assert [trace["name"] for trace in specs[1]["traces"]] == ["Recording", "Before", "After"]
+    assert [trace["name"] for trace in specs[1]["traces"]] == ["Recording", "Planned model", "Extended model"]
     assert len(specs[1]["spans"]) == 3
