@@ -1,4 +1,4 @@
-"""The report of a diagnosis, and what of it stands at its head."""
+"""The report of a diagnosis, and the facts at its head."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from rths_engine.diagnosis.schema import Pictures, Verdict
 
 
 def facts(diagnosis: Diagnosis) -> Facts:
-    """Facts above a report: recording, plan, level, who asked, how long it took."""
+    """The facts above a report: recording, plan, false-alarm rate, submission and computation time."""
     heldout = ", ".join(one.name for one in diagnosis.heldout)
     took = (diagnosis.finished_at - diagnosis.started_at).total_seconds() if _timed(diagnosis) else None  # type: ignore[operator]
     found = [
         ("Recording", diagnosis.recording.name),
-        ("Held out", heldout),
+        ("Held-out recordings", heldout),
         ("Plan", diagnosis.plan["name"]),
-        ("Rate of false alarms", f"{diagnosis.level:g}"),
-        ("Asked for", f"{diagnosis.submitted_at:%Y-%m-%d %H:%M} UTC by {diagnosis.submitted_by}"),
-        ("Took", "" if took is None else f"{took:.1f} s"),
+        ("False-alarm rate", f"{diagnosis.level:g}"),
+        ("Submitted", f"{diagnosis.submitted_at:%Y-%m-%d %H:%M} UTC by {diagnosis.submitted_by}"),
+        ("Computation time", "" if took is None else f"{took:.1f} s"),
         ("Code version", diagnosis.code_version),
     ]
     return [(name, text) for name, text in found if text]
 
 
 def report(diagnosis: Diagnosis, verdict: Verdict, pictures: Pictures) -> str:
-    """Self-contained HTML."""
+    """The report of a diagnosis as a stand-alone HTML file."""
     return report_html(diagnosis.name, [*facts(diagnosis), ("Identifier", diagnosis.id)], verdict, pictures)
 
 

@@ -44,7 +44,7 @@ def test_ended_runs_are_compared_with_the_paper(client: TestClient, settings: Se
     assert table["median_factor"] == table["worst_factor"] == 2.0
     page = client.get("/table4").text
     assert f'href="/runs/{runs[1]["id"]}"' in page
-    assert "12 of 12 ran to an end; 12 of them as in the paper" in page
+    assert "12 of 12 simulations have ended; 12 of them have the paper's outcome" in page
     assert page.count("<title>Simulation") == 54
 
 
@@ -53,7 +53,7 @@ def test_a_run_of_a_changed_plan_is_told_apart(client: TestClient) -> None:
     client.post("/api/v1/runs", json={"plan": plan})
     table = client.get("/api/v1/table4").json()
     assert [one["simulation"] for one in table["simulations"] if one["changed"]] == [4]
-    assert "another plan" in client.get("/table4/now").text
+    assert "different plan" in client.get("/table4/now").text
 
 
 def summary(number: int) -> dict[str, object]:
