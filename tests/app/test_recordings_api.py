@@ -214,7 +214,7 @@ def test_a_file_from_which_nothing_was_imported_goes_after_a_day(client: TestCli
     new = upload(client, made.matlab5(), "sine.mat")
     assert kept(settings) == sorted([f"{used['id']}.h5", used["raw_sha256"], new["sha256"]])
     answer = post(client, "", unused["sha256"], unused["guess"])
-    assert answer.status_code == 404 and "upload it" in answer.json()["detail"]
+    assert answer.status_code == 404 and "Upload it" in answer.json()["detail"]
 
 
 def test_a_file_that_is_gone_from_the_folder_is_told_and_comes_back_by_uploading(
