@@ -1,1 +1,1 @@
-"""Diagnoses: compare a recording with a plan, in a queue of their own."""
+"""Diagnoses: comparisons of recordings with plans, executed in their own queue."""

@@ -1,4 +1,4 @@
-"""The diagnoses' service of a request."""
+"""The dependency that gives each request its service of diagnoses."""
 
 from __future__ import annotations
 

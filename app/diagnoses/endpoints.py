@@ -1,4 +1,4 @@
-"""REST of diagnoses."""
+"""REST endpoints of diagnoses."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NOBODY = Person()
 
 @router.post("", status_code=201, responses=told(404, 409))
 def submit(asked: Annotated[Asked, Body()], diagnoses: Diagnoses) -> DiagnosisOut:
-    """Queue a diagnosis: what a recording says of the models of a plan."""
+    """Queue a diagnosis, which compares a recording with the models of a plan."""
     return DiagnosisOut.model_validate(diagnoses.submit(asked))
 
 
@@ -30,61 +30,61 @@ def listed(
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     offset: Annotated[int, Query(ge=0, le=10**9)] = 0,
 ) -> DiagnosisList:
-    """Newest first."""
+    """List diagnoses, the newest first."""
     found, total = diagnoses.listed(limit, offset)
     return DiagnosisList(diagnoses=[DiagnosisOut.model_validate(one) for one in found], total=total)
 
 
 @router.get("/schema")
 def schema() -> dict[str, Any]:
-    """JSON Schema of a verdict, `rths-diagnosis/1`: every field with its meaning and its unit."""
+    """JSON Schema of a verdict, `rths-diagnosis/1`, with the meaning and the unit of every field."""
     return Verdict.json_schema()
 
 
 @router.get("/pictures-schema")
 def pictures_schema() -> dict[str, Any]:
-    """JSON Schema of the plots of a diagnosis, `rths-diagnosis-pictures/1`, likewise."""
+    """JSON Schema of the plots of a diagnosis, `rths-diagnosis-pictures/1`, with the meaning and the unit of every field."""
     return Pictures.json_schema()
 
 
 @router.get("/{diagnosis_id}")
 def one(diagnosis_id: str, diagnoses: Diagnoses) -> DiagnosisDetail:
-    """State, progress (`doing`, `share` of the whole) and, once it is done, the verdict."""
+    """Status, progress (`doing`, and `share` from 0 to 1) and, after the diagnosis has completed, the verdict."""
     return DiagnosisDetail.model_validate(diagnoses.get(diagnosis_id))
 
 
 @router.get("/{diagnosis_id}/verdict.json", responses=told(409))
 def verdict(diagnosis_id: str, diagnoses: Diagnoses) -> Verdict:
-    """`rths-diagnosis/1`."""
+    """The verdict, `rths-diagnosis/1`."""
     return diagnoses.result(diagnosis_id)[1]
 
 
 @router.get("/{diagnosis_id}/pictures.json", responses=told(409))
 def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> Pictures:
-    """`rths-diagnosis-pictures/1`: recording, simulation before and after, and what is left, decimated, SI."""
+    """The plots, `rths-diagnosis-pictures/1`: recording, simulations before and after, residuals; decimated, in SI units."""
     return diagnoses.result(diagnosis_id)[2]
 
 
 @router.get("/{diagnosis_id}/report.html", response_class=HTMLResponse, responses=told(409))
 def report(diagnosis_id: str, diagnoses: Diagnoses) -> HTMLResponse:
-    """One self-contained page."""
+    """The report of a diagnosis as one self-contained HTML page."""
     return HTMLResponse(exports.report(*diagnoses.result(diagnosis_id)))
 
 
 @router.post("/{diagnosis_id}/cancel", responses=told(409))
 def cancel(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Body()] = NOBODY) -> DiagnosisOut:
-    """End it, queued or running; nothing of it is kept but that it was cancelled."""
+    """Cancel a queued or running diagnosis. Only the status *cancelled* remains."""
     return DiagnosisOut.model_validate(diagnoses.cancel(diagnosis_id, person.by))
 
 
 @router.post("/{diagnosis_id}/simulations", status_code=201, responses=told(409))
 def simulate(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Body()] = NOBODY) -> Simulations:
-    """Queue the plan and the extended plan as ordinary runs, to be laid over the recording."""
+    """Queue the plan and the extended plan as ordinary runs, for comparison with the recording."""
     before, after = diagnoses.simulate(diagnosis_id, person.by)
     return Simulations(before=RunOut.of(before), after=RunOut.of(after))
 
 
 @router.delete("/{diagnosis_id}", status_code=204, response_class=Response, responses=told(409))
 def remove(diagnosis_id: str, diagnoses: Diagnoses) -> None:
-    """Remove a diagnosis that has ended, with its result."""
+    """Delete a diagnosis that has ended, with its result."""
     diagnoses.remove(diagnosis_id)

@@ -1,4 +1,4 @@
-"""Diagnoses as a kind of job: one at a time, each in a process of its own that tests go before."""
+"""Diagnoses as a kind of job: one at a time, each in its own process with a lower priority than tests."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.reports.diagnosis_tables import tables
 
 
 class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
-    """Diagnoses as a kind of job: executed one after another, below the priority of tests."""
+    """Diagnoses as a kind of job: executed one after another, with a lower priority than tests."""
 
     name = noun = "diagnosis"
     table = Diagnosis

@@ -1,4 +1,4 @@
-"""What the process of a diagnosis is given, and what it returns. Imports nothing heavy: that process loads it too."""
+"""The order and the result of the process of a diagnosis. That process loads this module too, so it imports nothing heavy."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rths_engine.diagnosis.schema import Pictures, Verdict
 
 @dataclass(frozen=True, slots=True)
 class DiagnosisOrder(Order):
-    """One attempt at a diagnosis: the plan, the files of the recording and of those held out, the false-alarm rate."""
+    """One attempt at a diagnosis: plan, file of the recording, files of the held-out recordings, false-alarm rate."""
 
     plan: dict[str, Any]
     recording: Path

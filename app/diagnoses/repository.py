@@ -1,4 +1,4 @@
-"""SQL of diagnoses. Never commits."""
+"""Database queries of diagnoses. They never commit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.models import Diagnosis
 
 
 class DiagnosisRepository(JobRepository[Diagnosis]):
-    """SQL of diagnoses. Never commits."""
+    """Database queries of diagnoses. They never commit."""
 
     def __init__(self, session: Session):
         super().__init__(session, Diagnosis)

@@ -16,7 +16,7 @@ MOST_HELD_OUT = 20
 
 
 class Source(BaseModel):
-    """A recording: one that was imported, or that of a run."""
+    """A recording, given by the identifier of an imported recording or of a run."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -25,7 +25,11 @@ class Source(BaseModel):
 
 
 class Asked(BaseModel):
-    """A recording to hold against a plan: given as JSON or as text in YAML, of a template, of a run, or the recording's own."""
+    """A recording and the plan to compare it with.
+
+    The plan is JSON or YAML text (`plan`), a template (`template`) or the plan of a run (`plan_of_run`). Without these, it is
+    the plan of the run that made the recording. `heldout` recordings are never fitted.
+    """
 
     model_config = ConfigDict(extra="forbid")
 
@@ -34,7 +38,9 @@ class Asked(BaseModel):
     plan: PlanData | str | None = None
     template: Storable | None = Field(None, max_length=80)
     plan_of_run: Storable | None = Field(None, max_length=36)
-    level: float = Field(0.01, gt=0, le=0.5, description="rate of false alarms")
+    level: float = Field(
+        0.01, gt=0, le=0.5, description="false-alarm rate: probability of a mismatch where the models of the plan are right"
+    )
     name: Storable = Field("", max_length=200)
     submitted_by: Storable = Field("", max_length=80)
 
@@ -52,7 +58,8 @@ class InputOut(BaseModel):
 class DiagnosisOut(BaseModel):
     """A diagnosis without its plan and its result.
 
-    `found` is the verdict's kind; `before_id` and `after_id` are the runs of the plan and of the extended plan.
+    `found` is the kind of the verdict, and `sentence` its first sentence. `before_id` and `after_id` are the runs of the plan
+    and of the extended plan.
     """
 
     model_config = ConfigDict(from_attributes=True)
@@ -79,21 +86,21 @@ class DiagnosisOut(BaseModel):
 
 
 class DiagnosisDetail(DiagnosisOut):
-    """A diagnosis with its plan and, once it is done, its verdict (`rths-diagnosis/1`)."""
+    """A diagnosis with its plan and, after it has completed, its verdict (`rths-diagnosis/1`)."""
 
     plan: PlanData
     verdict: Verdict | None
 
 
 class DiagnosisList(BaseModel):
-    """A page of diagnoses and their number in all."""
+    """A page of diagnoses and the total number of diagnoses."""
 
     diagnoses: list[DiagnosisOut]
     total: int
 
 
 class Simulations(BaseModel):
-    """The runs of the plan as it was and of the extended plan."""
+    """The runs of the plan (`before`) and of the extended plan (`after`)."""
 
     before: RunOut
     after: RunOut

@@ -1,4 +1,4 @@
-"""Rules of diagnoses as people ask for them: submit, look, cancel, simulate, remove. No SQL, no HTTP."""
+"""The service of diagnoses: submit, read, cancel, simulate and delete. It contains no SQL and no HTTP."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LONGEST_NAME = 200
 
 
 class DiagnosisService:
-    """Rules of diagnoses: submit, cancel, remove, and run the extended plan. No SQL, no HTTP."""
+    """The service of diagnoses: submit, read, cancel, delete, and run the extended plan."""
 
     def __init__(self, session: Session, sources: Sources, queue: Queue):
         self.rows = DiagnosisRepository(session)
@@ -39,7 +39,10 @@ class DiagnosisService:
         return self.sources.runs
 
     def submit(self, asked: Asked) -> Diagnosis:
-        """Store and queue a diagnosis. Raises PlanError, RthsError, NotFound or Conflict, and stores nothing."""
+        """Store and queue a diagnosis.
+
+        Raises PlanError, RthsError, NotFound or Conflict; then nothing is stored.
+        """
         plan = self.sources.plan(asked)
         inputs = self.sources.inputs(asked, plan)
         diagnosis = Diagnosis(
@@ -52,50 +55,57 @@ class DiagnosisService:
         try:
             self.jobs.submit([diagnosis], asked.submitted_by)
         except IntegrityError:
-            raise Conflict("A recording was removed meanwhile.") from None
+            raise Conflict("A recording of this diagnosis was deleted. Choose another recording.") from None
         return diagnosis
 
     def get(self, diagnosis_id: str) -> Diagnosis:
-        """Raises NotFound."""
+        """The diagnosis of an identifier. Raises NotFound."""
         return self.jobs.get(diagnosis_id)
 
     def listed(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
         return self.rows.listed(limit, offset)
 
     def result(self, diagnosis_id: str) -> tuple[Diagnosis, Verdict, Pictures]:
-        """The diagnosis, its verdict and its pictures. Raises Conflict while there are none."""
+        """The diagnosis, its verdict and its plots. Raises Conflict where it has no result."""
         diagnosis = self.get(diagnosis_id)
         if diagnosis.verdict is None or diagnosis.pictures is None:
-            raise Conflict(f"The diagnosis is {diagnosis.state} and has no result.")
+            raise Conflict(f"The diagnosis has no result: its status is {diagnosis.state}.")
         return diagnosis, Verdict.read(diagnosis.verdict), Pictures.read(diagnosis.pictures)
 
     def cancel(self, diagnosis_id: str, by: str) -> Diagnosis:
-        """End a queued one now; ask the worker to end a running one. Raises IllegalTransition for an ended one."""
+        """Cancel a queued diagnosis now, or ask the worker to stop a running diagnosis.
+
+        Raises IllegalTransition where the diagnosis has already ended.
+        """
         return self.jobs.cancel(diagnosis_id, by)
 
     def remove(self, diagnosis_id: str) -> None:
-        """Raises Conflict while it is under way."""
+        """Delete a diagnosis. Raises Conflict where it is queued or running."""
         self.jobs.remove(diagnosis_id)
 
     def simulate(self, diagnosis_id: str, by: str) -> tuple[Run, Run]:
-        """Queue the plan and the extended plan as ordinary runs, once unless one of them came to nothing."""
+        """Queue the plan and the extended plan as ordinary runs.
+
+        Raises Conflict where there is no extended plan, or where both runs are queued already, unless a run ended without a
+        recording.
+        """
         diagnosis = self.jobs.locked(diagnosis_id)
         extended = Verdict.read(diagnosis.verdict).extended_plan if diagnosis.verdict else None
         if extended is None:
-            raise Conflict("There is no extended plan to run: the diagnosis names no effect that the plan has a place for.")
+            raise Conflict("There is no extended plan to run: no identified effect can be added to this plan.")
         if any(not run.state.ended or run.recording_sha256 for run in self.simulations(diagnosis)):
-            raise Conflict("The plan and the extended plan are queued already.")
+            raise Conflict("The plan and the extended plan have already been queued.")
         plans = [_called(diagnosis.plan, "before"), _called(extended, "after")]
         before, after = self.runs.submit(plans, by, prefix="extended_plan.{}")
         diagnosis.before_id, diagnosis.after_id = before.id, after.id
         return before, after
 
     def simulations(self, diagnosis: Diagnosis) -> list[Run]:
-        """The runs before and after, where they were queued."""
+        """The runs of the plan and of the extended plan; empty where they were not queued."""
         return [self.runs.get(run_id) for run_id in (diagnosis.before_id, diagnosis.after_id) if run_id]
 
     def recordings(self, diagnosis: Diagnosis, settings: Settings) -> list[Measured]:
-        """The recording, and those of the runs before and after; none until both have run to their end."""
+        """The recording and the recordings of both runs; empty until both runs have completed."""
         runs = self.simulations(diagnosis)
         if len(runs) < 2 or any(run.state is not State.COMPLETED for run in runs):
             return []

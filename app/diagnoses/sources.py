@@ -1,4 +1,4 @@
-"""What a diagnosis reads: its plan, and recordings that were imported or are of runs."""
+"""The inputs of a diagnosis: its plan and its recordings, each imported or made by a run."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from rths_engine.planning.reading import read_plan
 
 
 def file_of(given: DiagnosisInput, settings: Settings) -> Path:
-    """Path of the HDF5 file of a recording, imported or of a run."""
+    """Path of the HDF5 file of a recording that was imported or made by a run."""
     folder, name = (settings.measured, given.recording_id) if given.recording_id else (settings.recordings, given.run_id)
     return folder / f"{name}.h5"
 
 
 @dataclass(frozen=True, slots=True)
 class Sources:
-    """Where a diagnosis finds its plan and its recordings."""
+    """The services that give a diagnosis its plan and its recordings."""
 
     runs: RunService
     recordings: MeasuredService
     plans: PlanService
 
     def plan(self, asked: Asked) -> Plan:
-        """Raises PlanError for a plan that can't be read and where there is none or more than one."""
+        """The plan of a request. Raises PlanError where it is not a valid plan, where none is given, or more than one."""
         given = [name for name in ("plan", "template", "plan_of_run") if getattr(asked, name) is not None]
         if len(given) > 1:
             raise PlanError(Issue("plan", f"is given {len(given)} times", ", ".join(given), "give one of them"))
@@ -45,11 +45,11 @@ class Sources:
         run = asked.plan_of_run or asked.recording.run
         if run is None:
             fix = "give plan (JSON or YAML), template or plan_of_run"
-            raise PlanError(Issue("plan", "is needed: an imported recording has none of its own", None, fix))
+            raise PlanError(Issue("plan", "is required: an imported recording has no plan", None, fix))
         return self.runs.plan_of(self.runs.get(run))
 
     def inputs(self, asked: Asked, plan: Plan) -> list[DiagnosisInput]:
-        """The recording and those held out. Raises RthsError where one is plainly not of the plan."""
+        """The recording and the held-out recordings. Raises RthsError where a recording does not match the plan."""
         given = [("recording", asked.recording), *((f"heldout.{i}", one) for i, one in enumerate(asked.heldout))]
         found = [self._input(where, source, plan) for where, source in given]
         for place, one in enumerate(found):
@@ -58,7 +58,8 @@ class Sources:
 
     def _input(self, where: str, source: Source, plan: Plan) -> DiagnosisInput:
         if (source.recording is None) == (source.run is None):
-            raise RthsError(Issue(where, "needs either recording, of an imported one, or run", None, "give the id of one"))
+            fix = "give the identifier of an imported recording (recording) or of a run (run)"
+            raise RthsError(Issue(where, "needs exactly one of recording and run", None, fix))
         if source.recording is not None:
             measured = self.recordings.get(source.recording)
             _fits(where, measured, plan)
@@ -80,16 +81,16 @@ def _fits(where: str, recording: MeasuredRecording, plan: Plan) -> None:
         _of_kind(where, recording.test, plan)
     stations = [one["number"] or 0 for one in recording.channels if one["role"].endswith(("_cmd", "_comp", "_meas"))]
     if stations and max(stations) > len(plan.stations):
-        problem = f"holds station {max(stations)}; the plan has {len(plan.stations)}"
+        problem = f"has a channel of station {max(stations)}; the number of stations in the plan is {len(plan.stations)}"
         raise RthsError(Issue(where, problem, None, "give the plan of this recording"))
 
 
 def _of_kind(where: str, test: str, plan: Plan) -> None:
     if test != plan.test:
-        problem = f"is of a test of kind {test!r}; the plan's is {plan.test!r}"
+        problem = f"is of a {test!r} test; the plan describes a {plan.test!r} test"
         raise RthsError(Issue(where, problem, None, "give the plan of this test"))
 
 
 def _recorded(run: Run) -> None:
     if not run.recording_sha256:
-        raise Conflict(f"The run {run.name} is {run.state} and has no recording.")
+        raise Conflict(f"The run {run.name} has no recording: its status is {run.state}.")

@@ -12,7 +12,6 @@ from rths_engine.diagnosis.schema import (
     Errors,
     Fit,
     NamedEffect,
-    NextTest,
     Parameter,
     Unexplained,
     Verdict,
@@ -22,6 +21,7 @@ from rths_engine.diagnosis.schema import (
 LEAST_P = 1e-12  # smaller p-values are shown as < 1e-12
 SPANS = 6  # most time spans listed
 NONE = "–"  # a number that was not computed, or has no unit
+WITHOUT_DRIVE = ("structure", "input")  # components for which no next test is searched
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +58,7 @@ def tables(verdict: Verdict) -> Tables:
         fit=_fit(verdict.fit),
         noise_floor=_percent(verdict.fit.noise_floor_nrmse),
         unexplained=_unexplained(verdict.unexplained),
-        next_test=_next_test(verdict.next_test),
+        next_test=_next_test(verdict),
     )
 
 
@@ -140,12 +140,18 @@ def _unexplained(left: Unexplained) -> list[tuple[str, str]]:
     return [*found, ("Formula", left.formula)] if left.formula else found
 
 
-def _next_test(found: NextTest | None) -> str:
-    if not found:
-        return ""
-    names = " from ".join(_named(one) for one in found.separates)
-    expected = f"expected λ = {found.expected_lambda:.3g}; a value above about 10 separates them"
-    return f"{_capital(found.signal)}: it separates {names} ({expected})."
+def _next_test(verdict: Verdict) -> str:
+    """The next test in words, or the reason why none is proposed."""
+    found = verdict.next_test
+    if found:
+        first, second = (_named(one) for one in found.separates)
+        expected = f"The expected λ between {first} and {second} is {found.expected_lambda:.3g}"
+        return f"{_capital(found.signal)}. {expected}; a test separates two candidates from λ = 10 on."
+    if not verdict.indistinguishable:
+        return "No test is proposed: no two candidates are close enough to need a separating test."
+    if verdict.indistinguishable[0][0].startswith(WITHOUT_DRIVE):
+        return "No test is proposed: a structure has no drive whose command could be chosen."
+    return "No test is proposed: no test within the limits of the rig separates these candidates."
 
 
 def _percent(share: float | None) -> str:

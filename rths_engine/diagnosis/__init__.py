@@ -1,1 +1,1 @@
-"""From "simulation and recording differ" to a better model: replay, detect, locate, select, verify, describe."""
+"""Diagnosis: compare a recording with a plan and improve its models (replay, detect, locate, select, verify, describe)."""

@@ -11,13 +11,13 @@ from scipy.signal import firwin, upfirdn
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
-ANALYSIS_RATE = 128.0  # Hz; what is compared lies below 0.4 of it
-LENGTH = 20  # taps a side and decimated sample
+ANALYSIS_RATE = 128.0  # Hz; compared signals lie below 0.4 of this rate
+LENGTH = 20  # taps on each side for each decimated sample
 
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """Takes signals at `dt` to every `factor`-th sample by a zero-phase low-pass filter."""
+    """Decimation of signals with the step `dt` to every `factor`-th sample by a zero-phase low-pass filter."""
 
     dt: float
     factor: int

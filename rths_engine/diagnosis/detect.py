@@ -1,7 +1,7 @@
-"""Detection of a mismatch: whether the residual holds more than noise.
+"""Detection of a mismatch: p-values of the residual, by a parametric bootstrap.
 
-The test is a parametric bootstrap of the largest score over the library, and of what any law of motion, energy and time could
-account for.
+Three quantities are tested: the largest score of an effect of the library, the power that a general law of motion, energy and
+time explains, and the change of the planned parameters.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
 REPLICATES = 99
-REDRAWN = 16  # times that the error of the input is drawn
-COUNTED = 5  # replicates beyond the score, from which its chance is their share
+REDRAWN = 16  # draws of the error of the input
+COUNTED = 5  # fewest replicates beyond the score for a p-value by counting
 TINIEST = 1e-300
-LEAST_OWN = 0.01  # of the power of all noise
+LEAST_OWN = 0.01  # smallest share of the output's own noise in the power of all noise
 
 
 @dataclass(frozen=True)
 class Detection:
-    """Scores of the signatures, the largest score, and its p-value where nothing was left out.
+    """Scores of the signatures and three p-values, each the probability of a value at least this large if nothing was left out.
 
-    The same for the squared length of the general law, with its expected length where nothing was left out, and for how far
-    the planned numbers left their plan.
+    `p_library` is the p-value of the largest score, `p_general` that of the squared length that the general law explains, and
+    `p_planned` that of the change of the planned parameters. `expected` is the mean of `explained` if nothing was left out.
     """
 
     scores: Array
@@ -39,22 +39,23 @@ class Detection:
     p_library: float
     p_general: float
     p_planned: float
-    explained: float  # squared length that a general law accounts for
+    explained: float  # squared length of the residual that the general law explains
     expected: float
 
     @property
     def p_value(self) -> float:
-        """Of all tests."""
+        """The p-value of all three tests, by Bonferroni's bound."""
         return min(1.0, 3 * min(self.p_library, self.p_general, self.p_planned))
 
 
 def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array, random: np.random.Generator) -> Detection:
-    """Compare the scores with those of recordings that the fitted model simulates.
+    """Compare the scores of the recording with the scores of recordings that the fitted model simulates.
 
-    Noise of the recording's colour is added to the output, and of the displacement's size to the input, and taken through the
-    same smoothing, model and band. The power along a signature or a law is compared with the power that is not, at the same
-    frequencies, so that noise of another level than assumed raises no alarm. Each score is in standard deviations of its own,
-    since noise reaches some signatures more than others.
+    `found` are the signatures, and `law` (N, r) the columns of the general law. Noise with the colour of the recording's noise
+    is added to the output, and noise of the displacement's size to the input. Both pass through the same smoothing, model and
+    band. The power along a signature or a law is divided by the power beside it at the same frequencies, so that a wrong noise
+    level raises no false alarm. Each score is in its own standard deviations, because noise reaches some signatures more than
+    others.
     """
     absorbed = absorber(fitted.jacobian)
     drawn = null_misfits(recordings, fitted, random)
@@ -75,7 +76,7 @@ def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array
 
 
 def _beside_span(misfits: Array, columns: Array) -> Array:
-    """(B) the power of misfits (B, N) at the frequencies of orthonormal columns (N, r), without their part along these."""
+    """Power (B) of misfits (B, N) beside orthonormal columns (N, r), at the frequencies of these columns."""
     rest = misfits - misfits @ columns @ columns.T
     weight = np.sum(np.abs(np.fft.rfft(columns, axis=0)) ** 2, axis=1)
     found: Array = np.abs(np.fft.rfft(rest, axis=1)) ** 2 @ weight
@@ -83,7 +84,7 @@ def _beside_span(misfits: Array, columns: Array) -> Array:
 
 
 def _beside_each(misfits: Array, rows: Array) -> Array:
-    """(B, K) likewise, of each unit row (K, N) alone."""
+    """Power (B, K) of misfits (B, N) beside each unit row (K, N), at the frequencies of that row."""
     along = misfits @ rows.T
     of_misfits, of_rows = np.fft.rfft(misfits, axis=1), np.fft.rfft(rows, axis=1)
     weight = np.abs(of_rows) ** 2
@@ -93,26 +94,26 @@ def _beside_each(misfits: Array, rows: Array) -> Array:
 
 
 def _relative(powers: Array) -> Array:
-    """Powers, the first of the recording and the others of replicates, over the replicates' mean."""
+    """Powers over the mean power of the replicates; the first power is the recording's, the others are the replicates'."""
     found: Array = powers / np.maximum(powers[1:].mean(axis=0), TINIEST)
     return np.maximum(found, TINIEST)
 
 
 def p_planned(fitted: Fitted) -> float:
-    """That the planned numbers are as far off their plan by their spread alone."""
+    """The p-value of the change of the planned parameters: probability of a change at least this large within their spread."""
     off = fitted.misfit[fitted.samples :]
     return float(chi2.sf(float(off @ off), len(off))) if len(off) else 1.0
 
 
 def fitted_residual(fitted: Fitted) -> Array:
-    """The misfit less what the fitted numbers can absorb."""
+    """The misfit without the part that the fitted parameters can absorb."""
     absorbed = absorber(fitted.jacobian)
     left: Array = fitted.misfit - absorbed @ (absorbed.T @ fitted.misfit)
     return left
 
 
 def p_value(largest: float, null: Array) -> float:
-    """Of the replicates where they reach that far, else of the extreme-value law through them."""
+    """The p-value of the largest score: by counting replicates, or by an extreme-value law fitted to them if few reach it."""
     beyond = int(np.sum(null >= largest))
     if beyond >= COUNTED:
         return (1 + beyond) / (1 + len(null))
@@ -121,13 +122,13 @@ def p_value(largest: float, null: Array) -> float:
 
 
 def _upper_tail(length: float, null: Array) -> float:
-    """Of the gamma law with the mean and variance of the replicates, which squared lengths follow nearly."""
+    """The p-value of a squared length, by the gamma law with the mean and the variance of the replicates."""
     mean, variance = float(null.mean()), float(null.var())
     return float(gamma.sf(length, mean * mean / variance, scale=variance / mean))
 
 
 def null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Array:
-    """Misfits (B, N) of the fitted model where nothing was left out."""
+    """Misfits (B, N) of replicates: recordings of the fitted model in which nothing was left out."""
     inputs = _inputs(recordings, fitted, random)
     own = _own(recordings, inputs)
     seeds = random.integers(2**63, size=REPLICATES)
@@ -145,9 +146,9 @@ def null_misfits(recordings: Recordings, fitted: Fitted, random: np.random.Gener
 
 
 def _inputs(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> list[list[Array]]:
-    """Changes of the residuals that the error of the input may cause, drawn several times.
+    """Changes of the residuals by the error of the input, for several draws of this error.
 
-    The error of a smoothed input is independent of it (Berkson 1950, JASA 45, 164-180), and so biases nothing.
+    The error of a smoothed input is independent of the input (Berkson 1950, JASA 45, 164-180), so it causes no bias.
     """
     before = recordings.predicted(fitted.parts)
     if not any(one.input_noise > 0 for one in recordings.data):
@@ -162,7 +163,7 @@ def _inputs(recordings: Recordings, fitted: Fitted, random: np.random.Generator)
 
 
 def _own(recordings: Recordings, inputs: Sequence[Sequence[Array]]) -> Array:
-    """(channels) the deviation of the output's own noise, in units of all noise: the input's is in the residuals too."""
+    """Standard deviation (channels) of the output's own noise in units of all noise, which includes noise from the input."""
     misfits = [recordings.channels(recordings.joined(one)) for one in inputs]
     powers = [[float(np.mean(np.concatenate(rows) ** 2)) for rows in channels] for channels in misfits]
     share: Array = np.mean(powers, axis=0)

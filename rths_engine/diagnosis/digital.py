@@ -1,4 +1,4 @@
-"""The parts of a hybrid test that are computed must replay to rounding."""
+"""Replay of the computed parts of a hybrid test: structure and compensators must agree with the recording to rounding."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
 
 # chosen; see docs/decisions/0023
-ROUNDING = 1e-5  # of the largest value: files of text keep five digits and more
+ROUNDING = 1e-5  # of the largest value: text files keep at least five digits
 
 
 @dataclass(frozen=True)
 class Replayed:
-    """A computed part, replayed, and its errors.
+    """The errors of a replayed computed part.
 
-    `error` is the largest error over the largest value; `nrmse` is the RMS error over the RMS about the mean. Both are
-    infinite where the replay runs away.
+    `error` is the largest error over the largest value. `nrmse` is the RMS error over the RMS about the mean. Both are infinite
+    where the replay diverges. `what` names the signal in words.
     """
 
     component: str
@@ -36,7 +36,7 @@ class Replayed:
 
 
 def replayed(plan: Plan, recording: Measured) -> list[Replayed]:
-    """Structure and compensators of a hybrid test recorded whole, at the controller's rate."""
+    """The replayed compensators and structure of a hybrid test; empty unless it was recorded at the controller rate."""
     if plan.test != "hybrid" or not np.isclose(recording.dt, plan.substep, rtol=1e-6):
         return []
     return [*_compensators(plan, recording), *_structure(plan, recording)]
@@ -53,7 +53,7 @@ def _compensators(plan: Plan, recording: Measured) -> list[Replayed]:
 
 
 def _structure(plan: Plan, recording: Measured) -> list[Replayed]:
-    """x_cmd at the integration steps from the ground motion and the measured forces. A known command is not replayed."""
+    """Replay x_cmd at the integration steps from the ground motion and the measured forces, if all were recorded."""
     stations = range(1, len(plan.stations) + 1)
     n = plan.substeps
     whole = all(recording.has(role, number) for role in ("x_cmd", "f_meas") for number in stations)

@@ -1,4 +1,4 @@
-"""The plan with what was found: numbers refitted, effects added."""
+"""The extended plan: the plan with refitted parameters and the named effects."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from rths_engine.parts.physics.effect import Effect
 from rths_engine.planning.plan import Plan
 
 # chosen; see docs/decisions/0023
-LEAST = 1e-6  # a share of a structure's number that is worth keeping
-MOST = 8  # effects of a component
+LEAST = 1e-6  # smallest relative change of a structure's parameter that is kept
+MOST = 8  # effects of a component, the limit of a plan
 
 
 def extended(plan: Plan, judged: Sequence[Judged]) -> Plan | None:
-    """None where nothing was found to extend it by."""
+    """The extended plan; None where no effect was named."""
     if not any(one.effects for one in judged):
         return None
     for one in judged:

@@ -1,4 +1,4 @@
-"""Planned parts and effects fitted jointly to recordings."""
+"""Joint fit of planned parts and effects to recordings by least squares."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from rths_engine.foundation.part import Part
 
 # chosen; see docs/decisions/0023
 EVALUATIONS = 40
-RUNAWAY = 1e3  # times the largest measured value
-ROUGH = 12  # evaluations that tell the hopeless
-CLOSE = 1e-6  # of the squared misfit: far below the 1 that evidence weighs
+RUNAWAY = 1e3  # times the largest measured value: a larger simulated value is cut
+ROUGH = 12  # evaluations of a rough fit, which sorts out hopeless models
+CLOSE = 1e-6  # relative change of the squared misfit at which a search ends, far below the 1 that evidence weighs
 
 
 @dataclass(frozen=True)
 class Recordings:
-    """What a component is fitted to: its data, the samples that count, and the noise of each channel of the output.
+    """The recordings that a component is fitted to: data, fitted samples, and the noise of each output channel.
 
-    `weights` says how much each sample counts: less where noise on the input reaches the output more, or where more is left
-    than noise elsewhere.
+    `weights` are the weights of the samples. A weight is smaller where noise on the input reaches the output, or where the
+    remaining residual is larger than elsewhere.
     """
 
     component: Component
@@ -37,10 +37,10 @@ class Recordings:
     masks: tuple[NDArray[np.bool_], ...]  # True where fitted
     noises: tuple[Noise, ...]
     weights: tuple[Array, ...]  # (channels, n) each
-    steady: tuple[Array, ...]  # likewise, by the input's noise alone
+    steady: tuple[Array, ...]  # (channels, n) each: the weights from the noise of the input alone
 
     def predicted(self, parts: Sequence[Part]) -> list[Array]:
-        """Each recording's output, cut where a model runs away."""
+        """The simulated output of each recording, cut at RUNAWAY where a model diverges."""
         found = []
         for one in self.data:
             largest = RUNAWAY * np.max(np.abs(one.measured), axis=1, keepdims=True)
@@ -51,18 +51,18 @@ class Recordings:
         return [one.measured - found for one, found in zip(self.data, self.predicted(parts), strict=True)]
 
     def misfit(self, parts: Sequence[Part]) -> Array:
-        """Whitened residuals of the fitted samples in a row."""
+        """The misfit: whitened residuals of the fitted samples in one vector."""
         return self.joined(self.residuals(parts))
 
     def joined(self, signals: Sequence[Array]) -> Array:
-        """Whitened signals (channels, n) of the fitted samples in a row: recording by recording, channel by channel."""
+        """Whitened `signals` (channels, n) of the fitted samples in one vector, by recording, then by channel."""
         rows = []
         for signal, mask, weights in zip(signals, self.masks, self.weights, strict=True):
             rows += [noise.whitened(channel)[mask] for channel, noise in zip(weights * signal, self.noises, strict=True)]
         return np.concatenate(rows)
 
     def channels(self, misfit: Array) -> list[list[Array]]:
-        """The rows of each channel of a misfit."""
+        """The parts of a misfit that belong to each channel."""
         counts = [int(mask.sum()) for mask in self.masks for _ in self.noises]
         rows = np.split(misfit, np.cumsum(counts)[:-1])
         return [rows[place :: len(self.noises)] for place in range(len(self.noises))]
@@ -74,10 +74,10 @@ class Recordings:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A fitted model: its parts, its misfit and the Jacobian.
+    """A fitted model: its parts, its free parameters `z`, its misfit and the Jacobian.
 
-    The misfit is in units of the noise. Behind it stands how far the planned numbers went, in units of their spread; the
-    Jacobian covers both.
+    The first `samples` rows of the misfit are in units of the noise. The rows that follow are the changes of the planned
+    parameters in units of their spread. The Jacobian covers both.
     """
 
     parts: tuple[Part, ...]
@@ -89,20 +89,20 @@ class Fitted:
 
     @property
     def squared(self) -> float:
-        """Of the recordings alone."""
+        """chi^2 of the recordings alone, without the changes of the planned parameters."""
         return float(self.misfit[: self.samples] @ self.misfit[: self.samples])
 
     @property
     def bic(self) -> float:
-        """chi^2 + k ln N, with the numbers' chances beforehand in chi^2."""
+        """BIC = chi^2 + k ln N, where chi^2 includes the changes of the planned parameters."""
         return float(self.misfit @ self.misfit) + len(self.free) * float(np.log(self.samples))
 
 
 def fit(recordings: Recordings, parts: Sequence[Part], evaluations: int = EVALUATIONS) -> Fitted:
-    """The least squares of the whitened misfit over every free number of the parts, from where they are.
+    """Fit all free parameters of the parts by least squares of the whitened misfit, from their present values.
 
-    Between Jacobians by differences the Jacobian is kept by secants (Broyden 1965); the search then begins once more, with a
-    Jacobian by differences, where the first ended.
+    Between Jacobians by differences, secants update the Jacobian (Broyden 1965). A second search begins at the end of the first
+    search with a Jacobian by differences. `evaluations` limits the first search.
     """
     free, misfit, start, bounds = problem(recordings, parts)
     if not free:
@@ -119,14 +119,14 @@ def fit(recordings: Recordings, parts: Sequence[Part], evaluations: int = EVALUA
 
 
 def evaluated(recordings: Recordings, parts: Sequence[Part]) -> Fitted:
-    """The parts as they are, with the misfit's Jacobian."""
+    """The parts with their present values as a fitted model, with misfit and Jacobian."""
     free, misfit, start, bounds = problem(recordings, parts)
     plain = misfit(start)
     return Fitted(tuple(parts), tuple(free), start, plain, differences(misfit, start, plain, bounds), recordings.samples)
 
 
 def compared(recordings: Recordings, fitted: Fitted) -> Fitted:
-    """A model fitted before, with its misfit under the noise of these recordings."""
+    """A model that was fitted before, with its misfit for the noise of these recordings."""
     _, misfit, start, _ = problem(recordings, fitted.parts)
     return replace(fitted, misfit=misfit(start))
 
@@ -134,9 +134,9 @@ def compared(recordings: Recordings, fitted: Fitted) -> Fitted:
 def problem(
     recordings: Recordings, parts: Sequence[Part], free: Sequence[Number] | None = None
 ) -> tuple[list[Number], Callable[[Array], Array], Array, Array]:
-    """The free numbers of the parts, the misfit as a function of z, z of the parts, and its bounds.
+    """The fit as a least-squares problem: free parameters, misfit as a function of z, z of the parts, and bounds of z.
 
-    Give the numbers `free` of an earlier fit to keep the scales of its z; without them the values of `parts` are the scales.
+    `free` are the parameters of an earlier fit, whose scales of z are kept. Without them, the values of `parts` are the scales.
     """
     free = numbers(recordings.component, parts) if free is None else list(free)
     bounds = np.array([number.bounds for number in free]).reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""The numbers of a model that a fit may move, as one vector."""
+"""The free parameters of a model as one vector z."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SMALLEST = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A field of one part: `owner` is the part's place in the model, 0 the baseline. z = ln value, or value / scale."""
+    """A free parameter: one field of the part at the index `owner` of the model. z = ln value, or value / scale."""
 
     owner: int
     field: str
@@ -29,8 +29,8 @@ class Number:
     high: float
     scale: float
     logarithmic: bool
-    planned: float  # z as planned
-    spread: float  # standard deviation of z beforehand; inf where anything goes
+    planned: float  # z of the planned value
+    spread: float  # prior standard deviation of z; inf where the parameter is free
 
     def to_z(self, value: float) -> float:
         return math.log(value) if self.logarithmic else value / self.scale
@@ -45,7 +45,7 @@ class Number:
 
 
 def numbers(component: Component, parts: Sequence[Part]) -> list[Number]:
-    """Every number of the parts that a fit moves, in order. One of a planned part at zero is no part of the plan's model."""
+    """The free parameters of the parts, in order. A planned parameter that is zero stays zero."""
     base = len(component.base)
     found = []
     for owner, part in enumerate(parts):
@@ -57,12 +57,12 @@ def numbers(component: Component, parts: Sequence[Part]) -> list[Number]:
 
 
 def vector(parts: Sequence[Part], free: Sequence[Number]) -> Array:
-    """The free numbers of `parts` in the coordinates of the fit."""
+    """The vector z of the free parameters of `parts`."""
     return np.array([number.to_z(getattr(parts[number.owner], number.field)) for number in free])
 
 
 def moved(parts: Sequence[Part], free: Sequence[Number], z: Array) -> list[Part]:
-    """The parts with the numbers of `z`."""
+    """The parts with the values of `z`."""
     changes: list[dict[str, float]] = [{} for _ in parts]
     for number, one in zip(free, z, strict=True):
         changes[number.owner][number.field] = number.from_z(float(one))

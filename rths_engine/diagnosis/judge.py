@@ -19,17 +19,17 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 
 # chosen; see docs/decisions/0023
-BLOCKS, HELD_OUT = 10, (2, 5, 8)  # of a recording's blocks in a row, never fitted where no other recording is held out
-ENDS = 0.3  # s at either end, which the filters blur
-PLAIN = 25.0  # squared length in units of the noise: an unknown law so large is no chance
-NOT_WHOLE = 1 / 3  # of what is beyond the planned model: a named effect that leaves more is not what was left out,
-MOST = 0.1  # unless no more of the power of the error on what was not fitted is left
-MORE_THAN_HALF, DOUBTFUL = 0.5, 0.05  # likewise, where what is left is no more than this probable by chance
+BLOCKS, HELD_OUT = 10, (2, 5, 8)  # successive blocks of a recording; blocks held out where no recording is held out
+ENDS = 0.3  # s at each end, where the filters blur the signals
+PLAIN = 25.0  # squared length in units of the noise: an unknown law must exceed it
+NOT_WHOLE = 1 / 3  # largest share of the chi^2 beyond the planned model that named effects may leave to a general law
+MOST = 0.1  # share of the held-out power of the error: effects that leave less are named whatever the general law explains
+MORE_THAN_HALF, DOUBTFUL = 0.5, 0.05  # as NOT_WHOLE, where the p-value of the general law is at most DOUBTFUL
 
 
 @dataclass(frozen=True)
 class Judged:
-    """One component: what was selected, its verdict, and the recordings that were not fitted."""
+    """The judgement of one component: its selection, its verdict, and its held-out recordings."""
 
     component: Component
     name: str
@@ -48,23 +48,23 @@ class Judged:
 
     @property
     def gain(self) -> float:
-        """Of chi^2 over the planned parts refitted, by the effects and by what a general law adds."""
+        """The chi^2 beyond the refitted planned parts: explained by the effects, plus explained by a general law after them."""
         return self.selection.baseline.squared - self.selection.chosen.squared + self.left
 
     @property
     def left(self) -> float:
-        """Squared length, in units of the noise, of what a general law could still explain."""
+        """The chi^2 of the residual that a general law explains after the effects are fitted, beyond its expected value."""
         last = self.selection.detections[-1]
         return max(0.0, last.explained - last.expected)
 
     @cached_property
     def unproved(self) -> float:
-        """Share of the power of the error on what was not fitted that the effects leave."""
+        """The share of the held-out power of the error that remains with the effects."""
         before, after = (self.nrmse(one.parts, False) for one in (self.selection.baseline, self.selection.chosen))
         return after**2 / max(before**2, 1e-300)
 
     def remains(self, level: float) -> bool:
-        """Whether a general law says that what was left out is another than the effects."""
+        """True where a general law explains too much of the residual for the fitted effects to be the left-out physics."""
         chance = self.selection.detections[-1].p_general
         return self.left > PLAIN and (
             (chance <= level and self.left > NOT_WHOLE * self.gain)
@@ -72,9 +72,9 @@ class Judged:
         )
 
     def nrmse(self, parts: Sequence[Part], fitted: bool | None) -> float:
-        """RMS error over the RMS about the mean of the measured channels: fitted, held out, or all (None).
+        """RMS error over the RMS of the measured channels about their mean, on fitted, held-out or all (None) samples.
 
-        Channels count alike. Infinite where the simulation runs away.
+        All channels have equal weights. Infinite where the simulation diverges.
         """
         rows: list[tuple[Array, Array]] = []
         if fitted is False and self.heldout:
@@ -92,7 +92,7 @@ class Judged:
 
     @property
     def noise(self) -> float:
-        """Of the noise, likewise."""
+        """The noise floor: RMS noise over the RMS of the measured channels about their mean."""
         real = np.concatenate([one.measured for one in self.recordings.data], axis=1)
         shares = [
             noise.deviation**2 / max(float(np.var(row)), 1e-300)
@@ -110,7 +110,10 @@ def judged(
     random: np.random.Generator,
     told: Callable[[float], None],
 ) -> Judged:
-    """Fit one component, detect and select what it leaves out, and judge it."""
+    """Fit one component, detect a mismatch, select the left-out effects and judge the component.
+
+    `level` is the false-alarm rate of the component. `told` receives the share of the work that is done.
+    """
     used = inner if heldout else fitted_blocks
     masks = tuple(used(one.measured.shape[1], one.step) for one in data)
     noises = tuple(Noise.white(1.0) for _ in data[0].measured)
@@ -128,22 +131,23 @@ def judged(
 
 
 def fitted_blocks(count: int, step: float) -> Any:
-    """True where fitted."""
+    """Mask of the fitted samples where three blocks are held out."""
     return inner(count, step) & ~np.isin(np.arange(count) * BLOCKS // count, HELD_OUT)
 
 
 def inner(count: int, step: float) -> Any:
-    """True but at the ends."""
+    """Mask of the samples that are at least ENDS away from both ends."""
     place = np.arange(count) * step
     return (place >= ENDS) & (place < count * step - ENDS)
 
 
 def unbounded(error: float) -> float:
-    """Infinity for an error that is not a number: the simulation ran away."""
+    """The error, or infinity where it is not finite because the simulation diverged."""
     return error if np.isfinite(error) else np.inf
 
 
 def _calibration(selection: Selection, level: float) -> Kind:
+    """`recalibrate` where the refitted planned parameters improve the fit significantly, else `consistent`."""
     planned = selection.recordings.misfit(selection.recordings.component.base)
     chosen: Fitted = selection.chosen
     gain = float(planned @ planned) - chosen.squared

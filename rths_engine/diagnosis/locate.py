@@ -1,4 +1,4 @@
-"""Where the residual of the planned model is beyond noise: in time, in frequency, and over displacement and velocity."""
+"""Location of the residual of the planned model in time, in frequency, and over displacement and velocity."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
 WINDOW = 1.0  # s
-CLEARLY, FEWEST = 2.5, 20  # times the mean power elsewhere; samples whose mean is told
+CLEARLY, FEWEST = 2.5, 20  # times the mean power elsewhere; fewest samples for a mean
 BEYOND = 3.0  # standard deviations of the noise
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a residual stands above its noise: windows (s), bands (Hz) and a word on the state.
+    """Location of a residual that exceeds the noise: time spans (s), bands (Hz) and a region of the state in words.
 
-    `level` is the residual over time in standard deviations of the noise, infinite where the simulation runs away.
+    `middle` is the middle of each window (s). `level` is the RMS residual in each window in standard deviations of the noise;
+    it is infinite where the simulation diverges.
     """
 
     times: list[tuple[float, float]]
@@ -31,7 +32,7 @@ class Place:
 
 
 def place(one: Judged) -> Place:
-    """When and at which frequencies the residual of a component stands above its noise."""
+    """Locate the residual of a component's planned model in time, frequency and state."""
     data, residual = one.recordings.data[0], one.recordings.residuals(one.selection.baseline.parts)[0]
     noise = np.array([max(model.deviation, 1e-300) for model in one.recordings.noises])
     scaled = residual / noise[:, None]
@@ -55,7 +56,7 @@ def _bands(residual: Array, step: float) -> list[tuple[float, float]]:
 
 
 def _state(one: Judged, scaled: Array) -> str:
-    """The region of displacement or velocity that holds the residual, in words."""
+    """The region of displacement or velocity where the residual is largest, in words; may be empty."""
     x, v = one.component.signals(one.recordings.data[0])
     energy = scaled**2
     if not energy.sum() > 0:
@@ -76,7 +77,7 @@ def _state(one: Judged, scaled: Array) -> str:
         float(np.mean(scaled[signs < 0])) if (signs < 0).any() else 0.0,
     )
     if abs(up - down) > 0.5 * float(np.sqrt(np.mean(energy))):
-        words.append(f"changes sign with the {v.label}" if up * down < 0 else f"differs by the sign of the {v.label}")
+        words.append(f"changes sign with the {v.label}" if up * down < 0 else f"depends on the sign of the {v.label}")
     return ", ".join(words)
 
 

@@ -17,7 +17,7 @@ from rths_engine.parts.physics.effect import Effect
 
 
 def named(one: Judged, remains: Law | None) -> list[schema.NamedEffect]:
-    """The effects of a component, the most probable first; `unknown` where none of the library accounts for the mismatch."""
+    """The effects of a component, the most probable first; `unknown` where no effect of the library explains the mismatch."""
     if one.unknown:
         return [_unknown(one, remains)]
     chosen = one.selection.chosen
@@ -28,7 +28,7 @@ def named(one: Judged, remains: Law | None) -> list[schema.NamedEffect]:
         assert isinstance(effect, Effect)
         probability = min(1.0, _probability(one, effect))
         numbers = _parameters(one, owner, effect)
-        told = schema.NamedEffect(
+        effect_named = schema.NamedEffect(
             component=one.component.place(effect),
             id=effect.id,
             probability=probability,
@@ -36,33 +36,34 @@ def named(one: Judged, remains: Law | None) -> list[schema.NamedEffect]:
             parameters=numbers,
         )
         without = [part for part in chosen.parts if part is not effect]
-        found.append((-round(probability, 2), -separation(one.recordings, chosen.parts, without), told))
-    return [told for _, _, told in sorted(found, key=lambda one: one[:2])]
+        found.append((-round(probability, 2), -separation(one.recordings, chosen.parts, without), effect_named))
+    return [effect_named for _, _, effect_named in sorted(found, key=lambda one: one[:2])]
 
 
 def configuration_error(one: Replayed) -> schema.NamedEffect:
-    """A computed part that does not replay to rounding. No probability is computed for it."""
-    size = "the replay runs away" if one.nrmse == float("inf") else f"it is off by {100 * one.error:.3g} % of the largest"
+    """A computed part whose replay differs by more than rounding. No probability is computed for it."""
+    diverges = one.nrmse == float("inf")
+    size = "the replay diverges" if diverges else f"the largest error is {100 * one.error:.3g} % of the largest value"
     return schema.NamedEffect(
         component=one.component,
         id="configuration_error",
         probability=None,
         sentence=(
-            f"What was recorded as {one.what} is not what the plan computes: {size}. "
-            "The controller ran with other settings than the plan's."
+            f"The recording of {one.what} differs from the replay of the plan: {size}. "
+            "The controller ran with settings that differ from the plan."
         ),
         parameters=(),
     )
 
 
 def models(one: Judged, model: Fitted) -> list[str]:
-    """The effects of a model, as component/id."""
+    """The effects of a model, each written component/id."""
     added = model.parts[len(one.component.base) :]
     return [f"{one.component.place(part)}/{part.id}" for part in added if isinstance(part, Effect)]
 
 
 def _probability(one: Judged, effect: Effect) -> float:
-    """Sum over the models that hold the effect."""
+    """Probability that an effect is present: the sum over the models that contain it."""
     pairs = zip(one.selection.chances, one.selection.tried, strict=True)
     base = len(one.component.base)
     return sum(chance for chance, model in pairs if any(key(part) == key(effect) for part in model.parts[base:]))
@@ -83,7 +84,7 @@ def _parameters(one: Judged, owner: int, effect: Effect) -> tuple[schema.Paramet
 
 
 def _declared(effect: Effect, name: str) -> dict[str, Any]:
-    """Unit and label that the effect declares for a number."""
+    """Unit, label and scale that the effect declares for one of its parameters."""
     field = type(effect).model_fields[name]
     extra = field.json_schema_extra
     extra = extra if isinstance(extra, dict) else {}
@@ -105,25 +106,25 @@ def _sentence(one: Judged, effect: Effect, numbers: Sequence[schema.Parameter]) 
         subject = f"structure, in storey {at.partition(':')[2]},"
     before, after = (100 * one.nrmse(parts, False) for parts in (one.selection.baseline.parts, one.selection.chosen.parts))
     search = physics.SEARCHES[type(effect)]
-    told = f"The {subject} {search.says(effect)}: {search.noun} was left out ({spans})."
-    return f"{told} Its model takes the error on what was not fitted from {before:.3g} % to {after:.3g} %."
+    cause = f"The {subject} {search.says(effect)}: {search.noun} was left out ({spans})."
+    return f"{cause} The held-out error is {before:.3g} % with the planned model and {after:.3g} % with the extended model."
 
 
 def _span(number: schema.Parameter) -> str:
     low, high = (end / number.factor for end in number.ci90)
     unit = f" {number.shown}" if number.shown else ""
-    return f"{number.label} {low:.3g} to {high:.3g}{unit} with 90 % confidence"
+    return f"{number.label}: {low:.3g} to {high:.3g}{unit}, 90 % interval"
 
 
 def _unknown(one: Judged, remains: Law | None) -> schema.NamedEffect:
-    """What no effect of the library accounts for. No probability is computed for it: nothing was fitted."""
-    law_words = f", {remains.words}" if remains else ""
+    """A mismatch that no effect of the library explains. It has no probability, because no effect was fitted for it."""
+    law_words = f" The residual contains these terms: {remains.words}." if remains else ""
     best = [effect for effect in one.selection.effects if isinstance(effect, Effect)]
-    nearest = f" The nearest known effect, {best[-1].id.replace('_', ' ')}, accounts for a part only." if best else ""
+    nearest = f" The nearest effect, {best[-1].id.replace('_', ' ')}, explains only a part of the mismatch." if best else ""
     return schema.NamedEffect(
         component=one.component.name,
         id="unknown",
         probability=None,
-        sentence=f"The {one.name} does something that no effect of the library accounts for{law_words}.{nearest}",
+        sentence=f"The {one.name} shows a mismatch that no effect of the library explains.{law_words}{nearest}",
         parameters=(),
     )

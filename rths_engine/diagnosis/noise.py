@@ -1,4 +1,4 @@
-"""The noise of a recording: its level and its colour."""
+"""The noise of a recording: its level and its spectrum."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from scipy.signal import lfilter
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
-ORDER, LONG = 12, 128  # the stop band of the decimation takes as many as the first; noise of a second and slower, the other
+ORDER, LONG = 12, 128  # order of the short process, which fits the filter's stop band; order of a whitener for slow noise
 
 # chosen; see docs/decisions/0023
-LEAST_SAMPLES = 20  # for each number of a process
-LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # of the noise's power, white beside it
-CORNERS = (0.0003, 0.001, 0.003, 0.01, 0.03, 0.1)  # of the sampling rate
+LEAST_SAMPLES = 20  # fewest samples for each coefficient of a process
+LEAST_FLOOR, MOST_FLOOR = 0.3, 10.0  # limits of the white floor, as shares of the power of the noise
+CORNERS = (0.0003, 0.001, 0.003, 0.01, 0.03, 0.1)  # corner frequencies, as shares of the sampling rate
 GRID = 4096  # frequencies of a spectrum
-FREQUENCY = np.linspace(0.0, 0.5, GRID + 1)  # of the sampling rate
+FREQUENCY = np.linspace(0.0, 0.5, GRID + 1)  # shares of the sampling rate
 ITERATIONS = 100
 TURNS = 3
 
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """Noise of a channel, by its `spectrum` (GRID + 1) and its `whitener`.
+    """The noise of a channel: its `spectrum` (GRID + 1) and its `whitener`.
 
-    The spectrum is the mean of |rfft|^2 over the count, from 0 to half the sampling rate. The `whitener`, in units of `scale`,
-    is that of the noise with a white floor, so that no frequency counts for much more than the others.
+    The spectrum is the mean of |rfft|^2 over the number of samples, from 0 to half the sampling rate. The `whitener`, in units
+    of `scale`, whitens the noise plus a white floor. Because of the floor, all frequencies have similar weights.
     """
 
     spectrum: Array
@@ -41,33 +41,33 @@ class Noise:
         return cls(np.full(GRID + 1, sigma**2), np.ones(1), sigma)
 
     def times(self, unit: float, least: float) -> Noise:
-        """In another unit, and no smaller than `least` of it."""
+        """The noise multiplied by `unit`, and increased so that its scale is at least `least` times `unit`."""
         more = unit * max(1.0, least / max(self.scale, 1e-300))
         return Noise(self.spectrum * more**2, self.whitener, self.scale * more)
 
     def whitened(self, signals: Array) -> Array:
-        """The signals (samples along the last axis) in units of the noise, made white."""
+        """The whitened signals (samples along the last axis), in units of the noise."""
         white: Array = lfilter(self.whitener, [self.scale], signals, axis=-1)
         return white
 
     def drawn(self, count: int, random: np.random.Generator) -> Array:
-        long = 2 * count  # of which the second half does not meet the first again
+        long = 2 * count  # twice as long, so that the end of the draw is not correlated with its start
         power = np.interp(np.fft.rfftfreq(long), FREQUENCY, self.spectrum)
         drawn: Array = np.fft.irfft(np.sqrt(power) * np.fft.rfft(random.standard_normal(long)), long)[:count]
         return drawn
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of the noise itself."""
+        """Standard deviation of the noise before whitening."""
         return float(np.sqrt(np.mean(self.spectrum)))
 
 
 def coloured(stretches: Sequence[Array], beyond: float = 0.0) -> Noise:
-    """Noise of which stretches, about their mean, are samples.
+    """Estimate the noise from stretches of it, about their mean.
 
-    It is a short autoregressive process times a spectrum that rises towards low frequencies, each estimated in turn. The white
-    floor of its whitener has `beyond` times the noise's power, since models err by as much: no frequency then counts for much
-    more than others.
+    The model is a short autoregressive process times a spectrum that rises towards low frequencies; both are estimated in turn.
+    The white floor of the whitener has `beyond` times the power of the noise, because models have errors of this size. All
+    frequencies then have similar weights.
     """
     count = sum(len(one) for one in stretches)
     mean = sum(float(one.sum()) for one in stretches) / count
@@ -106,10 +106,10 @@ def _peaks(coefficients: Array, sigma: float, frequency: Array) -> Array:
 
 
 def _risen(frequency: Array, power: Array) -> Array:
-    """Weights of a constant and of first-order processes, whose sum is likeliest for a periodogram.
+    """Weights of a constant and of first-order processes whose sum fits a periodogram with the largest likelihood.
 
     Source: Whittle (1953), Ark. Mat. 2, 423-434; its maximum by the updates of Fevotte, Bertin and Durrieu (2009), Neural
-    Comput. 21, 793-830, for the distance of Itakura and Saito.
+    Comput. 21, 793-830, for the Itakura-Saito distance.
     """
     parts = _shapes(frequency)
     weights = np.full(len(parts), float(np.mean(power)) / len(parts))
@@ -120,12 +120,12 @@ def _risen(frequency: Array, power: Array) -> Array:
 
 
 def _shapes(frequency: Array) -> Array:
-    """(parts, frequencies)."""
+    """Spectra (parts, frequencies) of a constant and of the first-order processes with the CORNERS."""
     return np.array([np.ones(len(frequency)), *(1 / (1 + (frequency / corner) ** 2) for corner in CORNERS)])
 
 
 def _predictor(covariance: Array, floor: float) -> tuple[Array, float]:
-    """Coefficients and the deviation of what they leave of the noise."""
+    """Coefficients of the linear predictor, and the standard deviation of its error for the noise without the floor."""
     held = covariance.copy()
     held[0] *= 1 + floor
     coefficients = np.concatenate([[1.0], solve_toeplitz(held[:-1], -held[1:])])

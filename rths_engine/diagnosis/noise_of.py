@@ -1,4 +1,4 @@
-"""The noise of a recording, of what the models and few terms of a general law leave of it."""
+"""Estimate of the noise from the residual, after the models and a few terms of a general law are removed."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from rths_engine.diagnosis.signatures import general_terms, signatures
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
-FIRST_GUESS = 0.01  # noise over the output's deviation, before any is known
-LEAST_NOISE = 1e-6  # likewise: below, numbers of a file are rounded
+FIRST_GUESS = 0.01  # noise over the standard deviation of the output, at the start of the estimate
+LEAST_NOISE = 1e-6  # smallest noise over the standard deviation of the output: numbers in files are rounded
 DRAWS = 12
 SMOOTHED = 0.1  # s
-EVENED, UNEVEN = 1.0, 1.5  # s; times the median: more power, for so long, is beyond chance
+EVENED, UNEVEN = 1.0, 1.5  # s; multiple of the median power above which the weight of samples falls
 ROUNDS = 4
 MOST_TERMS = 12
-CLEAR = 4.0  # standard deviations: a term so large is no noise
+CLEAR = 4.0  # standard deviations of the noise: a larger term is not noise
 
 
 def first_noise(recordings: Recordings) -> Recordings:
-    """The recordings with white noise of a share of each channel's spread, to start a fit."""
+    """The recordings with white noise of FIRST_GUESS times each channel's standard deviation, to start a fit."""
     spread = np.std(np.concatenate([one.measured for one in recordings.data], axis=1), axis=1)
     return replace(recordings, noises=tuple(Noise.white(max(FIRST_GUESS * float(one), 1e-300)) for one in spread))
 
 
 def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator) -> Recordings:
-    """Weights 1 / sqrt(1 + s^2 / sigma^2) of the samples.
+    """The recordings with the weights 1 / sqrt(1 + s^2 / sigma^2) of the samples.
 
-    s is the deviation that noise on the input gives the output there, and that half as many samples of noise would give it, as
-    where the signal jumps; sigma is a robust standard deviation of the residual.
+    s is the standard deviation of the output by noise on the input, together with the change of the output where half of the
+    input samples are left out (at jumps). sigma is a robust standard deviation of the residual.
     """
     residuals = recordings.residuals(fitted.parts)
     weights = []
@@ -59,9 +59,9 @@ def weighted(recordings: Recordings, fitted: Fitted, random: np.random.Generator
 def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
     """Estimate the noise of a fit.
 
-    At first everything that the fitted numbers leave counts as noise. Then, term by term, what stands clear of the noise, of
-    the library's effects and of a general law, is taken out and the noise is estimated again. Samples count less where clearly
-    more is left for a while than elsewhere.
+    The first estimate is the whole residual of the fit. Then significant terms of the library's effects and of a general law
+    are removed one after another, and the noise is estimated again. Samples have smaller weights where the remaining residual
+    is clearly larger than elsewhere for EVENED seconds.
     """
     plain = first_noise(replace(recordings, weights=recordings.steady))
     now = evaluated(plain, fitted.parts)
@@ -89,7 +89,7 @@ def with_noise(recordings: Recordings, fitted: Fitted) -> Recordings:
 
 
 def _evened(plain: Recordings, white: Array) -> list[Array]:
-    """(channels, n) each: 1, or less where the power of the whitened noise is above its median for a while."""
+    """Weights (channels, n) for each recording: 1, or less where the power of the whitened noise exceeds its median."""
     parts = np.split(white, np.cumsum([int(mask.sum()) for mask in plain.masks for _ in plain.noises])[:-1])
     found: list[Array] = []
     count = len(plain.noises)
@@ -105,7 +105,7 @@ def _evened(plain: Recordings, white: Array) -> list[Array]:
 
 
 def _clear(misfit: Array, known: Array, offered: Array, taken: list[int]) -> list[int]:
-    """Places of the terms that stand clear of noise, one after another."""
+    """Indices of the terms that are significant beside the noise, selected one after another."""
     taken = list(taken)
     while len(taken) < MOST_TERMS:
         basis = np.linalg.qr(np.column_stack([known, offered[:, taken]]))[0]
@@ -131,7 +131,7 @@ def _noises(plain: Recordings, noise: Array, residual: Array) -> tuple[Noise, ..
 
 
 def _whitened(plain: Recordings, noises: tuple[Noise, ...], columns: Array) -> Array:
-    """The columns, rows of misfits under the noise of `plain`, in units of `noises`."""
+    """Columns of misfits that were whitened with the noise of `plain`, whitened with `noises` instead."""
     rows = []
     ends = np.cumsum([0] + [int(mask.sum()) for mask in plain.masks for _ in plain.noises])
     for place, (start, end) in enumerate(itertools.pairwise(ends)):

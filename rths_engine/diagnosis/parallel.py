@@ -1,4 +1,4 @@
-"""Replays side by side: the compiled loops let go of Python's lock."""
+"""Replays in parallel threads; the compiled loops release Python's global lock."""
 
 from __future__ import annotations
 
@@ -13,5 +13,5 @@ _POOL = ThreadPoolExecutor(max(1, len(os.sched_getaffinity(0))))
 
 
 def each(work: Callable[[Given], Found], given: Iterable[Given]) -> list[Found]:
-    """work(one) of each, in order. Must not be called by the work itself."""
+    """The results of `work` for each item, in order. `work` itself must not call this function."""
     return list(_POOL.map(work, given))

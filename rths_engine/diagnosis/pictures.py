@@ -1,6 +1,6 @@
-"""What there is to plot of a diagnosis, as `rths-diagnosis-pictures/1`.
+"""The data of the plots of a diagnosis, as `rths-diagnosis-pictures/1`.
 
-"Before" is the planned model with its own numbers refitted, "after" the model chosen.
+"Before" is the planned model with refitted parameters, "after" the selected model.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ MOTIONS = {"x": ("displacement", "m"), "v": ("velocity", "m/s"), "a": ("accelera
 
 
 def pictures(diagnosis: Diagnosis) -> form.Pictures:
-    """Every component over time; those whose models leave something out, at least the worst, in detail."""
+    """The plots of all components; components with a mismatch, and at least the worst component, in detail."""
     worst = max(diagnosis.judged, key=lambda one: (ORDER.index(one.verdict), one.gain))
     found = (_component(one, one is worst or one.verdict not in WELL) for one in diagnosis.judged)
     return form.Pictures(components=tuple(found))
@@ -75,7 +75,7 @@ def _detail(one: Judged) -> form.Detail:
 
 
 def _named(one: Judged, row: int) -> dict[str, Any]:
-    """Label and unit of a row of the output."""
+    """Label and unit of one channel of the output."""
     data = one.recordings.data[0]
     if isinstance(data, StructureData):
         kind, floor, _ = data.floors[row]
@@ -106,7 +106,7 @@ def _over_time(time: Array, names: Sequence[str], signals: Array) -> dict[str, f
 
 
 def _spectra(residuals: Array, noise: Noise, weights: Array, step: float) -> form.Spectra:
-    """Power spectral densities (unit^2/Hz) by Welch, and that of the noise model, larger where it reaches further."""
+    """Power spectral densities (unit^2/Hz) of the residuals by Welch's method, and of the noise model over the weights."""
     length = max(16, residuals.shape[1] // SEGMENTS)
     frequency, power = welch(np.nan_to_num(residuals), 1 / step, nperseg=min(length, residuals.shape[1]))
     modelled = 2 * step * np.interp(step * frequency, FREQUENCY, noise.spectrum) * np.mean(weights**-2.0)
@@ -134,7 +134,7 @@ def _state(one: Judged, data: Any, row: int, before: Array, after: Array) -> for
 
 
 def _blocks(data: Any, before: Array, after: Array, reserved: bool) -> tuple[form.Block, ...]:
-    """NRMSE of each block in a row, over the RMS about the mean of the whole; some are `reserved`, not fitted."""
+    """Errors of each block, over the RMS of the whole signal about its mean; `reserved` where some blocks are held out."""
     count = data.measured.shape[1]
     number, used = np.arange(count) * BLOCKS // count, inner(count, data.step)
     found = []
@@ -173,7 +173,7 @@ def _numbers(values: Array) -> form.Numbers:
 
 
 def _number(value: float) -> float | None:
-    """Rounded; None where it is not finite."""
+    """The value rounded to DIGITS digits; None where it is not finite."""
     return _rounded(value) if np.isfinite(value) else None
 
 

@@ -1,4 +1,4 @@
-"""How sure the numbers of a fitted model are: 90 % intervals by the profile of the likelihood."""
+"""90 % intervals of the parameters of a fitted model, by the profile of the likelihood."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ DOUBLINGS, HALVINGS, TURNS = 7, 4, 2
 
 
 def deviations(fitted: Fitted, misfits: Array) -> Array:
-    """Standard deviation of each free number's z, by what the fit to first order makes of other noise: `misfits` (B, N)."""
+    """Standard deviation of z of each free parameter: the scatter of first-order fits to the noise of `misfits` (B, N)."""
     moved = np.linalg.lstsq(fitted.jacobian, misfits.T, rcond=None)[0]
     found: Array = np.std(moved, axis=1, ddof=1)
     return found
 
 
 def ranges(recordings: Recordings, fitted: Fitted, misfits: Array, temper: float) -> list[tuple[float, float]]:
-    """90 % interval of each free number.
+    """90 % interval of z of each free parameter.
 
-    The interval of an effect's number ends where chi^2, the other numbers moving along, has risen by what noise (`misfits`)
-    and the models' own errors (`temper`, their chi^2 over that of noise) may raise it. It is wider by the effect of the
-    numbers that the fit holds fixed.
+    The interval of an effect's parameter ends where chi^2, with all other parameters refitted, has risen by the amount that
+    noise (`misfits`) and the errors of the models (`temper`, the ratio of their chi^2 to that of noise) allow. The uncertainty
+    of the parameters that the fit holds fixed widens it.
     """
     first = len(recordings.component.base)
     own = deviations(fitted, misfits) * np.sqrt(temper)
@@ -52,7 +52,7 @@ def ranges(recordings: Recordings, fitted: Fitted, misfits: Array, temper: float
 
 
 def _profile(recordings: Recordings, fitted: Fitted) -> Callable[[int, float], float]:
-    """What chi^2 rises by where a number is off, once the others have followed by steps of Gauss and Newton."""
+    """The rise of chi^2 where one parameter is changed and the others are refitted by Gauss-Newton steps."""
     _, misfit, _, bounds = problem(recordings, fitted.parts, fitted.free)
     least = float(fitted.misfit @ fitted.misfit)
 
@@ -75,9 +75,9 @@ def _profile(recordings: Recordings, fitted: Fitted) -> Callable[[int, float], f
 
 
 def _reach(rise: Callable[[float], float], way: float, near: float, most: float) -> float:
-    """How far a number may go that way before chi^2 has risen by `most`; `near` is where it would by first order."""
+    """The distance in the direction `way` at which chi^2 has risen by `most`; `near` is its first-order estimate."""
     offs = near * 2.0 ** np.arange(DOUBLINGS)
-    allowed = [off for off in offs if rise(way * off) <= most]  # not one after another: a moment's profile has barriers
+    allowed = [off for off in offs if rise(way * off) <= most]  # all are tried: the profile of a time has barriers
     inside = max(allowed, default=0.0)
     outside = 2 * inside if allowed else near
     for _ in range(HALVINGS):
@@ -87,7 +87,7 @@ def _reach(rise: Callable[[float], float], way: float, near: float, most: float)
 
 
 def _held(recordings: Recordings, fitted: Fitted) -> Array:
-    """Root of the sum of squares of what each free number would move by, were a held number what it may as well be."""
+    """Change of each free parameter for other plausible values of the held parameters: root of the sum of squares."""
     squares = np.zeros(len(fitted.free))
     first = len(recordings.component.base)
     before = recordings.misfit(fitted.parts)

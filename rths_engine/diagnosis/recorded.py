@@ -1,4 +1,4 @@
-"""The components of a plan with what a recording holds at their ends."""
+"""The components of a plan, each with the recorded signals at its ends."""
 
 from __future__ import annotations
 
@@ -33,49 +33,57 @@ from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
 
 # chosen; see docs/decisions/0023
-LEAST = 200  # samples: fewer hold too little to tell noise from physics
+LEAST = 200  # fewest samples: with fewer, noise and physics cannot be separated
 MOST = 4_000_000  # samples of a channel
-FAR_OFF = 30.0  # times: units are off
-AT_REST = 0.02  # of the largest: below, the start is taken for rest
-FIRST_MOMENTS = 0.12  # of the first period, by which a start is told
+FAR_OFF = 30.0  # ratio of measured to simulated size that indicates a wrong unit
+AT_REST = 0.02  # of the largest displacement: with less at the start, the structure counts as at rest
+FIRST_MOMENTS = 0.12  # of the first period: the samples that determine the start
 Pair = tuple[Component, Any]
 FLOORS = ("x_floor", "v_floor", "a_floor")
 
 
 def components(plan: Plan, recording: Measured, where: str) -> list[Pair]:
-    """Each component that can be replayed, with its data. Raises RecordingError where the recording is not of this plan."""
+    """The components that can be replayed, each with its data.
+
+    Raises RecordingError, which names the input `where`, if the recording does not match the plan.
+    """
     _checked(plan, recording, where)
     found = _structure(plan, recording, where) if plan.test == "structure" else _stations(plan, recording)
     if not found:
-        needed = "floors' motions" if plan.test == "structure" else "a station's displacement or force beside what drives it"
-        fix = f"it holds {', '.join(recording.keys)}"
-        raise RecordingError(Issue(where, f"no component has both its ends recorded: needs {needed}", None, fix))
+        motions = "the motion of at least one floor"
+        ends = "the displacement or the force of a station, and its command or displacement"
+        needed = motions if plan.test == "structure" else ends
+        fix = f"the recording has the channels {', '.join(recording.keys)}"
+        raise RecordingError(Issue(where, f"has no component with recorded signals at both ends: it needs {needed}", None, fix))
     return found
 
 
 def _checked(plan: Plan, recording: Measured, where: str) -> None:
     if recording.samples < LEAST:
-        raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis needs {LEAST}"))
+        raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis needs at least {LEAST}"))
     if recording.samples > MOST:
-        raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis takes {MOST}", None, "cut it"))
+        problem = f"has {recording.samples} samples; a diagnosis accepts at most {MOST}"
+        raise RecordingError(Issue(where, problem, None, "import a shorter part of the recording"))
     if recording.test and recording.test != plan.test:
-        fix = "give the plan of this test, or map the recording to this kind"
-        raise RecordingError(Issue(where, f"is of a test of kind {recording.test!r}; the plan's is {plan.test!r}", None, fix))
+        fix = "give the plan of this test, or import the recording with this kind of test"
+        problem = f"is of a {recording.test!r} test; the plan describes a {plan.test!r} test"
+        raise RecordingError(Issue(where, problem, None, fix))
     stations = recording.numbers("station")
     if stations and max(stations) > len(plan.stations):
-        problem = f"holds station {max(stations)}; the plan has {len(plan.stations)}"
+        problem = f"has a channel of station {max(stations)}; the number of stations in the plan is {len(plan.stations)}"
         raise RecordingError(Issue(where, problem, None, "give the plan of this recording"))
     if recording.of_run and len(stations) != len(plan.stations):
-        problem = f"holds {len(stations)} stations; the plan has {len(plan.stations)}"
+        problem = f"has channels of {len(stations)} stations; the number of stations in the plan is {len(plan.stations)}"
         raise RecordingError(Issue(where, problem, None, "give the plan of this recording"))
     if (recording.of_run or plan.test in ("hybrid", "actuator")) and not _same_rate(plan, recording):
-        problem = f"has {1 / recording.dt:g} samples a second; the plan's controller rate is {plan.controller_rate:g} Hz"
-        fix = "give the plan of this recording, or import it again with target_rate"
+        rate = f"the controller rate of the plan is {plan.controller_rate:g} Hz"
+        problem = f"has a sampling rate of {1 / recording.dt:g} Hz; {rate}"
+        fix = "give the plan of this recording, or import the recording again with this target_rate"
         raise RecordingError(Issue(where, problem, None, fix))
     floors = recording.numbers("floor")
     count = len(plan.structure.assemble().floors) if plan.structure.kind != "none" else 0
     if floors and plan.test in ("structure", "hybrid") and max(floors) > count:
-        problem = f"holds floor {max(floors)}; the plan's structure has {count}"
+        problem = f"has a channel of floor {max(floors)}; the number of floors in the plan is {count}"
         raise RecordingError(Issue(where, problem, None, "give the plan of this recording"))
 
 
@@ -105,10 +113,11 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
 
 
 def foreseen(actuator: Actuator, parts: Sequence[Any], pressed: Specimen, recorded: dict[str, Any]) -> None:
-    """Give the specimen's data the motion that the actuator's `parts` make of the command.
+    """Give the specimen's data the motion that the fitted actuator makes of its command.
 
-    The motion is computed against the force as planned, since the measured force shares noise with what is compared. Its
-    reading is without what the displacement sensor adds.
+    `parts` are the fitted actuator and its effects. The motion is computed against the planned force, because the measured
+    force shares its noise with the compared signal. Errors of the displacement sensor are removed from the measured
+    displacement.
     """
     if not {actuator.name, pressed.name} <= recorded.keys():
         return
@@ -120,7 +129,7 @@ def foreseen(actuator: Actuator, parts: Sequence[Any], pressed: Specimen, record
 
 
 def _moving(recording: Measured, role: str, number: int) -> Array | None:
-    """A channel that was measured and was not still."""
+    """A recorded channel that is not constant; None where there is no such channel."""
     if not recording.has(role, number):
         return None
     values = recording.get(role, number)
@@ -128,7 +137,7 @@ def _moving(recording: Measured, role: str, number: int) -> Array | None:
 
 
 def _command(plan: Plan, station: Station, recording: Measured, number: int) -> Array | None:
-    """What the actuator was sent: recorded, or what its compensator makes of the command."""
+    """The command that the actuator received: as recorded, or as its compensator computes it; None where neither is known."""
     if (sent := _moving(recording, "x_comp", number)) is not None:
         return sent
     command = _moving(recording, "x_cmd", number)
@@ -160,8 +169,8 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
         full = [tuple(one) + (0.0,) * (count - len(one)) for one in (plan_start.displacement, plan_start.velocity)]
         released = None if plan_start.at_rest else (full[0], full[1])
     if released is None and not ground.any() and not any(np.any(force) for force in forces.values()):
-        problem = "the floors move, but neither ground acceleration nor force was recorded, and they start at rest"
-        raise RecordingError(Issue(where, problem, None, "map ag or force_ext"))
+        problem = "has no excitation: the floors start at rest and move, but no ground acceleration or force was recorded"
+        raise RecordingError(Issue(where, problem, None, "import the recording with the role ag or force_ext"))
     data = StructureData(
         recording.dt, recording.start, recording.of_run, ground, forces, tuple(floors), released, plan.substeps
     )
@@ -170,9 +179,10 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
 
 
 def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, Array]) -> Any:
-    """Displacements and velocities of the floors at the start, by a cubic through the first samples; None at rest.
+    """Displacements and velocities of the floors at the start; None where the structure is at rest.
 
-    Floors that were not measured follow the first mode.
+    A cubic polynomial is fitted to the first samples of each floor. Where only accelerations were measured, the first mode
+    gives the displacements.
     """
     count = len(plan.structure.assemble().floors)
     period = float(Model(plan).periods[0])
@@ -193,7 +203,7 @@ def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, 
 
 
 def _by_acceleration(plan: Plan, recording: Measured, few: int) -> list[float]:
-    """Displacements x = -a / omega_1^2 of the first mode, whose size is that of the accelerations measured at the start."""
+    """Displacements x = -a / omega_1^2 at the start; the measured accelerations a give the size of the first mode."""
     built = plan.structure.assemble()
     flexible, modes = eigh(built.mass, built.stiffness)  # 1 / omega^2, rising
     shape = modes[list(built.floors), -1]
@@ -208,7 +218,7 @@ def _by_acceleration(plan: Plan, recording: Measured, few: int) -> list[float]:
 
 
 def suspicious(pairs: Sequence[Pair]) -> list[str]:
-    """Reasons to take a unit for wrong: the output as planned is many times off in size."""
+    """Components whose unit is probably wrong: measured and simulated output differ in size by a factor of FAR_OFF or more."""
     found = []
     for component, data in pairs:
         simulated = component.predicted(component.base, data)
@@ -216,7 +226,7 @@ def suspicious(pairs: Sequence[Pair]) -> list[str]:
             size, plan = float(np.std(real)), float(np.std(ours))
             if plan > 0 and size > 0 and not 1 / FAR_OFF < size / plan < FAR_OFF:
                 found.append(
-                    f"{component.name}: the measured {component.output} is {size / plan:.3g} times the simulated one in size: "
-                    "check its unit and that of what goes in"
+                    f"{component.name}: the measured {component.output} is {size / plan:.3g} times as large as the simulated "
+                    f"{component.output}. Check the units of the input and output channels"
                 )
     return found

@@ -1,4 +1,4 @@
-"""The verdict, built from what every component was judged to be."""
+"""The verdict on a plan, built from the judgements of all components."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ ORDER = ("consistent", "recalibrate", "undetermined", "mismatch")
 def verdict_of(
     plan: Plan, judged: Sequence[Judged], digital: Sequence[Replayed], level: float, extended: Plan | None
 ) -> schema.Verdict:
-    """The verdict on the plan. `level` is each component's share of the false-alarm rate."""
+    """The verdict on the plan.
+
+    `level` is the false-alarm rate of one component. `extended` is the plan with the effects; None where no effect was added.
+    """
     worst = max(judged, key=lambda one: (ORDER.index(one.verdict), one.gain))
     wrong = [one for one in digital if one.differs]
     chosen = worst.selection.chosen
@@ -61,7 +64,7 @@ def _component(one: Judged, level: float) -> schema.ComponentVerdict:
 
 
 def _digital(one: Replayed) -> schema.ComponentVerdict:
-    """A computed part has no noise and is not tested: it replays to rounding or it does not."""
+    """The verdict on a computed part. It has no noise and no p-value: its replay agrees to rounding or it does not."""
     return schema.ComponentVerdict(
         component=one.component,
         residual_nrmse=finite(one.nrmse),
@@ -102,13 +105,22 @@ def _unexplained(one: Judged, remains: Law | None, level: float) -> schema.Unexp
     beyond = finite(one.nrmse(one.selection.chosen.parts, True) ** 2 - one.noise**2)
     fraction = None if beyond is None else max(0.0, beyond) ** 0.5
     if one.selection.detections[-1].p_value > level:
-        words = "What remains is noise as far as the library and a general law of motion, energy and time can tell."
+        words = (
+            "The remaining residual is noise: no effect of the library and no general law of motion, energy and time "
+            "is significant in it."
+        )
     elif remains:
-        words = f"What remains is {remains.words} ({100 * remains.share:.0f} % of it)."
+        words = (
+            f"Terms of the remaining residual: {remains.words}. They explain {100 * remains.share:.0f} % of the part of the "
+            "residual that a general law can explain."
+        )
     elif fraction is None:
-        words = f"The simulated {one.component.output} runs away, so that what remains has no size."
+        words = f"The simulated {one.component.output} diverges, so the remaining residual has no finite size."
     else:
-        words = f"{100 * fraction:.2g} % of the deviation of the {one.component.output} is beyond the noise and not explained."
+        words = (
+            f"The residual beyond the noise is {100 * fraction:.2g} % of the RMS of the recorded {one.component.output} "
+            "about its mean. It is not explained."
+        )
     return schema.Unexplained(fraction=fraction, formula=remains.formula if remains else None, words=words)
 
 
@@ -124,6 +136,7 @@ def _where(one: Judged) -> schema.Where:
 
 
 def _next_test(plan: Plan, one: Judged, near: list[tuple[Fitted, float]]) -> schema.NextTest | None:
+    """The test that separates the chosen model and its nearest rival; None where there is no rival or no such test."""
     if not near or not plan.stations:
         return None
     limits = plan.stations[int(one.component.station or 1) - 1].limits

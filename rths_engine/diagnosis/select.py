@@ -1,4 +1,4 @@
-"""Which effects were left out: forward by evidence with swaps, up to three."""
+"""Selection of the left-out effects: forward by evidence with swaps, up to three effects."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.offset import ForceOffset
 
 # chosen; see docs/decisions/0023
-MOST_EFFECTS = 3  # beside the load cell's zero
+MOST_EFFECTS = 3  # without the offset of the load cell
 TRIED = 8
-WEAK = 0.25  # of the best score: weaker effects are not tried
-HOPELESS = 60.0  # of BIC behind the best
-FINAL = 8  # evaluations of a fit that only the noise has changed
+WEAK = 0.25  # of the best score: effects with smaller scores are not tried
+HOPELESS = 60.0  # difference of BIC to the best model: models behind it are not fitted to the end
+FINAL = 8  # evaluations of a fit after a change of the noise only
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Planned parts refitted, the model chosen, every model tried by evidence, and the detection at each stage."""
+    """The refitted planned parts, the selected model, all fitted models ranked by evidence, and the detection of each stage."""
 
     recordings: Recordings
     baseline: Fitted
     chosen: Fitted
     tried: tuple[Fitted, ...]
-    chances: tuple[float, ...]  # of each tried
+    chances: tuple[float, ...]  # probability of each model in `tried`
     detections: tuple[Detection, ...]
-    ranges: tuple[tuple[float, float], ...]  # of the free numbers chosen, in z
+    ranges: tuple[tuple[float, float], ...]  # 90 % intervals of z of the selected model
 
     @property
     def effects(self) -> tuple[Part, ...]:
@@ -50,7 +50,10 @@ class Selection:
 def select(
     recordings: Recordings, level: float, random: np.random.Generator, told: Callable[[float], None] = lambda share: None
 ) -> Selection:
-    """`told` hears the share of the work done."""
+    """Select the left-out effects of one component.
+
+    `level` is the false-alarm rate of the component. `told` receives the share of the work that is done.
+    """
     component = recordings.component
     plain = first_noise(recordings)
     rough = fit(plain, component.base)
@@ -86,8 +89,8 @@ def select(
 def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
     """Fit a model again from several starts.
 
-    It starts from the present numbers; from these with the free numbers of the replay put back, which a kink of a model may
-    hold; and from each guess of the newest effect.
+    The starts are the present parameters, the present parameters with the replay's own parameters reset (a kink of a model can
+    trap these), and each starting size of the newest effect.
     """
     pairs = zip_longest(best.parts, recordings.component.base)
     loosened = tuple(base if isinstance(base, Loose) else part for part, base in pairs)
@@ -99,7 +102,7 @@ def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
 
 
 def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detection: Detection, level: float) -> list[Fitted]:
-    """The chosen model with each promising effect: all roughly, then the best to the end."""
+    """The selected model with one more effect: promising effects are fitted roughly, then the best are fitted to the end."""
     places = best_first(found, detection.scores)
     near = [place for place in places if detection.scores[place] > WEAK * detection.largest][:TRIED]
     starts = [[*chosen.parts, found.effects[place]] for place in near]
@@ -113,7 +116,7 @@ def _extended(recordings: Recordings, chosen: Fitted, found: Signatures, detecti
 
 
 def _swapped(recordings: Recordings, chosen: Fitted, fits: list[Fitted]) -> list[Fitted]:
-    """The newest effect of the best extension instead of each of those chosen before."""
+    """The selected model with each of its effects replaced by the newest effect of the best extension."""
     base = len(recordings.component.base)
     if len(chosen.parts) == base or not fits:
         return []
@@ -123,7 +126,7 @@ def _swapped(recordings: Recordings, chosen: Fitted, fits: list[Fitted]) -> list
 
 
 def _simplified(recordings: Recordings, chosen: Fitted) -> list[Fitted]:
-    """The chosen model without one of its effects, or with a relative of fewer numbers instead."""
+    """The selected model without one of its effects, or with a related effect of fewer parameters in its place."""
     base = len(recordings.component.base)
     if len(chosen.parts) == base:
         return []

@@ -1,4 +1,4 @@
-"""How well two models can be told apart: on the recording, and by another test."""
+"""Separation of two models by a recording: the squared distance lambda of their simulations in units of the noise."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.foundation.part import Part
 
 # chosen; see docs/decisions/0023
-APART = 10.0  # of lambda: below, two models can't be told apart
+APART = 10.0  # the least lambda that separates two models
 
 
 def separation(recordings: Recordings, one: Sequence[Part], other: Sequence[Part]) -> float:
-    """Squared distance of what two models simulate, in units of the noise.
+    """Lambda between two models: the squared distance of their simulations in units of the noise.
 
     lambda = N_eff (misfit of one to the other / sigma)^2.
     """
@@ -24,7 +24,7 @@ def separation(recordings: Recordings, one: Sequence[Part], other: Sequence[Part
 
 
 def alike(recordings: Recordings, best: Fitted, tried: tuple[Fitted, ...]) -> list[tuple[Fitted, float]]:
-    """Models of as many effects that can't be told from the best, with their lambda."""
+    """The models that the recording does not separate from the best, each with its lambda; they have equally many effects."""
     found = []
     for other in tried:
         if other is not best and len(other.parts) == len(best.parts) and other.bic - best.bic < APART:

@@ -1,4 +1,7 @@
-"""What each left-out effect, and each term of an unknown law, would do to the residual."""
+"""Signatures: the change that a left-out effect, or a term of a general law, makes to the output.
+
+A signature does not contain the part that the fitted parameters can absorb.
+"""
 
 from __future__ import annotations
 
@@ -15,35 +18,36 @@ from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 
 # chosen; see docs/decisions/0023
-ABSORBED = 0.01  # of its size: what the fitted numbers leave of a signature beyond is of their own curvature
-ALONG = 0.5  # cosine, with what the planned numbers did by leaving their plan
+ABSORBED = 0.01  # of the size of a change: a smaller remainder comes from the curvature of the fitted parameters
+ALONG = 0.5  # cosine with the change that the planned parameters made
 SLOW = 0.15  # Hz
-LEAST, NEAR = 0.01, 0.5  # of a guess: the smallest that is looked at; as large as guessed
-ALIKE = 1e-6  # of the largest singular value: a direction so short follows from the others
-NOTHING = 1e-9  # of the misfit: a signature so small says nothing
+LEAST, NEAR = 0.01, 0.5  # of a starting size: the smallest size tried; the size from which the starting size is kept
+ALIKE = 1e-6  # of the largest singular value: smaller directions depend on the others
+NOTHING = 1e-9  # of the size of a change: a smaller signature is rounding
 
 
 @dataclass(frozen=True)
 class Signatures:
-    """Unit vectors (K, N), whitened, with what the fitted numbers absorb taken out; `effects` (K) made them."""
+    """Whitened signatures as unit vectors `rows` (K, N), without the part that the fitted parameters absorb."""
 
-    effects: tuple[Effect, ...]
+    effects: tuple[Effect, ...]  # (K) effect of each signature
     rows: Array
-    sizes: Array  # (K) length of each before it was scaled
-    two_sided: Array  # (K)
-    instead: Array  # (K) cosine, beside what the planned numbers did by leaving their plan
+    sizes: Array  # (K) length of each signature before scaling
+    two_sided: Array  # (K) true where the effect can have both signs
+    instead: Array  # (K) cosine of each effect's change with the change that the planned parameters made
 
     def scores(self, misfits: Array) -> Array:
-        """The part of the misfit (N) or misfits (B, N) along each, standard normal where there is none but noise."""
+        """Scores: components of the misfit (N) or misfits (B, N) along each signature; standard normal for pure noise."""
         along = misfits @ self.rows.T
         found: Array = np.where(self.two_sided, np.abs(along), along)
         return found
 
 
 def signatures(recordings: Recordings, fitted: Fitted, sized: bool = True) -> Signatures:
-    """Signatures of every effect that the component may leave out, at its guesses, beside the fitted model.
+    """Signatures of all effects that the component can leave out, at their starting sizes, beside the fitted model.
 
-    With `sized` each effect has about the size that the misfit has along it, since large effects need not resemble small ones.
+    With `sized`, each signature is computed again at the size that the misfit shows along it, because large effects need not
+    resemble small ones.
     """
     component = recordings.component
     present = component.present(fitted.parts)
@@ -82,7 +86,7 @@ def signatures(recordings: Recordings, fitted: Fitted, sized: bool = True) -> Si
 
 
 def _moved(fitted: Fitted) -> Array:
-    """Unit vector of what the planned numbers did to the output by leaving their plan; zero where none has a plan to leave."""
+    """Unit vector of the change that the planned parameters made to the output; zero where none has a planned value."""
     known = np.isfinite([number.spread for number in fitted.free])
     planned = np.array([number.planned for number in fitted.free])
     change: Array = fitted.jacobian[: fitted.samples, known] @ (fitted.z - planned)[known]
@@ -90,14 +94,14 @@ def _moved(fitted: Fitted) -> Array:
 
 
 def general(recordings: Recordings, fitted: Fitted) -> Array:
-    """Orthonormal columns (N, r) of what any law of motion, energy and time could do, beyond what the fitted numbers absorb."""
+    """Orthonormal columns (N, r) that span the general law of motion, energy and time, without the absorbed part."""
     return absorber(general_terms(recordings, fitted))
 
 
 def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
-    """Unit columns (N, K), one for each term of the general law, without those as slow as drifts.
+    """Unit columns (N, K), one for each term of the general law, without changes slower than SLOW.
 
-    With so few waves, noise can't be distinguished from a law.
+    Such slow changes have too few waves in a recording to distinguish noise from a law.
     """
     absorbed = absorber(np.column_stack([fitted.jacobian, _slow(recordings, len(fitted.misfit))]))
     terms = [recordings.component.features(fitted.parts, one) for one in recordings.data]
@@ -110,7 +114,7 @@ def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
 
 
 def _slow(recordings: Recordings, rows: int) -> Array:
-    """Columns (rows, M): cosines slower than SLOW of each channel of each recording."""
+    """Columns (rows, M): cosines slower than SLOW, for each channel of each recording."""
     still = [np.zeros_like(one.measured) for one in recordings.data]
     columns = []
     for place, one in enumerate(recordings.data):
@@ -125,7 +129,7 @@ def _slow(recordings: Recordings, rows: int) -> Array:
 
 
 def absorber(jacobian: Array) -> Array:
-    """Orthonormal columns that span the Jacobian's."""
+    """Orthonormal columns that span the columns of a Jacobian."""
     scale = np.linalg.norm(jacobian, axis=0)
     used = jacobian[:, scale > 0] / scale[scale > 0]
     if not used.shape[1]:
@@ -136,7 +140,7 @@ def absorber(jacobian: Array) -> Array:
 
 
 def best_first(found: Signatures, scores: Array) -> Sequence[int]:
-    """Places of the best signature of each effect, the highest score first."""
+    """Indices of the best signature of each effect, with the highest score first."""
     order = np.argsort(-scores)
     seen = set()
     places = []
@@ -149,14 +153,14 @@ def best_first(found: Signatures, scores: Array) -> Sequence[int]:
 
 
 def _free(change: Array, absorbed: Array) -> Array:
-    """The change (of the recordings' rows) beyond what is absorbed."""
+    """The change of the output without the absorbed part."""
     change = np.concatenate([change, np.zeros(len(absorbed) - len(change))])
     left: Array = change - absorbed @ (absorbed.T @ change)
     return left
 
 
 def _beyond(change: Array, absorbed: Array) -> tuple[Array, float] | None:
-    """Likewise, of unit length, with its length; None where nothing is left."""
+    """The change without the absorbed part, as a unit vector, and its length; None where nothing remains."""
     if not np.isfinite(change).all():
         return None
     left = _free(change, absorbed)

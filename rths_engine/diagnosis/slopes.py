@@ -1,4 +1,4 @@
-"""The Jacobian of a misfit: by differences, and by secants in between."""
+"""The Jacobian of a misfit: by differences, and by secant updates between them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
-DIFFERENCE = 1e-3  # of a number's scale: wide beside the kinks of friction and play
-KEPT = 2  # steps by secants before differences are taken again
+DIFFERENCE = 1e-3  # of the scale of a parameter: wide beside the kinks of friction and backlash
+KEPT = 2  # secant steps before the next Jacobian by differences
 
 
 def differences(misfit: Callable[[Array], Array], z: Array, plain: Array, bounds: Array) -> Array:
-    """(N, k), forward, or backward at an upper bound."""
+    """Jacobian (N, k) of the misfit by forward differences, or by backward differences at an upper bound."""
     columns = []
     for place in range(len(z)):
         size = DIFFERENCE * max(1.0, abs(z[place]))
@@ -26,7 +26,7 @@ def differences(misfit: Callable[[Array], Array], z: Array, plain: Array, bounds
 
 
 class Slopes:
-    """Misfit and Jacobian for a search. Source of the secants: Broyden (1965), Math. Comp. 19, 577-593."""
+    """Misfit and Jacobian for a search, with secant updates. Source: Broyden (1965), Math. Comp. 19, 577-593."""
 
     def __init__(self, misfit: Callable[[Array], Array], bounds: Array):
         self._misfit, self._bounds = misfit, bounds

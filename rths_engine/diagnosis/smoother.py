@@ -1,4 +1,4 @@
-"""A measured displacement freed of most of its noise."""
+"""Smoothing of a measured displacement by a Wiener filter."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from scipy.signal.windows import blackmanharris
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
-STRETCH = 2.0  # s, over which a spectrum is told
-HOPS = 8  # a stretch
-AROUND = (5, 5)  # frequencies and hops whose powers are taken together
-WIDELY, FAINT = (15, 13), 0.4  # likewise for motion hidden in noise; less of it, in units of the floor, may be chance
-NEAR = (31, 9)  # round what is clear, where motion may be hidden
-CLEAR, ABOVE_FLOOR = 8.0, 2.0  # power over the noise floor: no chance; kept where it joins what is clear
+STRETCH = 2.0  # s, duration of the spectrum of a stretch
+HOPS = 8  # hops in a stretch
+AROUND = (5, 5)  # frequencies and hops over which powers are averaged
+WIDELY, FAINT = (15, 13), 0.4  # the same for motion hidden in noise; smallest power of hidden motion over the noise floor
+NEAR = (31, 9)  # frequencies and hops around clear motion in which motion may be hidden
+CLEAR, ABOVE_FLOOR = 8.0, 2.0  # power over the noise floor: of clear motion; of motion kept beside clear motion
 
 
 @dataclass(frozen=True)
 class Smoother:
-    """Keeps of each stretch and frequency the share G = 1 - floor / power where it stands out of the noise.
+    """Wiener filter of a displacement: it keeps the share G = 1 - floor / power of each stretch and frequency with motion.
 
-    Source: Wiener (1949), Extrapolation, Interpolation, and Smoothing of Stationary Time Series, here of stretches of a
-    second. First fails where the noise is not white.
+    Source: Wiener (1949), Extrapolation, Interpolation, and Smoothing of Stationary Time Series, applied to stretches of
+    STRETCH seconds. The filter assumes white noise and fails first where the noise is not white.
     """
 
     stretches: ShortTimeFFT
     kept: Array  # G (frequencies, stretches)
-    unsure: Array  # G, or the power over the floor of motion that is hidden in noise and lost
+    unsure: Array  # G, or the power over the noise floor of motion that is hidden in noise and lost
     noise: float  # standard deviation of the white noise of the displacement, m
 
     @classmethod
@@ -39,11 +39,11 @@ class Smoother:
         stretches = ShortTimeFFT(blackmanharris(HOPS * hop, sym=False), hop, 1 / dt, scale_to="psd")
         each = np.abs(stretches.stft(_padded(displacement, HOPS * hop))) ** 2
         inside = slice(2 * HOPS - stretches.p_min, 2 * HOPS - stretches.p_min + len(displacement) // hop)
-        floor = float(np.median(each[len(each) // 2 : -1, inside])) / np.log(2)  # as of an exponential law
+        floor = float(np.median(each[len(each) // 2 : -1, inside])) / np.log(2)  # median of an exponential law over its mean
         power = uniform_filter(each, AROUND, mode="nearest")
         clear = binary_propagation(power > CLEAR * floor, mask=power > ABOVE_FLOOR * floor)
         kept = np.where(clear, 1 - floor / np.maximum(power, max(floor, 1e-300)), 0.0)
-        kept[:3] = 1.0  # of a mean and what is slower than a stretch, little is told
+        kept[:3] = 1.0  # the mean and motion slower than a stretch are kept
         hidden = uniform_filter(np.where(clear, 0.0, power - floor), WIDELY, mode="nearest") / max(floor, 1e-300)
         near = binary_dilation(clear, np.ones(NEAR, bool)) & (hidden > FAINT)
         unsure = np.where(kept > 0, kept, np.where(near, np.minimum(hidden, 1.0), 0.0))
@@ -53,7 +53,7 @@ class Smoother:
         return self._filtered(displacement, self.kept) if self.noise > 0 else displacement
 
     def error(self, count: int, random: np.random.Generator) -> Array:
-        """What a smoothed displacement may be off by: noise kept and motion lost, of the spectrum floor G."""
+        """A draw of the error of a smoothed displacement: kept noise and lost motion, with the spectrum floor * G."""
         return self._filtered(self.noise * random.standard_normal(count), np.sqrt(self.unsure))
 
     def _filtered(self, signal: Array, share: Array) -> Array:

@@ -1,4 +1,4 @@
-"""What remains, as a formula and in words: few terms of a general law, by least squares one term after another."""
+"""The law of the remaining residual: at most three terms of a general law, as a formula and in words."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from rths_engine.diagnosis.signatures import absorber
 
 # chosen; see docs/decisions/0023
 MOST_TERMS = 3
-LEAST_SHARE = 0.05  # of what the general law explains, for one more term
+LEAST_SHARE = 0.05  # of the power that the general law explains: the least gain of one more term
 
 
 @dataclass(frozen=True)
 class Law:
-    """The terms chosen, their formula, and the share of the general law that they explain."""
+    """The selected terms as a formula and in words, and the share of the general law's power that they explain."""
 
     formula: str
     words: str
@@ -24,9 +24,10 @@ class Law:
 
 
 def law(recordings: Recordings, fitted: Fitted) -> Law | None:
-    """Of the part of the residual that the fitted numbers can't absorb. None where no term explains any of it.
+    """The law of the part of the residual that the fitted parameters cannot absorb; None where no term explains any of it.
 
-    Source: orthogonal least squares, Chen, Billings and Luo (1989), Int. J. Control 50, 1873-1896.
+    The terms are selected one after another by orthogonal least squares. Source: Chen, Billings and Luo (1989), Int. J. Control
+    50, 1873-1896.
     """
     absorbed = absorber(fitted.jacobian)
     terms = [recordings.component.features(fitted.parts, one) for one in recordings.data]

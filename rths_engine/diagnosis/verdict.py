@@ -1,4 +1,4 @@
-"""Diagnose a plan's models by a recording."""
+"""Diagnosis of a plan: compare its models with a recording."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Told = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """Every component judged, every computed part replayed, and the verdict on the plan."""
+    """The result of a diagnosis: judgements of all components, replays of all computed parts, and the verdict on the plan."""
 
     plan: Plan
     judged: tuple[Judged, ...]
@@ -41,19 +41,20 @@ def diagnose(
     more: Sequence[Measured] = (),
     told: Told = lambda what, share: None,
 ) -> Diagnosis:
-    """Every component of the plan against the recording, and `more` recordings fitted with it.
+    """Compare the models of a plan with a recording.
 
-    The replays run over the whole recording; the `heldout` recordings are never fitted, or, without one, three of ten blocks.
-    `level` is the chance of a false alarm in any component, an equal share of it in each (Bonferroni). `told` hears what is
-    done and the share of the whole; it may raise to stop.
+    `more` recordings are fitted together with the first. `heldout` recordings are never fitted; without them, three of ten
+    blocks of the recording are held out. The replays cover the whole recording. `level` is the false-alarm rate of the
+    diagnosis, which is divided equally among the components (Bonferroni). `told` receives the name of the component in
+    progress and the share of the work that is done; it may raise an exception to stop the diagnosis.
 
-    Raises RecordingError for a recording that is not of this plan. Its issues name the input by its argument: `recording`,
+    Raises RecordingError where a recording does not match the plan. Its issues name the input by its argument: `recording`,
     `heldout.0`, `more.0`.
     """
     pairs = recorded.components(plan, recording, "recording")
-    doubts = recorded.suspicious(pairs)
-    if doubts:
-        raise RecordingError([Issue("recording", doubt) for doubt in doubts])
+    wrong_units = recorded.suspicious(pairs)
+    if wrong_units:
+        raise RecordingError([Issue("recording", problem) for problem in wrong_units])
     beside = [_by_name(plan, one, f"more.{number}") for number, one in enumerate(more)]
     others = [_by_name(plan, one, f"heldout.{number}") for number, one in enumerate(heldout)]
     replayed = digital.replayed(plan, recording)

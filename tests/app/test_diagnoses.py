@@ -126,5 +126,5 @@ def test_a_diagnosis_whose_worker_is_killed_is_done_again_and_stored_once(servic
 def test_a_recording_that_is_not_of_the_plan_ends_with_the_reason(service: Service, played: str) -> None:
     slow = {**plan(), "controller_rate": 128.0}
     found = until_state(service, ask(service, played, plan=slow), "failed")
-    assert "256 samples a second; the plan's controller rate is 128 Hz" in found["reason"]
+    assert "has a sampling rate of 256 Hz; the controller rate of the plan is 128 Hz" in found["reason"]
     assert found["reason"].startswith("The recording:") and found["verdict"] is None

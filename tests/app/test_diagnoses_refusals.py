@@ -51,16 +51,16 @@ def queued(client: TestClient, recording: str, **more: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("changes", "status", "told"),
     [
-        ({"plan": None}, 422, "an imported recording has none of its own"),
+        ({"plan": None}, 422, "is required: an imported recording has no plan"),
         ({"template": "table3-04"}, 422, "is given 2 times"),
         ({"plan": {"test": "specimen", "stations": []}}, 422, "stations"),
         ({"plan": "test: [specimen"}, 422, "line"),
         ({"plan": "name: \ud800"}, 422, ""),
         ({"plan": None, "template": "table3-99"}, 404, "There is no template 'table3-99'"),
         ({"plan": None, "plan_of_run": "nobody"}, 404, "There is no run nobody"),
-        ({"plan": hybrid()}, 422, "is of a test of kind 'specimen'; the plan's is 'hybrid'"),
-        ({"recording": {}}, 422, "needs either recording, of an imported one, or run"),
-        ({"recording": {"recording": "a", "run": "b"}}, 422, "needs either recording"),
+        ({"plan": hybrid()}, 422, "is of a 'specimen' test; the plan describes a 'hybrid' test"),
+        ({"recording": {}}, 422, "needs exactly one of recording and run"),
+        ({"recording": {"recording": "a", "run": "b"}}, 422, "needs exactly one of recording and run"),
         ({"recording": {"recording": "nobody"}}, 404, "There is no recording nobody"),
         ({"recording": {"run": "nobody"}}, 404, "There is no run nobody"),
         ({"heldout": [{"recording": "nobody"}]}, 404, "There is no recording nobody"),
@@ -93,7 +93,7 @@ def test_a_field_that_can_be_of_two_types_is_named_without_them(
 def test_a_run_without_recording_cant_be_diagnosed(client: TestClient) -> None:
     run = client.post("/api/v1/runs", json={"plan": hybrid()}).json()["runs"][0]["id"]
     answer = client.post(URL, json={"recording": {"run": run}})
-    assert answer.status_code == 409 and "is queued and has no recording" in answer.json()["detail"]
+    assert answer.status_code == 409 and "has no recording: its status is queued" in answer.json()["detail"]
 
 
 @pytest.mark.parametrize("path", ["", "/verdict.json", "/pictures.json", "/report.html"])

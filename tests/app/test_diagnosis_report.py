@@ -57,7 +57,24 @@ def test_candidates_that_are_alike_and_the_next_test_are_told_in_words(clean: tu
     told = tables(Verdict.read({**clean[0].as_dict(), "indistinguishable": [pair], "next_test": next_test}))
     words = ["coulomb friction of specimen 1", "offset of sensor f_meas.1 and backlash of specimen 1"]
     assert told.alike == [" or ".join(words)]
-    assert told.next_test.startswith("A sine of 5 mm at 1 Hz, 6 cycles: it separates " + " from ".join(words))
+    between = f"The expected λ between {words[0]} and {words[1]} is 42"
+    assert told.next_test.startswith(f"A sine of 5 mm at 1 Hz, 6 cycles. {between};")
+
+
+@pytest.mark.parametrize(
+    ("groups", "reason"),
+    [
+        ([], "no two candidates are close enough"),
+        ([["actuator:1/gain_error", "sensor:x_meas.1/scale_error"]], "no test within the limits of the rig separates"),
+        ([["structure:1/yielding", "structure:1/bouc_wen_hysteresis"]], "a structure has no drive"),
+    ],
+)
+def test_the_report_says_why_no_next_test_is_proposed(
+    clean: tuple[Verdict, Pictures], groups: list[list[str]], reason: str
+) -> None:
+    verdict = Verdict.read({**clean[0].as_dict(), "indistinguishable": groups, "next_test": None})
+    assert reason in tables(verdict).next_test
+    assert tables(verdict).next_test in report_html("Alike", [], verdict, clean[1])
 
 
 def test_a_value_is_shown_with_the_digits_that_its_interval_bears(clean: tuple[Verdict, Pictures]) -> None:

@@ -98,7 +98,7 @@ def test_a_form_without_recording_or_plan_says_so(service: Service, played: str,
     expect(page.get_by_role("alert")).to_have_text("Select a plan file, or select another plan.")
     page.get_by_label("Plan to check").select_option("template:table3-04")
     page.get_by_role("button", name="Diagnose the recording").click()
-    expect(page.get_by_role("alert")).to_contain_text("the plan's is 'hybrid'")
+    expect(page.get_by_role("alert")).to_contain_text("the plan describes a 'hybrid' test")
 
 
 def test_the_report_is_drawn_without_a_service(diagnosed: str, opened: Opener, service: Service, tmp_path: Path) -> None:

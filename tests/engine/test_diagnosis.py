@@ -68,8 +68,8 @@ def test_a_law_outside_the_library_is_called_unknown_and_described() -> None:
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
-        ({"x_meas": 1e-3}, "check its unit"),
-        ({"f_meas": 1e3}, "check its unit"),
+        ({"x_meas": 1e-3}, "Check the units"),
+        ({"f_meas": 1e3}, "Check the units"),
     ],
 )
 def test_units_off_by_a_thousand_are_refused_before_anything_is_fitted(changed: dict[str, float], said: str) -> None:
@@ -81,14 +81,14 @@ def test_units_off_by_a_thousand_are_refused_before_anything_is_fitted(changed: 
 def test_a_recording_of_another_plan_is_refused_with_its_reason() -> None:
     plain = recording(6)
     moved = tuple(MeasuredChannel(one.role, 2, one.values, one.unit) for one in plain.channels)
-    with pytest.raises(RecordingError, match="holds station 2; the plan has 1"):
+    with pytest.raises(RecordingError, match="has a channel of station 2; the number of stations in the plan is 1"):
         diagnose(plan(), Measured(plain.dt, moved))
-    with pytest.raises(RecordingError, match="is of a test of kind 'structure'"):
+    with pytest.raises(RecordingError, match="is of a 'structure' test"):
         diagnose(plan(), Measured(plain.dt, plain.channels, test="structure"))
     few = tuple(MeasuredChannel(one.role, 1, one.values[:100], one.unit) for one in plain.channels)
     with pytest.raises(RecordingError, match="has 100 samples"):
         diagnose(plan(), Measured(plain.dt, few))
-    with pytest.raises(RecordingError, match="no component has both its ends recorded"):
+    with pytest.raises(RecordingError, match="has no component with recorded signals at both ends"):
         diagnose(plan(), Measured(plain.dt, plain.channels[:1]))
 
 

@@ -92,7 +92,7 @@ def test_a_computed_part_has_no_noise_and_no_probability(tmp_path: Path) -> None
 
 def test_a_replay_that_runs_away_is_said_to_without_a_number() -> None:
     found = configuration_error(Replayed("structure", math.inf, math.inf, "the command of Damper"))
-    assert "the replay runs away" in found.sentence and "inf" not in found.sentence
+    assert "the replay diverges" in found.sentence and "inf" not in found.sentence
 
 
 def test_an_input_that_can_not_be_used_is_named_by_its_argument() -> None:

@@ -1,4 +1,4 @@
-"""Components of a test with what was recorded at their ends."""
+"""Components of a test, each with the recorded signals at its ends."""
 
 from rths_engine.diagnosis.components.actuator import Actuator, ActuatorData
 from rths_engine.diagnosis.components.chain import Chain, ChainData

@@ -1,4 +1,4 @@
-"""An actuator: command in, measured displacement out, against a measured force where there is one."""
+"""An actuator: its input is the command and its output the measured displacement, against a measured force if there is one."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ TOLERANCE = 0.05
 class ActuatorData(Data):
     """Signals of an actuator: command (m), measured displacement (m) and force on the actuator (N).
 
-    The force is None where it was not measured. Where `wanders`, the displacement begins anywhere and creeps, as that of a
-    drive in open loop does: its origin and slope then carry no information.
+    The force is None where it was not measured. `wanders` is true for a drive in open loop: its displacement has an arbitrary
+    origin and drifts, so the origin and the slope are removed from the comparison.
     """
 
     command: Array
@@ -76,7 +76,7 @@ class Actuator(Component):
         return data.reduced(self.moved(parts, data)[None])
 
     def moved(self, parts: Sequence[Any], data: ActuatorData) -> Array:
-        """The displacement read (m) at the recording's step."""
+        """The displacement that the sensor reads (m), at the step of the recording."""
         return replay.actuator(parts[0], parts[1:], data.command, data.load, data.dt, data.start)
 
     def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
@@ -87,8 +87,8 @@ class Actuator(Component):
         if data.force is not None:
             load = data.force / max(float(np.max(np.abs(data.force))), 1e-300)
             terms += [
-                ("f", "proportional to the force on it", load),
-                ("f |f|", "growing with the force on it", load * np.abs(load)),
+                ("f", "proportional to the force on the actuator", load),
+                ("f |f|", "growing with the square of the force on the actuator", load * np.abs(load)),
             ]
         terms += of_position(data.command, data.velocity, data.dt)
         shaped = [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]

@@ -21,7 +21,7 @@ from rths_engine.running import replay
 
 @dataclass(frozen=True)
 class ChainData(ActuatorData):
-    """Command (m) and force (N); `x` is the command too, for want of better."""
+    """Signals of a chain: command (m) and force (N). `x` is also the command, because the displacement was not measured."""
 
     @property
     def raw(self) -> Any:
@@ -30,7 +30,7 @@ class ChainData(ActuatorData):
 
 @dataclass(frozen=True)
 class Chain(Component):
-    """Compensated command -> force. The base is actuator and specimen with the effects that the plan has."""
+    """Compensated command -> force. The base is actuator and specimen with the effects of the plan."""
 
     output: ClassVar[str] = "force"
 
@@ -63,7 +63,7 @@ class Chain(Component):
 
 
 def _between(parts: Sequence[Any], data: ChainData) -> tuple[list[Any], Array, Array]:
-    """What resists, the displacement between actuator and specimen, and the current."""
+    """The specimen with its effects, the displacement between actuator and specimen, and the current."""
     effects = parts[2:]
     moving = [effect for effect in effects if isinstance(effect, physics.ACTUATOR)]
     resisting = [parts[1], *(effect for effect in effects if not isinstance(effect, physics.ACTUATOR))]

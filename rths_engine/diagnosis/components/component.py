@@ -1,4 +1,4 @@
-"""What every component offers to the diagnosis: its models, their replay, and the effects it may leave out."""
+"""The interface of a component: its data, its planned parts, their replay, and the effects that they can leave out."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ REPLAY_RATE = 1024.0  # Hz
 
 
 class Signal(NamedTuple):
-    """A signal of a component as people read it: SI values and the unit shown."""
+    """A signal of a component with its label, its SI unit and values, and the unit shown on pages."""
 
     label: str
     unit: str
@@ -34,37 +34,37 @@ class Signal(NamedTuple):
 
 @dataclass(frozen=True)
 class Data(ABC):
-    """Signals at the ends of a component every dt (s) from `start` (s), at rest before."""
+    """Recorded signals at the ends of a component, every `dt` (s) from `start` (s). Before `start` the component is at rest."""
 
     dt: float
     start: float
-    stepped: bool  # recorded by the loop of this program, whose steps a replay takes too
+    stepped: bool  # recorded by this program's loop; a replay then takes the same steps
 
     @property
     @abstractmethod
     def raw(self) -> Array:
-        """(channels, samples) of the output at the rate of the recording."""
+        """The recorded output (channels, samples) at the sampling rate of the recording."""
 
     @property
     def input_noise(self) -> float:
-        """Standard deviation of the noise that enters with the input; 0 where none is known."""
+        """Standard deviation of the noise on the input; 0 where it is not known."""
         return 0.0
 
     def redrawn(self, random: np.random.Generator) -> Any:
-        """As if recorded again: other noise of the same size on the input."""
+        """The data with another draw of the noise on the input."""
         return self
 
     def thinned(self) -> Any:
-        """As if every second sample of the input had not been recorded."""
+        """The data with every second sample of the input left out and interpolated."""
         return self
 
     def behind(self) -> Any:
-        """As if the velocity of the input were told by the samples up to its own."""
+        """The data with the velocity of the input computed from the present and earlier samples only."""
         return self
 
     @property
     def pressed(self) -> float:
-        """Force on a specimen before the start; 0 where none is known."""
+        """Force on a specimen before the start; 0 where it is not known."""
         return 0.0
 
     @property
@@ -77,7 +77,7 @@ class Data(ABC):
 
     @cached_property
     def measured(self) -> Array:
-        """(channels, n) of the output in the band of the comparison."""
+        """The recorded output (channels, n) in the band of the comparison."""
         return self.reduced(self.raw)
 
     @property
@@ -86,7 +86,7 @@ class Data(ABC):
 
     @cached_property
     def step_error(self) -> Array | None:
-        """(channels, n) of what much finer steps do to the output; None until it is found."""
+        """The change (channels, n) that finer replay steps make to the output; None until `settle` has computed it."""
         return None
 
     def reduced(self, signals: Array) -> Array:
@@ -96,8 +96,8 @@ class Data(ABC):
     def finer(self) -> int:
         """Number of replay steps in a sample.
 
-        A part's velocity is a backward difference, half a step late. Signals that were measured, and did not come from such
-        steps, are replayed in finer steps.
+        The velocity of a part is a backward difference, which is half a step late. Measured signals do not come from
+        such steps, so they are replayed in finer steps.
         """
         return 1 if self.stepped else max(1, int(np.ceil(REPLAY_RATE * self.dt - 1e-9)))
 
@@ -111,14 +111,14 @@ class Data(ABC):
         return np.asarray(CubicSpline(np.arange(len(signal)), signal)(self.places(len(signal), more)))
 
     def places(self, samples: int, more: int = 1) -> Array:
-        """Of the steps of `refined`, in samples."""
+        """The times of the steps of `refined`, in samples."""
         n = self.finer * more
         found: Array = np.clip((np.arange(samples * n) + 0.25) / n, 0, samples - 1)
         return found
 
 
 class Loose(Part):
-    """A base part that is not of the plan, and moves."""
+    """A base part that the plan does not contain, whose parameters are fitted. `scale` is the unit of its parameters in z."""
 
     scale: ClassVar[float]
 
@@ -127,7 +127,7 @@ class Loose(Part):
 
 
 class Feature(NamedTuple):
-    """A term of a law of the output, told by its formula and in words, and what it does to the output (channels, n)."""
+    """A term of a law, as a formula and in words, and the change `response` (channels, n) that it makes to the output."""
 
     formula: str
     words: str
@@ -136,42 +136,42 @@ class Feature(NamedTuple):
 
 @dataclass(frozen=True)
 class Component(ABC):
-    """`base` are the planned parts, whose numbers move by `tolerance`: standard deviations by kind, None where free."""
+    """A component that is simulated alone. `base` are the planned parts; `spread` gives the tolerance of their parameters."""
 
     name: str
     base: tuple[Part, ...]
     output: ClassVar[str]
 
     def spread(self, part: Part) -> float | None:
-        """How far, as a share, a planned number may be off; None: as far as it likes."""
+        """The tolerance of a planned part's parameters: the relative standard deviation, or None where they are free."""
         return None
 
     @abstractmethod
     def predicted(self, parts: Sequence[Any], data: Any) -> Array:
-        """(channels, n) of the output in the band of the comparison, of the base parts and the effects that follow."""
+        """The simulated output (channels, n) in the band of the comparison; `parts` are the base parts, then the effects."""
 
     def settle(self, parts: Sequence[Any], data: Sequence[Any]) -> None:
-        """Find what the replay's steps do to the output, once the parts are nearly fitted."""
+        """Compute and store the error of the replay steps of each data set; `parts` are nearly fitted."""
         return None
 
     @abstractmethod
     def hypotheses(self, data: Any) -> Iterator[Effect]:
-        """Every effect of the library at its guesses."""
+        """All effects of the library that the component can leave out, each at its starting sizes."""
 
     @abstractmethod
     def features(self, parts: Sequence[Any], data: Any) -> list[Feature]:
-        """Terms of which an unknown law may consist."""
+        """The terms of the general law, from which an unknown law is selected."""
 
     @abstractmethod
     def signals(self, data: Any) -> tuple[Signal, Signal]:
-        """Displacement and velocity, in the band of the comparison, that the output is told against."""
+        """Displacement and velocity in the band of the comparison, against which the residual is described."""
 
     def seen(self, data: Any) -> list[Seen]:
-        """Sizes of what the component went through, of each of its storeys."""
+        """The largest motions, forces and energies of the component; a structure has an entry for each storey."""
         return [data.seen()]
 
     def present(self, parts: Sequence[Part]) -> set[tuple[type[Part], int]]:
-        """Keys of the effects that need no hypothesis, since the model has them."""
+        """Keys of the effects that the model already contains, which need no hypothesis."""
         return {key(part) for part in parts if isinstance(part, Effect)}
 
     @property
@@ -186,12 +186,12 @@ class Component(ABC):
 
 
 def guessed(kinds: Iterable[type[Effect]], seen: Seen, lacking: str = "") -> Iterator[Effect]:
-    """Every effect of the kinds at its guesses, but for those that need the role `lacking`."""
+    """The effects of the kinds at their starting sizes, without effects that need the role `lacking`."""
     for search in (physics.SEARCHES[kind] for kind in kinds):
         if lacking not in search.needs:
             yield from search.guesses(seen)
 
 
 def key(effect: Part) -> tuple[type[Part], int]:
-    """Effects of one key are one hypothesis."""
+    """The key of an effect: its type and its storey. Effects with the same key are one hypothesis."""
     return type(effect), int(getattr(effect, "storey", 0))

@@ -1,4 +1,4 @@
-"""Terms of a restoring-force law: functions of displacement, velocity, energy and time."""
+"""The terms of the general law: restoring forces as functions of displacement, velocity, dissipated energy and time."""
 
 from __future__ import annotations
 
@@ -12,16 +12,17 @@ from rths_engine.running.stop import stop
 # chosen; see docs/decisions/0023
 Terms = list[tuple[str, str, Array]]  # formula, words, values
 STOPS = (0.1, 0.3, 0.7)  # of the largest displacement
-SMOOTHING = 0.02  # of the largest velocity, where friction turns round
+SMOOTHING = 0.02  # of the largest velocity: width over which friction changes its sign
 WAVES = 12
 RELAXATIONS = (0.1, 0.5, 3.0)  # s
 MODULATIONS = 14  # half waves over a recording
 
 
 def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
-    """Terms of a law of motion, from x (m), v (m/s) and the force (N), each scaled by its largest value.
+    """Terms of displacement x (m), velocity v (m/s), force (N), energy and time.
 
-    E is the share of the energy dissipated so far.
+    x, v and f are divided by their largest values. E is the share of the dissipated energy and t the share of the
+    duration, both from 0 to 1.
     """
     x, v, f = _scaled(x), _scaled(v), _scaled(force)
     side = np.tanh(v / SMOOTHING)
@@ -38,7 +39,7 @@ def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
         ("x^2", "even in displacement", x * x),
         ("x^3", "growing with the cube of displacement", x**3),
         ("x^5", "rising steeply at large displacement", x**5),
-        ("sgn(v)", "of constant size against velocity, as dry friction", side),
+        ("sgn(v)", "of constant size against the velocity, like dry friction", side),
         ("|v|", "even in velocity", np.abs(v)),
         ("v |v|", "growing with the square of velocity", v * np.abs(v)),
         ("v^3", "growing with the cube of velocity", v**3),
@@ -47,10 +48,10 @@ def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
         ("x^2 v", "a damping that grows with the square of displacement", x * x * v),
         ("|x| sgn(v)", "friction that grows with displacement", np.abs(x) * side),
         ("x sgn(v)", "friction that depends on the position", x * side),
-        ("E x", "a stiffness that changes with the energy dissipated", energy * x),
-        ("E v", "a damping that changes with the energy dissipated", energy * v),
-        ("E sgn(v)", "friction that changes with the energy dissipated", energy * side),
-        ("t", "drifting in time", time),
+        ("E x", "a stiffness that changes with the dissipated energy", energy * x),
+        ("E v", "a damping that changes with the dissipated energy", energy * v),
+        ("E sgn(v)", "friction that changes with the dissipated energy", energy * side),
+        ("t", "a drift in time", time),
         ("t x", "a stiffness that changes in time", time * x),
         ("t v", "a damping that changes in time", time * v),
         *stops,
@@ -58,17 +59,17 @@ def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
 
 
 def of_position(x: Array, v: Array, dt: float) -> Terms:
-    """What depends on the place, finely, alike both ways or against the motion; and what relaxes in time."""
+    """Terms that are periodic in displacement, as a force or as friction, and terms that relax in time."""
     largest = max(float(np.max(np.abs(x))), 1e-300)
     side = np.tanh(_scaled(v) / SMOOTHING)
     found: Terms = []
     for waves in range(1, WAVES + 1):
         length = 2 * largest / waves
-        told = f"periodic in displacement, every {1e3 * length:.3g} mm"
+        periodic = f"periodic in displacement with a period of {1e3 * length:.3g} mm"
         for name, wave in (("sin", np.sin), ("cos", np.cos)):
             shape = wave(2 * np.pi * x / length)
-            found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm)", told, shape))
-            found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm) sgn(v)", f"friction {told}", shape * side))
+            found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm)", periodic, shape))
+            found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm) sgn(v)", f"friction {periodic}", shape * side))
     for time in RELAXATIONS:
         keep = np.exp(-dt / time)
         for name, words, signal in (("x", "displacement", _scaled(x)), ("sgn(v)", "direction of motion", side)):
@@ -78,7 +79,7 @@ def of_position(x: Array, v: Array, dt: float) -> Terms:
 
 
 def modulated(values: Array, formula: str, words: str) -> list[Feature]:
-    """Values (channels, n) in the band of the comparison that rise and fall slowly in time; `words` tells of what they are."""
+    """Terms that modulate `values` (channels, n) slowly in time; `formula` and `words` describe the values."""
     middle = (np.arange(values.shape[1]) + 0.5) / values.shape[1]
     return [
         Feature(

@@ -1,4 +1,4 @@
-"""A specimen: displacement in, force out."""
+"""A specimen: its input is the displacement, its output the force."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from rths_engine.parts.physics.sensor.channel import OfForce
 from rths_engine.running import replay
 
 # chosen; see docs/decisions/0023
-REACH, TAPER = 16, 6.0  # of a delay by a fraction of a sample: samples either side, and the window's beta
-FINER = 8  # steps of a replay's step, by which its error is told
-AT_REST, SLIGHT = 0.1, 0.02  # s; of the largest force
+REACH, TAPER = 16, 6.0  # filter of a delay by a fraction of a sample: samples on each side, and beta of its window
+FINER = 8  # finer steps in a replay step, which give the error of that step
+AT_REST, SLIGHT = 0.1, 0.02  # s at the start; share of the largest force
 SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
 
@@ -32,8 +32,8 @@ SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 class SpecimenData(Data):
     """Signals of a specimen: measured displacement (m), force (N) and current.
 
-    `expected` (m) is the displacement that the actuator, as fitted, makes of its command, or None where that is not known.
-    Motion that noise hides, such as ripples of a command, is taken from it.
+    `expected` (m) is the displacement that the fitted actuator makes of its command, or None where it is not known. It supplies
+    the motion that noise hides in the reading, such as ripples of a command.
     """
 
     x: Array
@@ -75,7 +75,10 @@ class SpecimenData(Data):
         return thin
 
     def behind(self) -> SpecimenData:
-        """Where a controller's steps move the specimen: by Hermite's cubics with slopes of parabolas through three samples."""
+        """The data with a motion of Hermite cubics whose slopes come from the present and the two earlier samples.
+
+        A controller that moves the specimen in steps makes such a motion.
+        """
         if self.expected is None or self.stepped:
             return self
         place = np.arange(len(self.x))
@@ -88,12 +91,12 @@ class SpecimenData(Data):
 
     @cached_property
     def fine(self) -> Array:
-        """The displacement at the replay's steps."""
+        """The smoothed displacement (m) at the steps of the replay."""
         return self.refined(self.smooth)
 
     @cached_property
     def pressed(self) -> float:
-        """Force at the start; 0 where it may be noise."""
+        """Mean force at the start (N); 0 where it may be noise."""
         begun = self.force[: max(1, round(AT_REST / self.dt))]
         force = float(np.mean(begun))
         return force if abs(force) > max(3 * float(np.std(begun)), SLIGHT * float(np.max(np.abs(self.force)))) else 0.0
@@ -109,14 +112,14 @@ class SpecimenData(Data):
 
 
 class ClockSkew(Loose):
-    """Force read late against displacement, as two channels of one recorder are."""
+    """Delay of the force channel relative to the displacement channel, within one recorder."""
 
     delay: float = quantity("Delay between the channels", "s", "ms", ge=-0.01, le=0.01, default=0.0)
     scale: ClassVar[float] = 1e-3
 
 
 class StepError(Loose):
-    """What the replay's steps are off by, in units of what steps FINER times as fine change."""
+    """Error of the replay steps, in units of the change that FINER times finer steps make."""
 
     share: float = quantity("Error of the replay's steps", ge=0, le=2, default=FINER / (FINER - 1))
     scale: ClassVar[float] = 1.0
@@ -130,7 +133,7 @@ SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.25}  # ms; of 
 class Specimen(Component):
     """The specimen of a station: displacement -> force.
 
-    The base is the specimen with the effects that its plan has, and a skew of the channels where the recording was measured.
+    The base is the specimen with the effects of its plan. For a measured recording, it also has a clock skew and a step error.
     """
 
     output: ClassVar[str] = "force"
@@ -142,7 +145,7 @@ class Specimen(Component):
         return pressed(parts, data.fine, data.current, data)
 
     def force(self, parts: Sequence[Any], data: SpecimenData) -> Array:
-        """The force (N) at the recording's step."""
+        """The force (N) at the step of the recording."""
         n = data.finer
         return _force(parts, data.fine, np.repeat(data.current, n), data.dt / n, data)[::n]
 
@@ -166,9 +169,9 @@ class Specimen(Component):
 
 
 def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Array:
-    """Force (1, n) of the specimen, in the band of the comparison, at the displacement `fine` (m).
+    """Force (1, n) of the specimen in the band of the comparison for the displacement `fine` (m) at the steps of the replay.
 
-    `fine` is sampled at the replay's steps. `parts` holds the specimen, then effects and the free numbers of the replay.
+    `parts` are the specimen, then the effects, the clock skew and the step error.
     """
     n = data.finer
     force = _force(parts, fine, np.repeat(current, n), data.dt / n, data)
@@ -178,9 +181,9 @@ def pressed(parts: Sequence[Any], fine: Array, current: Array, data: Data) -> Ar
 
 
 def _late(signals: Array, samples: float) -> Array:
-    """Signals (channels, n) delayed by a few samples, by a sinc under a Kaiser window.
+    """Signals (channels, n) delayed by a few samples, by a sinc filter with a Kaiser window.
 
-    A signal that begins with a jump rings no further than the window's reach.
+    The response to a jump at the start ends within the window, REACH samples.
     """
     if not samples:
         return signals
@@ -191,7 +194,7 @@ def _late(signals: Array, samples: float) -> Array:
 
 
 def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
-    """The step error of the data, from finer steps."""
+    """Compute the step error of the data from finer steps and store it in the data."""
     if data.stepped:
         return
     n = data.finer

@@ -1,4 +1,4 @@
-"""A structure: ground acceleration, forces and a start in, motions of the floors out."""
+"""A structure: its inputs are ground acceleration, forces and a start, and its outputs are the motions of the floors."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from rths_engine.planning.plan import Plan
 from rths_engine.running import replay
 
 # chosen; see docs/decisions/0023
-FEW_MODES = 3  # whose damping may be off by other shares
-FINE = 2e-3  # s: a step so small leaves no error of integration beside noise
-FEW = 20  # degrees of freedom that make such a step cheap
-MOST_STOREYS = 6  # whose unknown laws are looked for
+FEW_MODES = 3  # modes whose damping may have different errors
+FINE = 2e-3  # s: with this step, the error of integration is far below the noise
+FEW = 20  # largest number of degrees of freedom for which this step is cheap
+MOST_STOREYS = 6  # storeys for which unknown laws are searched
 
 
 class Release(Loose):
-    """Where a floor begins, beside where its first samples put it."""
+    """Correction of a floor's start: its displacement and velocity relative to the estimate from the first samples."""
 
     floor: int = quantity("Floor", ge=1, default=1)
     displacement: float = quantity("Displacement at the start", "m", "mm", default=0.0)
@@ -45,7 +45,7 @@ class Release(Loose):
 
 
 class ModeDamping(Loose):
-    """One mode more damped than the others. M and K a little off leave a C that was made of them off by as much in each."""
+    """Error of the damping of one mode. A damping matrix that is computed from slightly wrong M and K has such errors."""
 
     mode: int = quantity("Mode", ge=2, default=2)
     share: float = quantity("Damping error e of the mode", "1", "%", ge=-0.5, le=0.5, default=0.0)
@@ -53,7 +53,7 @@ class ModeDamping(Loose):
 
 
 class AddedDamping(NamedTuple):
-    """As an effect: C + c."""
+    """An addition c to the damping matrix: C + c."""
 
     damping: Array
     hook: int = MATRICES
@@ -67,7 +67,7 @@ TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2, 
 
 
 class Zero(Loose):
-    """What the displacement of a floor reads at rest."""
+    """The reading of a floor's displacement at rest."""
 
     floor: int = quantity("Floor", ge=1, default=1)
     displacement: float = quantity("Displacement read at rest", "m", "mm", default=0.0)
@@ -79,11 +79,11 @@ Kind = Literal["x", "v", "a"]
 
 @dataclass(frozen=True)
 class StructureData(Data):
-    """Signals of a structure: ground acceleration (m/s^2), forces (N) by floor, and the floors' measured motion.
+    """Signals of a structure: ground acceleration (m/s^2), forces (N) by floor, and the measured motions of the floors.
 
-    Measured are displacement and velocity relative to the ground, and absolute acceleration. `released` holds the
-    displacements and velocities of all floors at the start, where the structure was not at rest. `substeps` of an integration
-    step are those of the recorded run.
+    Displacements and velocities are relative to the ground, accelerations are absolute. `released` are the displacements and
+    velocities of all floors at the start, or None where the structure was at rest. `substeps` is the number of substeps in an
+    integration step of the recorded run.
     """
 
     ground: Array
@@ -98,13 +98,13 @@ class StructureData(Data):
 
     @cached_property
     def inputs(self) -> Array:
-        """(samples, 1 + forces)."""
+        """Ground acceleration and forces (samples, 1 + forces)."""
         return np.column_stack([self.ground, *self.forces.values()])
 
 
 @dataclass(frozen=True)
 class Structure(Component):
-    """`plan` is of a test of a structure; its effects stay."""
+    """The structure of `plan`: ground motion, forces and start -> floor motions. The effects of the plan are kept."""
 
     plan: Plan
     output: ClassVar[str] = "motion of the floors"
@@ -152,12 +152,12 @@ class Structure(Component):
         return self._floors(model, inputs)
 
     def finer(self, data: StructureData) -> int:
-        """Replay steps of a sample."""
+        """Number of replay steps in a sample."""
         return 1 if data.stepped or len(self.built.mass) > FEW else int(np.ceil(data.dt / FINE - 1e-9))
 
     def _floors(self, model: Model, inputs: Array) -> Array:
         x = replay.structure(model, inputs, np.zeros((len(inputs), len(model.plan.stations))))
-        return x[:, self.built.floors]  # what effects add comes behind
+        return x[:, self.built.floors]  # the degrees of freedom that effects add follow
 
     @cached_property
     def model(self) -> Model:
@@ -173,7 +173,7 @@ class Structure(Component):
 
     @cached_property
     def dampings(self) -> list[Array]:
-        """What each of the lowest modes has of C: (phi^T C phi) M phi phi^T M with unit modal mass."""
+        """The share of each of the lowest modes in C: (phi^T C phi) M phi phi^T M with unit modal mass."""
         flexible, modes = eigh(self.built.mass, self.built.stiffness)  # 1 / omega^2, rising
         shapes = (modes / np.sqrt(np.maximum(flexible, 1e-300)))[:, : -FEW_MODES - 1 : -1].T
         pushes = [self.built.mass @ shape for shape in shapes]
@@ -190,7 +190,7 @@ class Structure(Component):
         return data.reduced(np.array(rows))
 
     def drifts(self, data: StructureData) -> Array:
-        """(storeys, samples), m, as planned."""
+        """Storey drifts (storeys, samples) in m, simulated with the planned model."""
         return _drifts(self.motion(self.base, data)[:: self.finer(data)])
 
     def seen(self, data: StructureData) -> list[Seen]:
@@ -228,10 +228,10 @@ class Structure(Component):
     def signals(self, data: StructureData) -> tuple[Signal, Signal]:
         moved = self.drifts(data)[0]
         x, v = data.reduced(np.array([moved, np.gradient(moved, data.dt)]))
-        return Signal("drift of storey 1 as planned", "m", "mm", x), Signal("its velocity", "m/s", "mm/s", v)
+        return Signal("simulated drift of storey 1", "m", "mm", x), Signal("simulated drift velocity", "m/s", "mm/s", v)
 
     def present(self, parts: Sequence[Part]) -> set[tuple[type[Part], int]]:
-        """But for the base: what may be off a little may also be off by more."""
+        """Keys of the effects behind the base. Effects of the base stay hypotheses: they may exceed their tolerance."""
         return super().present(parts[len(self.base) :])
 
     def place(self, effect: Effect) -> str:
@@ -241,10 +241,10 @@ class Structure(Component):
 
 
 def based(plan: Plan, released: bool, read: Sequence[int]) -> tuple[Part, ...]:
-    """Free numbers of a structure whose plan may be off a little.
+    """The base parts of a structure, whose parameters are fitted within tolerances.
 
-    They are the stiffness of each storey, the damping, also of higher modes, the displacements from which the structure was
-    let go, and the zeros of the displacements `read` then.
+    They are the stiffness error of each storey and the damping errors, also of higher modes. A `released` structure also has
+    the corrections of the start and the zeros of the floor displacements that were `read`.
     """
     floors = range(1, len(plan.structure.assemble().floors) + 1)
     stiff = [StiffnessError(storey=storey) for storey in floors]
@@ -255,7 +255,7 @@ def based(plan: Plan, released: bool, read: Sequence[int]) -> tuple[Part, ...]:
 
 
 def _drifts(x: Array) -> Array:
-    """(storeys, samples) of the floors' displacements (samples, floors)."""
+    """Storey drifts (storeys, samples) from floor displacements (samples, floors)."""
     return np.diff(x, axis=1, prepend=0.0).T
 
 
@@ -271,7 +271,7 @@ def _start(parts: Sequence[Any], data: StructureData) -> Start:
 
 
 def _at_steps(rows: Array, n: int) -> Array:
-    """Inputs at the integration steps, from 0, of those recorded on the ramps between them."""
+    """Inputs at the integration steps, from 0, recovered from inputs recorded at the substeps between them."""
     at = rows[n - 1 :: n]
     first = (n * rows[0] - rows[n - 1]) / (n - 1) if n > 1 else rows[0]
     return np.vstack([first, at])

@@ -1,4 +1,4 @@
-"""The forms of a diagnosis's JSON: `rths-diagnosis/1` and `rths-diagnosis-pictures/1`. They import nothing that diagnoses."""
+"""The JSON forms of a diagnosis, `rths-diagnosis/1` and `rths-diagnosis-pictures/1`. They import no code that diagnoses."""
 
 from rths_engine.diagnosis.schema.components import ComponentVerdict, Kind, Where
 from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, Parameter

@@ -1,4 +1,4 @@
-"""`rths-diagnosis/1`: the verdict of a diagnosis, read by people, pages and programs."""
+"""`rths-diagnosis/1`: the verdict of a diagnosis, for people, pages and programs."""
 
 from __future__ import annotations
 
@@ -11,20 +11,24 @@ from rths_engine.diagnosis.schema.form import Form, field
 
 
 class Verdict(Form):
-    """What a recording says of the models of a plan, as `rths-diagnosis/1`."""
+    """The verdict on the models of a plan, from the comparison with a recording, as `rths-diagnosis/1`."""
 
     version: Literal["rths-diagnosis/1"] = field("Name and version of this form", default="rths-diagnosis/1", alias="schema")
-    verdict: Kind = field("Verdict on the whole: that of the worst component")
-    components: tuple[ComponentVerdict, ...] = field("Every component that was replayed; computed parts first")
-    where: Where | None = field("Where the worst component differs; null where it agrees with its recording")
-    effects: tuple[NamedEffect, ...] = field("What was left out, the most probable of each component first")
+    verdict: Kind = field("Verdict on the plan: the verdict on the worst component")
+    components: tuple[ComponentVerdict, ...] = field("All replayed components; computed parts first")
+    where: Where | None = field("Location of the mismatch of the worst component; null where this component agrees")
+    effects: tuple[NamedEffect, ...] = field("Named effects; for each component, the most probable effect first")
     candidates: tuple[Candidate, ...] = field(
-        "Models of the worst component, ranked by evidence, the first eight; their probabilities sum to at most 1"
+        "The first eight candidates of the worst component, ranked by evidence; their probabilities sum to at most 1"
     )
     indistinguishable: tuple[tuple[str, ...], ...] = field(
-        "Groups of candidates that this recording cannot separate, each its effects as component/id separated by commas"
+        "Groups of candidates that this recording does not separate; each candidate is a list of effects, component/id, "
+        "separated by commas"
     )
     fit: Fit = field("Errors of the worst component before and after the extension")
-    unexplained: Unexplained = field("What remains of the worst component beyond the extended model and the noise")
-    next_test: NextTest | None = field("Test that separates candidates; null where none needs separating or no test does")
-    extended_plan: dict[str, Any] | None = field("The plan with the effects in it; null where no effect can be added")
+    unexplained: Unexplained = field("Residual of the worst component beyond the extended model and the noise")
+    next_test: NextTest | None = field(
+        "Test that separates two indistinguishable candidates; null where there are none, "
+        "or where no test within the limits of the rig separates them"
+    )
+    extended_plan: dict[str, Any] | None = field("The plan with the named effects; null where no effect can be added")

@@ -64,7 +64,7 @@ def test_a_recording_that_is_simulated_whole_has_no_band() -> None:
         (10 * SIGMA * X**3, "grows with displacement"),
         (10 * SIGMA * np.exp(-((X / 0.2) ** 2)), "largest at small displacement"),
         (10 * SIGMA * np.tanh(np.gradient(X, DT) / 0.01), "changes sign with the velocity"),
-        (10 * SIGMA * (1 + 2 * (np.gradient(X) > 0)), "differs by the sign of the velocity"),
+        (10 * SIGMA * (1 + 2 * (np.gradient(X) > 0)), "depends on the sign of the velocity"),
     ],
     ids=["cubic", "small", "friction", "one way"],
 )

@@ -50,7 +50,7 @@ def test_the_sentence_says_what_the_effect_does_and_what_its_model_gains() -> No
     before, after = (100 * one.nrmse(model.parts, False) for model in (one.selection.baseline, one.selection.chosen))
     sentence = named(one, None)[0].sentence
     assert sentence.startswith("The specimen of station 1 adds a wave of")
-    assert f"from {before:.3g} % to {after:.3g} %" in sentence
+    assert f"is {before:.3g} % with the planned model and {after:.3g} % with the extended model" in sentence
 
 
 def test_models_are_told_by_their_component_and_effect() -> None:
@@ -68,7 +68,7 @@ def test_what_has_no_name_is_unknown_with_the_law_in_words_and_no_probability() 
     assert "even in displacement" in found.sentence
 
 
-@pytest.mark.parametrize(("error", "said"), [(0.0123, "1.23 % of the largest"), (float(np.inf), "runs away")])
+@pytest.mark.parametrize(("error", "said"), [(0.0123, "1.23 % of the largest"), (float(np.inf), "diverges")])
 def test_a_computed_part_that_does_not_replay_is_a_configuration_error(error: float, said: str) -> None:
     found = configuration_error(Replayed("structure", error, error, "the command of damper 1"))
     assert (found.component, found.id, found.probability) == ("structure", "configuration_error", None)

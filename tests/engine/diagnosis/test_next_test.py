@@ -77,6 +77,12 @@ def test_a_delay_is_told_by_the_fastest_motion() -> None:
     assert found.signal.startswith("a sine of 30 mm at 1 Hz")
 
 
+def test_models_that_no_test_separates_get_no_proposal() -> None:
+    """k off by 1: at 30 mm the force differs by 0.03 N beside a noise of 50 N."""
+    other = SPRING.model_copy(update={"stiffness": SPRING.stiffness + 1.0})
+    assert next_test(pressed(), [SPRING], [other], stroke=0.1, speed=10.0) is None
+
+
 def test_a_component_without_a_drive_gets_no_proposal() -> None:
     used = recordings(linear(), noisy([Gain()], 1))
     assert next_test(used, [Gain()], [Gain(gain=3.0)], 1.0, 1.0) is None

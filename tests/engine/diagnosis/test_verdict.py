@@ -59,5 +59,5 @@ def test_a_wrong_unit_is_refused_before_anything_is_fitted() -> None:
     plain = made.recording(1)
     channels = tuple(MeasuredChannel(one.role, 1, 1e3 * one.values, one.unit) for one in plain.channels if one.role == "f_meas")
     rest = tuple(one for one in plain.channels if one.role != "f_meas")
-    with pytest.raises(RecordingError, match="check its unit"):
+    with pytest.raises(RecordingError, match="Check the units"):
         diagnose(made.plan(), Measured(plain.dt, (*rest, *channels)))
