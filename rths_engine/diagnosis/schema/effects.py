@@ -14,7 +14,7 @@ class Parameter(Form):
     label: str | None = field("Label with the symbol, as shown on pages", default=None)
     shown: str | None = field("Unit shown on pages; empty for a number without dimension", default=None)
     factor: float = field("SI value of one shown unit: value = factor * shown value", AS_STATED, default=1.0)
-    ci90: tuple[float, float] = field("90 % confidence interval, [low, high]", AS_STATED)
+    ci90: tuple[float, float] = field("Confidence interval at 90 %, [low, high]", AS_STATED)
 
 
 class NamedEffect(Form):
