@@ -30,7 +30,7 @@ STEP = 1e-3  # s: of a structure
 
 @dataclass(frozen=True)
 class Case:
-    """A case opened: its plan, its truth, what is shown and what is not, of the fitting and of the held-out recording."""
+    """An opened case: its plan, its truth, and the shown and the noise-free channels of both recordings."""
 
     plan: Plan
     truth: dict[str, Any]
@@ -49,7 +49,7 @@ class Case:
 
 
 class SpecimenModel:
-    """Displacement -> force, in substeps, at whose ends the displacement is that of a cubic spline."""
+    """Displacement -> force, replayed in substeps of a cubic spline through the displacement."""
 
     rivals = physics.SPECIMEN
     tolerances: tuple[float, ...] = ()
@@ -80,7 +80,7 @@ class SpecimenModel:
 
 
 class ActuatorModel:
-    """Command -> displacement, against the force."""
+    """Command -> displacement, against the force of the specimen."""
 
     rivals = physics.ACTUATOR
     tolerances = (0.05, 0.05, 0.05)

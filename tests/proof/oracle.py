@@ -1,4 +1,4 @@
-"""An oracle: it knows the right structure, the inputs without noise and the spectrum of the noise (S of lambda).
+"""The oracle: it knows the right structure, the noise-free inputs and the spectrum of the noise (S of lambda).
 
 lambda_rival = min over rivals r of chi^2_r - chi^2_true, both at their best fit to the noise-free output, in the noise's units.
 It names an effect first where chi^2 + k ln N of the right structure on the noisy output is below that of the baseline and of
@@ -25,7 +25,7 @@ WORTHWHILE = 0.02  # of the baseline's error: a gain below is no gain to share i
 
 
 class Fit:
-    """A model's best fit to an output, that without noise unless another is given."""
+    """The best fit of a model to an output; by default, the noise-free output."""
 
     def __init__(self, of: Oracle, parts: tuple[Any, ...], output: list[Array] | None = None) -> None:
         self.of, self.parts, self.free = of, parts, _numbers(parts, len(of.model.base))
@@ -86,14 +86,14 @@ class Oracle:
         return tuple(self.started(one) for one in self.case.truth["effects"])
 
     def started(self, told: dict[str, Any]) -> Effect:
-        """The library's effect with the true numbers, the rest as it is guessed."""
+        """The effect of the library with its true parameters; parameters without a true value keep their starting values."""
         kind = next(one for one in self.model.rivals if one.model_fields["kind"].default == told["id"])
         guess = self.guess(kind, told["component"])
         own = {name: value for name, value in told["parameters"].items() if name in kind.model_fields}
         return guess.model_copy(update=own)
 
     def guess(self, kind: type[Effect], component: str) -> Effect:
-        """The guess nearest to the true output."""
+        """The starting values of an effect whose output is nearest to the true output."""
         place = component.partition(":")[2]
         seen = self.model.seen(int(place) if component.startswith("structure:") else 1)
         guesses: list[Effect] = list(physics.SEARCHES[kind].guesses(seen))
@@ -111,7 +111,7 @@ class Oracle:
 
 
 def judged(shown: Path, sealed: Path, heldout: dict[str, float | None]) -> dict[str, Any]:
-    """`lambda_rival`, `oracle_named_first` and `gain_share`, each None where it can't be told."""
+    """`lambda_rival`, `oracle_named_first` and `gain_share`; each is None where the oracle cannot compute it."""
     nothing: dict[str, Any] = {"lambda_rival": None, "oracle_named_first": None, "gain_share": None}
     case = Case.opened(shown, sealed)
     if not case.truth["effects"] or model(case) is None:
@@ -131,7 +131,7 @@ def judged(shown: Path, sealed: Path, heldout: dict[str, float | None]) -> dict[
 
 
 def gain_share(before: float, after: float, told: dict[str, float | None]) -> float | None:
-    """What was gained on the held-out recording over what could have been; None where there was nothing to gain."""
+    """The gain on the held-out recording over the oracle's gain; None where the oracle gains less than WORTHWHILE."""
     base, extended = told["baseline"], told["extended"]
     if base is None or extended is None or before - after < WORTHWHILE * before:
         return None
@@ -139,7 +139,7 @@ def gain_share(before: float, after: float, told: dict[str, float | None]) -> fl
 
 
 def _numbers(parts: tuple[Part, ...], base: int) -> list[tuple[int, str, float, float]]:
-    """Of every number that moves: its part's place, name, value, and the scale of its change."""
+    """The free parameters: index of the part, name, value, and scale of a change."""
     found = []
     for place, part in enumerate(parts):
         held = physics.SEARCHES[type(part)].held if isinstance(part, Effect) else ()
@@ -153,7 +153,7 @@ def _numbers(parts: tuple[Part, ...], base: int) -> list[tuple[int, str, float, 
 
 
 def _changed(part: Any, change: dict[str, float]) -> Any:
-    """Within the bounds of an effect; a planned number that is zero stays so."""
+    """The part with changed parameters, within the bounds of an effect; a planned parameter that is zero stays zero."""
     if isinstance(part, Effect) and not change.keys() - type(part).model_fields.keys():
         sized = physics.SEARCHES[type(part)].sized(**{name: float(value) for name, value in change.items()})
         return part.model_copy(update={name: getattr(sized, name) for name in change})

@@ -1,8 +1,8 @@
-"""PySINDy as a peer: sparse regression of what the fitted baseline leaves, each candidate term standing for an effect.
+"""PySINDy as a peer: sparse regression of the residual of the fitted baseline on one or more terms for each effect.
 
 min |P (r - Theta xi)|^2 with few xi: r residual of the baseline refitted to the noisy output, P takes out what the baseline's
 own numbers absorb, Theta the terms below. Greedy selection (FROLS) by BIC; the effect of the term that explains most is first.
-In its favour: it gets the displacement without noise, the component where the effect is, and the true colour of the noise.
+The peer also gets the noise-free displacement, the right component and the true colour of the noise.
 Source: Kaptanoglu et al. (2022), J. Open Source Softw. 7, 3994. Backlash and dropouts have no term.
 """
 
@@ -28,7 +28,7 @@ def installed() -> bool:
 
 
 def named(shown: Path, sealed: Path) -> str | None:
-    """The effect that is named first, `none` where no term is worth its number; None where the peer does not apply."""
+    """The effect that the peer names first; `none` where no term is significant, None where the peer does not apply."""
     case = Case.opened(shown, sealed)
     if not installed() or len(case.truth["effects"]) != 1:
         return None
@@ -45,7 +45,7 @@ def named(shown: Path, sealed: Path) -> str | None:
 
 
 def library(oracle: Oracle, force: Array) -> dict[str, Array]:
-    """Terms by the effect they stand for: several of one effect are numbered."""
+    """The terms, by the effect that each term represents; several terms of one effect are numbered."""
     quiet, dt = oracle.case.quiet[0], oracle.case.dt
     x, current = quiet["x_meas.1"], np.abs(quiet.get("current.1", np.ones(len(force))))
     v = np.gradient(x, dt)

@@ -1,4 +1,4 @@
-"""The protocol: make, seal, diagnose by the public command, open, verify, score."""
+"""The protocol of the proof: make, seal, diagnose with the public command, open, verify, score."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Told = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Folders:
-    """`shown`: plans and recordings; `sealed`: truths; `found`: diagnoses."""
+    """The folders of a proof: `shown` has plans and recordings, `sealed` has truths, `found` has diagnoses."""
 
     root: Path
 
@@ -47,7 +47,7 @@ class Folders:
 def prove(
     cases: int, seed: int, workers: int = 2, only: str | None = None, keep: Path | None = None, told: Told = print
 ) -> dict[str, Any]:
-    """OUT.json: every score by class of lambda, and a row for each case."""
+    """Run the proof and return the content of OUT.json: all scores by class of lambda, and a row for each case."""
     with tempfile.TemporaryDirectory(prefix="rths-prove-") as passing:
         folders = Folders(keep or Path(passing))
         folders.found.mkdir(parents=True)
@@ -68,7 +68,7 @@ def prove(
 
 
 def diagnosed(case: Path, found: Path) -> dict[str, Any]:
-    """`rths diagnose` on what is shown of a case; how it ended and the seconds it took."""
+    """Run `rths diagnose` on the shown files of a case; return its exit code, output and duration (s)."""
     from app.cli.main import main
 
     out, said = found / f"{case.name}.json", io.StringIO()
@@ -93,7 +93,7 @@ def _scored(folders: Folders, name: str, run: dict[str, Any]) -> dict[str, Any]:
 
 
 def _everywhere(workers: int, work: Callable[..., Any], asked: Iterable[tuple[Any, ...]], what: str, told: Told) -> list[Any]:
-    """In processes of their own, in order. Each uses one core."""
+    """The results of a function for each item, in order, computed in separate processes with one core each."""
     asked = list(asked)
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     found = []

@@ -1,4 +1,4 @@
-"""One case scored: what was said against what was concealed."""
+"""The score of one case: the verdict compared with the concealed truth."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NOTHING = ("none", "unknown")
 
 
 def scored(shown: Path, sealed: Path, found: Verdict | None, run: dict[str, Any]) -> dict[str, Any]:
-    """The row of a case. `found` is its diagnosis, None where there is none."""
+    """The row of a case. `found` is its diagnosis, or None where there is no diagnosis."""
     truth = json.loads((sealed / "truth.json").read_text(encoding="utf-8"))
     row = judged(truth, found)
     known = oracle.judged(shown, sealed, row["heldout"])
@@ -38,7 +38,7 @@ def scored(shown: Path, sealed: Path, found: Verdict | None, run: dict[str, Any]
 
 
 def judged(truth: dict[str, Any], found: Verdict | None) -> dict[str, Any]:
-    """Scores that need only the truth and the diagnosis, None where there is none."""
+    """The scores that need only the truth and the diagnosis; a score is None where there is no diagnosis."""
     verdict, true = found.verdict if found else None, [named(one) for one in truth["effects"]]
     effects = sorted(found.effects if found else (), key=lambda one: -(one.probability or 0.0))
     claimed = [name(one) for one in effects if one.id not in NOTHING]
@@ -72,18 +72,20 @@ def judged(truth: dict[str, Any], found: Verdict | None) -> dict[str, Any]:
 
 
 def named(effect: dict[str, Any]) -> str:
-    """Of a truth."""
+    """The effects of a truth."""
     return f"{effect['component']}/{effect['id']}"
 
 
 def name(effect: NamedEffect) -> str:
-    """Of a diagnosis."""
+    """The effects that a diagnosis names."""
     return f"{effect.component}/{effect.id}"
 
 
 def ranked(claimed: list[str], found: Verdict) -> list[str]:
-    """Effects in the order in which they are believed: those claimed, then those of the candidates. Nothing is ranked where
-    nothing is claimed, unless a group that can't be told apart is."""
+    """The effects of a diagnosis in order: the named effects, then the effects of the candidates.
+
+    Without a named effect the list is empty, unless the diagnosis reports indistinguishable candidates.
+    """
     order = list(claimed)
     if claimed or found.indistinguishable:
         for candidate in found.candidates:
@@ -92,8 +94,10 @@ def ranked(claimed: list[str], found: Verdict) -> list[str]:
 
 
 def located_at(found: Verdict) -> str | None:
-    """The component that is blamed: `where`, else the one whose mismatch is the least probable by chance. A computed part that
-    does not replay comes first: chance has no part in it."""
+    """The located component: `where`, or else the component with the smallest p-value.
+
+    A computed part whose replay differs comes first, because it has no p-value.
+    """
     if found.where:
         return found.where.component
     off = [one for one in found.components if one.mismatch]
@@ -101,12 +105,12 @@ def located_at(found: Verdict) -> str | None:
 
 
 def place(component: str | None) -> str | None:
-    """A component as it is located: a structure is one, whichever its storey."""
+    """The component for the score of locating: all storeys of a structure are one component."""
     return "structure" if component and component.startswith("structure") else component
 
 
 def errors(effect: dict[str, Any], claimed: list[NamedEffect]) -> list[dict[str, Any]]:
-    """Of each true number that was told: its relative error and whether the 90 % interval holds it."""
+    """For each true parameter with an estimate: its relative error, and whether its 90 % interval contains the truth."""
     told = next(one for one in claimed if name(one) == named(effect))
     rows = []
     for one in told.parameters:

@@ -11,11 +11,11 @@ SALT, SEALS = "salt", "seals.json"
 
 
 class SealBroken(Exception):
-    """A truth is not the one that was sealed."""
+    """A truth differs from the truth that was sealed."""
 
 
 def seal(sealed: Path, listed: Path) -> dict[str, str]:
-    """Salts every folder of `sealed` and writes their digests to `listed` before anything is diagnosed."""
+    """Salt every folder of `sealed` and write the digests to `listed`, before any diagnosis."""
     digests = {}
     for folder in sorted(sealed.iterdir()):
         (folder / SALT).write_text(secrets.token_hex(16), encoding="ascii")
@@ -25,7 +25,7 @@ def seal(sealed: Path, listed: Path) -> dict[str, str]:
 
 
 def verify(sealed: Path, digests: dict[str, str]) -> None:
-    """Raises SealBroken where a truth was changed, taken away or added since."""
+    """Verify the seals. Raises SealBroken where a truth was changed, removed or added after sealing."""
     names = {folder.name for folder in sealed.iterdir()}
     if names != set(digests):
         raise SealBroken(f"sealed were {len(digests)} cases; there are {len(names)}: {sorted(names ^ set(digests))}")

@@ -27,7 +27,10 @@ NORMAL = 1.959964  # two-sided 95 %
 
 
 def wilson(hits: int, count: int) -> list[float] | None:
-    """(p + z^2/2n -+ z sqrt(p (1 - p) / n + z^2/4n^2)) / (1 + z^2/n)   (Wilson 1927, J. Am. Stat. Assoc. 22, 209-212)"""
+    """Wilson interval (p + z^2/2n -+ z sqrt(p (1 - p) / n + z^2/4n^2)) / (1 + z^2/n).
+
+    Source: Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
+    """
     if count == 0:
         return None
     p, z2 = hits / count, NORMAL**2
@@ -42,7 +45,7 @@ def rate(rows: Iterable[Row], key: str) -> Row:
 
 
 def summary(rows: list[Row]) -> Row:
-    """The scores of OUT.json. Those of concealed effects have a part for each class of lambda, and one for `all`."""
+    """The scores of OUT.json. Scores of concealed effects have an entry for each class of lambda and one for `all`."""
     clean = [row for row in rows if row["false_alarm"] is not None]
     found: Row = {"cases": len(rows), "clean_cases": len(clean), "broken": sum(row["verdict"] is None for row in rows)}
     found["false_alarm_rate"], found["falsely_named_rate"] = rate(clean, "false_alarm"), rate(clean, "falsely_named")
@@ -74,7 +77,7 @@ def coverage(rows: Iterable[Row]) -> Row:
 
 
 def calibration(rows: Iterable[Row]) -> Row:
-    """Expected calibration error: |mean probability - share that is right| over tenths of the probability, by their counts."""
+    """Expected calibration error: mean of |mean probability - right share| over tenths of the probability, by count."""
     said = [
         (p, name in row["truth"]) for row in rows for name, p in row["probabilities"].items() if not name.endswith("/unknown")
     ]

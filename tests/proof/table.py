@@ -1,4 +1,4 @@
-"""The proof as text."""
+"""The scores of a proof as text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Row = dict[str, Any]
 
 
 def scores(result: Row) -> str:
-    """Every score with its count, one a line."""
+    """All scores with their counts, one score on each line."""
     lines = [f"{result['cases']} cases, {result['clean_cases']} of them clean; {result['broken']} without a diagnosis"]
     for name in ("false_alarm_rate", "falsely_named_rate", "calibration_error"):
         lines.append(f"{name:28} {_one(result[name])}")
@@ -22,7 +22,7 @@ def scores(result: Row) -> str:
 
 
 def effects(rows: list[Row]) -> str:
-    """Of each effect: cases, how often it was located, named first and among three, and the mean seconds."""
+    """For each effect: number of cases, rates of located, named first and among the first three, and mean duration (s)."""
     lines = [f"{'effect':40} {'cases':>5} {'located':>8} {'first':>8} {'top 3':>8} {'s':>6}"]
     single = [row for row in rows if len(row["truth"]) == 1]
     kinds = {name: [row for row in single if row["truth"] == [name]] for name in sorted({row["truth"][0] for row in single})}

@@ -1,4 +1,4 @@
-"""The generator against closed forms: what is sealed is what the equations say."""
+"""The generator against closed forms: sealed truths follow the equations."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_a_compliance_before_a_dashpot_is_a_maxwell_element() -> None:
 
 
 def test_play_lets_nothing_through_until_it_is_taken_up() -> None:
-    """Half of the gap at a ramp's start; then the dashpot's force, behind a contact that gives way by a micrometre."""
+    """Half of the gap at a ramp's start; then the dashpot's force, behind a contact that deforms by a micrometre."""
     force = specimen.force(Linear(0.0, 5e5), [Play(0.02, 2.5e10, 1e-7)], RAMP, TIME)
     assert np.max(np.abs(force[TIME < 0.1999])) < 1
     assert force[TIME > 0.25] == pytest.approx(5e5 * 0.05, rel=1e-3)

@@ -1,4 +1,4 @@
-"""The protocol: truths are sealed, tampering is found, known answers get their scores."""
+"""The protocol: truths are sealed, tampering is detected, and known answers get the right scores."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ BUILDING = Building(np.array([4e4, 3e4]), np.array([8e6, 6e6]), 0.02)
 
 
 def test_a_first_order_actuator_lags_a_ramp_by_its_time_constant() -> None:
-    """Commands held up to their tick: T / (1 - exp(-dt / T)) dt - dt behind, T - dt/2 for small dt."""
+    """Commands that are held up to their tick lag by T / (1 - exp(-dt / T)) dt - dt, which is T - dt/2 for small dt."""
     x, _ = driven(rig(**FIRST), RAMP, STEP)
     decay = np.exp(-STEP / 0.02)
     assert RAMP[-1] - x[-1] == pytest.approx(0.05 * STEP * decay / (1 - decay), rel=1e-6)

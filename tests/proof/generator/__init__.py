@@ -1,1 +1,1 @@
-"""Sealed recordings: physics of its own, solved by SciPy at tight tolerance, without a line of the engine."""
+"""The generator of sealed recordings: its own equations, solved by SciPy at tight tolerance, without code of the engine."""

@@ -1,4 +1,4 @@
-"""One sealed case as it is made."""
+"""One generated case: its plan, its recordings and its truth."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.proof.generator.motion import Array
 
 @dataclass
 class Recorded:
-    """One recording: what is shown, and the noise-free channels, which are not."""
+    """One recording: the shown channels, and the noise-free channels that are sealed."""
 
     dt: float
     shown: dict[str, Array]
@@ -23,7 +23,7 @@ class Recorded:
 
 @dataclass
 class Truth:
-    """What was concealed. `effects`: component, id, form and SI parameters under the names of the library where it has them."""
+    """The concealed truth. `effects` have component, id, form and SI parameters, under names of the library if it has them."""
 
     kind: str
     level: str
@@ -45,7 +45,7 @@ class Case:
     truth: Truth
 
     def write(self, shown: Path, sealed: Path) -> None:
-        """plan.yaml, fit.h5, heldout.h5 into `shown`; truth.json, fit.h5, heldout.h5 without noise into `sealed`."""
+        """Write plan.yaml, fit.h5, heldout.h5 to `shown`, and truth.json and both noise-free recordings to `sealed`."""
         for folder in (shown, sealed):
             folder.mkdir(parents=True)
         write_plan(shown / "plan.yaml", self.plan)

@@ -1,4 +1,4 @@
-"""Which cases there are: kinds, levels, effects and strengths by a seed."""
+"""The draw of the cases: kinds, levels, effects and strengths from a seed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tests.proof.generator.specimen_effects import FACTORS, IDS, OWN, PLACED
 
 CLEAN = 0.3  # of the cases
 STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
-TOLD = 25.0  # the least lambda of two effects, or of one outside the library: below, nothing could be asked of a diagnosis
+TOLD = 25.0  # least lambda of two effects and of physics outside the library: a smaller lambda is too weak to score
 SENSORS = ("sensor_offset", "sensor_drift", "sensor_time_skew", "sensor_clipping", "sensor_dropout")
 GROUND = tuple(f"input_{name}" for name in of_structure.INPUT)
 SINGLE_PISTON = {"force_compliance", "backlash", "stick_friction"}  # the rig's piston has one of them
@@ -30,7 +30,7 @@ SINGLE_PISTON = {"force_compliance", "backlash", "stick_friction"}  # the rig's 
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of test: its share of the cases, its levels with their shares, its effects, and what makes a case of them."""
+    """A kind of test: its share of the cases, its levels with their shares, its effects, and the function that makes a case."""
 
     share: float
     levels: dict[str, float]
@@ -43,7 +43,7 @@ class Kind:
 
 @dataclass(frozen=True)
 class Spec:
-    """A case to make: everything else follows from its seed."""
+    """The description of a case; everything else follows from its seed."""
 
     name: str
     kind: str
@@ -56,7 +56,7 @@ class Spec:
 
 
 def specs(count: int, seed: int, only: str | None = None) -> list[Spec]:
-    """`only` is KIND, LEVEL, KIND/LEVEL or KIND/EFFECT. Raises ValueError for any other."""
+    """Draw the cases. `only` is KIND, LEVEL, KIND/LEVEL or KIND/EFFECT. Raises ValueError where no case matches it."""
     random = np.random.default_rng(seed)
     kinds, level, effect = _wanted(only)
     turns = {name: [_turns(random, some) for some in (one.single, one.pairs, one.strange)] for name, one in KINDS.items()}
@@ -84,13 +84,13 @@ def specs(count: int, seed: int, only: str | None = None) -> list[Spec]:
 
 
 def _law(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
-    """A law that the effects are not numbers of already; a slider is solved beforehand, and takes no connection."""
+    """A law of the specimen that does not contain the effects. A slider is solved first, so it takes no connection."""
     laws = [law for law in OWN if not OWN[law] & set(names) and not (law == "friction_slider" and PLACED & set(names))]
     return {"law": str(random.choice(laws))}
 
 
 def _rig(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
-    """A rig that the effects are not numbers of already; oil gives way only under a damper that bears it without ringing."""
+    """A rig whose law does not contain the effects. The oil is compliant only with a damper that does not ring with it."""
     laws = ["mr_damper"] if "force_compliance" in names else [law for law, own in OWN_OF_RIG.items() if not own & set(names)]
     second = bool(
         random.random() < 0.4 and not set(names) & {"second_order_lag", "delay_error", "uneven_speed", "wandering_speed"}
@@ -99,12 +99,12 @@ def _rig(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
 
 
 def _release(random: np.random.Generator, names: tuple[str, ...]) -> dict[str, Any]:
-    """A free vibration, unless the ground's error or the mass is to be seen."""
+    """Draw a free vibration, unless an error of the ground motion or of the mass is concealed."""
     return {"free": bool(random.random() < 0.15 and not {*GROUND, "mass_error"} & set(names))}
 
 
 def _pairs() -> tuple[tuple[str, str], ...]:
-    """Two effects that act independently: a connection takes only factors of the force beside it."""
+    """Pairs of effects that act independently: beside a connection, only factors of the force."""
     return tuple(
         (one, other)
         for place, one in enumerate(IDS)

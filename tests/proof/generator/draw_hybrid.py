@@ -1,4 +1,4 @@
-"""Cases of the closed loop, its delay masked by adaptive compensation."""
+"""Cases of the closed loop, in which adaptive compensation masks the delay."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ WITHIN = 0.8  # of the actuator's speed: a loop that takes more is on its way ou
 
 
 class Unstable(ArithmeticError):
-    """A loop that runs away: its laboratory would not run it either."""
+    """The loop is unstable; a laboratory would not run it."""
 
 
 def hybrid_case(seed: int, level: str, names: list[str], wanted: float, law: str, second: bool) -> Case:
-    """The closed loop, its delay compensated adaptively; another loop is drawn where one is unstable."""
+    """A case of the closed loop with adaptive compensation; where a loop is unstable, another loop is drawn."""
     for other in range(20):
         try:
             return _hybrid_case(seed + other, level, names, wanted, law, second)
@@ -92,7 +92,7 @@ def _hybrid_case(seed: int, level: str, names: list[str], wanted: float, law: st
     sent = plain[:, 1]
 
     def alone(lefts: list[Left], numbers: Array | None = None) -> list[Array]:
-        """The component's output on what went into it, so that lambda is of the component and not of the loop."""
+        """The output of the component for its recorded input, so that lambda refers to the component and not to the loop."""
         return [driven(bench.rig(lefts) if numbers is None else numbers, sent, step)[0 if on_actuator else 1]]
 
     part, moved = ("actuator", bench.actuator) if on_actuator else ("specimen", bench.specimen)

@@ -72,7 +72,7 @@ def switched(random: np.random.Generator, duration: float) -> Callable[[float], 
 
 
 class Bench:
-    """The rig of one case: what is the same in its recordings."""
+    """The rig of one case, which both recordings share."""
 
     def __init__(self, seed: int, level: str, law: str, names: list[str]) -> None:
         self.random = random = np.random.default_rng(seed)
@@ -105,7 +105,7 @@ class Bench:
 
 
 def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: float) -> Case:
-    """`names` the effects, of the library or of outside.NAMES; `wanted` the lambda of each."""
+    """A case of a specimen. `names` are effects of the library or of outside.NAMES; `wanted` is the lambda of each effect."""
     bench = Bench(seed, level, law, names)
     random = bench.random
     plain = bench.force([], bench.motion)
@@ -143,7 +143,7 @@ def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: flo
 
 
 def stiffness_against_noise(bench: Bench) -> float:
-    """N/m: what a small random displacement below SMOOTHED adds to the force, root mean square over root mean square."""
+    """Ratio (N/m) of the RMS force to the RMS of a small random displacement below SMOOTHED."""
     motion, time = bench.motion, bench.time(bench.motion)
     knots = np.arange(0.0, motion.duration + STEP / 2, STEP)
     white = np.fft.rfft(np.random.default_rng(bench.seed).standard_normal(len(knots)))
@@ -167,7 +167,7 @@ def recorded(bench: Bench, lefts: list[Left], motion: Motion, noise: Colour, dis
 
 
 def plan(law: str, planned: dict[str, float], bench: Bench) -> dict[str, Any]:
-    """The plan as its laboratory would have written it: the drive is only of this kind, the recording tells what it was."""
+    """The plan of the laboratory. Its drive has the same kind of motion as the recording, but not the same samples."""
     speed = float(np.max(np.abs(bench.motion.sample(bench.time(bench.motion), 1))))
     shape = {"kind": "band_noise", "low_frequency": 0.2, "high_frequency": 2.0, "duration": 20.0, "seed": 1}
     return {

@@ -23,7 +23,7 @@ Excited = tuple[Motion | None, tuple[Array, Array] | None]  # by the ground, or 
 
 
 class Site:
-    """The structure of one case and what is the same in its recordings."""
+    """The structure of one case, which both recordings share."""
 
     def __init__(self, seed: int, level: str, free: bool) -> None:
         self.random = random = np.random.default_rng(seed)
@@ -84,7 +84,7 @@ def structure_case(seed: int, level: str, names: list[str], wanted: float, free:
         return [(x if key.startswith("x") else a)[int(key[-1]) - 1] for key in keys]
 
     def off_by(shares: dict[str, float]) -> list[Array]:
-        """Shares about 1 of each storey's stiffness and of the damping."""
+        """The output with the stiffness of each storey and the damping multiplied by factors near 1."""
         stiffness = {int(name): share - 1 for name, share in shares.items() if name != "damping"}
         return outputs([Left("", "", {}, whole=Whole(stiffness=stiffness, damping=shares["damping"] - 1))])
 
@@ -114,7 +114,7 @@ def structure_case(seed: int, level: str, names: list[str], wanted: float, free:
 
 
 def channels(random: np.random.Generator, floors: int, level: str) -> list[str]:
-    """What is measured: every floor, or with a channel missing the top one alone."""
+    """The measured channels: all floors, or the top floor alone at the level `missing`."""
     kind = str(random.choice(["x_floor", "a_floor"], p=[0.7, 0.3]))
     return [f"{kind}.{floor}" for floor in range(floors if level == "missing" else 1, floors + 1)]
 

@@ -1,4 +1,4 @@
-"""What the world gets to see of a case: its plan and its recordings; what is sealed: its truth."""
+"""The files of a case: the shown plan and recordings, and the sealed truth."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def write_plan(path: Path, plan: dict[str, Any]) -> None:
 
 
 def write_recording(path: Path, test: str, dt: float, channels: dict[str, Array], start: float = 0.0) -> None:
-    """`rths-measured/1` (docs/importing.md). Keys: `x_meas.1`, `ag`, ..."""
+    """Write a recording as `rths-measured/1` (docs/importing.md). Keys of channels: `x_meas.1`, `ag`, ..."""
     with h5py.File(path, "w") as file:
         for key, values in channels.items():
             role, _, number = key.partition(".")

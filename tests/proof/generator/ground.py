@@ -1,4 +1,4 @@
-"""Ground motions, and what errors make of them."""
+"""Ground motions and their errors."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tests.proof.generator.motion import STEP, Array, Motion, tapered
 
 
 class Ground:
-    """A ground acceleration, with what errors make of it: (1 + e) a(t - T) through a first-order low-pass, + b + c t."""
+    """A ground acceleration with errors: (1 + e) a(t - T) through a first-order low-pass, plus b + c t."""
 
     def __init__(self, motion: Motion | None, errors: dict[str, float]) -> None:
         self.scale, self.shift, self.offset, self.rate = (errors.get(key, 0.0) for key in ("scale", "shift", "offset", "rate"))

@@ -20,7 +20,7 @@ class Law:
     states = 0
 
     def prepared(self, motion: Motion) -> Law:
-        """The law for one motion; rate-independent ones are solved over it beforehand."""
+        """The law for one motion; a rate-independent law is solved over the whole motion first."""
         return self
 
     def force(self, t: float, u: float, v: float, s: Numbers) -> float:
@@ -30,7 +30,7 @@ class Law:
         return []
 
     def rate(self, u: float, f: float, stiffness: float, x_rate: float) -> float:
-        """u' where the specimen bears f through a spring of tangent `stiffness` whose other end moves with x_rate."""
+        """u' of a specimen with the force f behind a spring of tangent `stiffness` whose other end moves with x_rate."""
         raise NotImplementedError
 
 
@@ -119,7 +119,7 @@ class Slider(Law):
 
 
 class Path(Law):
-    """A force known beforehand over time."""
+    """A force that is given over time."""
 
     def __init__(self, time: Array, force: Array) -> None:
         self.time, self.values, self.hint = time, force, 0

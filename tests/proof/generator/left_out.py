@@ -1,7 +1,7 @@
-"""Effects to conceal in a specimen, as additions to a law: f -> force(...), s' = slopes(...). `series` ones act before it.
+"""Effects concealed in a specimen, as additions to its law: f -> force(...), s' = slopes(...). `series` effects act before it.
 
-Forms are of their own where two exist: LuGre friction (Canudas de Wit et al. 1995, IEEE Trans. Autom. Control 40, 419-425),
-soft contact for backlash, heat as a state of energy.
+Where an effect has two common forms, this is the form that the library does not use: LuGre friction (Canudas de Wit et al.
+1995, IEEE Trans. Autom. Control 40, 419-425), soft contact for backlash, heat as a state of energy.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from tests.proof.generator.laws import Numbers
 
 @dataclass
 class At:
-    """Where a specimen is: time, displacement, rate, second rate, current."""
+    """The state of the motion of a specimen: time, displacement, velocity, acceleration, current."""
 
     t: float
     x: float

@@ -14,7 +14,7 @@ REST = 1.0  # s without motion at both ends, from which a reader may learn the n
 
 
 class Motion:
-    """x(t) through knots, as a quintic spline: x, x' and x'' are continuous and belong together exactly."""
+    """x(t) through knots, as a quintic spline: x, x' and x'' are continuous and exactly consistent."""
 
     def __init__(self, knots: Array, step: float = STEP) -> None:
         self.step, self.duration = step, (len(knots) - 1) * step
@@ -42,7 +42,7 @@ class Motion:
         return np.asarray(self.spline.derivative(order)(time) if order else self.spline(time))
 
     def turning(self) -> Array:
-        """The moments at which x' changes its sign."""
+        """The times at which x' changes its sign."""
         return np.sort(PPoly.from_spline(self.spline.derivative(1)).roots(discontinuity=False, extrapolate=False))
 
 

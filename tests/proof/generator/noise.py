@@ -1,4 +1,4 @@
-"""Noise of a known spectrum, so that what it hides can be told exactly."""
+"""Noise with a known spectrum, from which lambda is computed exactly."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Colour:
     """S(f) = sigma^2 ((1 - w) S_1 + w S_2) + s^2 [f < 20 Hz],  S_1 ~ 1 / (1 + (f / f_c)^2) folded,  S_2 ~ 1 / f
 
     S_1 is the autoregressive process of first order with the corner f_c; S_1 and S_2 have variance one over the band. s is the
-    displacement's noise taken to the output, which is not drawn here: it comes with the displacement.
+    displacement's noise on the output. It is not drawn here, because it comes with the displacement.
     """
 
     sigma: float

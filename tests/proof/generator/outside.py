@@ -1,4 +1,4 @@
-"""Physics that no library of effects holds: a diagnosis has to say that it does not know it."""
+"""Physics outside the library of effects, for which the right verdict is `unknown`."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class PumpRipple(Effect):
 
 
 def drawn(random: np.random.Generator, name: str, size: float, scale: dict[str, float]) -> Effect:
-    """One of NAMES: `size` is about its share of the force."""
+    """The law of a name in NAMES; `size` is its approximate share of the force."""
     f, x, v, duration = scale["f"], scale["x"], scale["v"], scale["time"]
     match name:
         case "fractional_creep":

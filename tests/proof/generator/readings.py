@@ -1,4 +1,4 @@
-"""Errors of a sensor: from the true signal over time to what is read."""
+"""Errors of a sensor, which convert a true signal to its reading."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ READINGS = ("offset", "drift", "scale_error", "time_skew", "clipping", "dropout"
 
 @dataclass
 class Reading:
-    """y = (1 + e) w(t - T) + o + r t, held to +- limit, and to its value at t_0 for D."""
+    """y = (1 + e) w(t - T) + o + r t, limited to +- limit, and held at its value at t_0 for the duration D."""
 
     offset: float = 0.0
     drift: float = 0.0
@@ -36,7 +36,7 @@ class Reading:
 def reading(
     random: np.random.Generator, name: str, size: float, peak: float, duration: float
 ) -> tuple[Reading, dict[str, float]]:
-    """An error of about `size` of the peak with its numbers under the library's names."""
+    """An error of about `size` times the peak; its parameters have the names of the library."""
     sign = float(random.choice([-1.0, 1.0]))
     match name:
         case "offset":

@@ -41,7 +41,7 @@ MAXWELL, ENERGY, BRISTLE, ZETA_BW, LAST, EARLIER, LAST_SPEED, SPECIMEN_STATES = 
 
 
 def rig(**numbers: float) -> Array:
-    """The vector of a rig."""
+    """The parameters of a rig as one vector."""
     made = np.zeros(len(NUMBERS))
     made[[AT["memory"], AT["yielding_time"], AT["catching"], AT["reference"]]] = 2.0, 0.005, 0.02, 0.1
     made[[AT["presliding"], AT["stribeck"], AT["x_y"], AT["sharpness"], AT["width"], AT["hysteresis_width"]]] = 1.0
@@ -189,7 +189,7 @@ def _drive(p, s, sent, q, share, h, dt, t):  # type: ignore[no-untyped-def]
 
 @njit(cache=True)
 def _piston(p, s, h):  # type: ignore[no-untyped-def]
-    """From the drive to the piston: bent by hysteresis, gain, play, stick, deflection."""
+    """The displacement of the piston from the drive: hysteresis, gain, backlash, stick friction and deflection."""
     y = s[Y] * (1.0 + p[GAIN] - p[RATE_GAIN] * abs(s[Y_RATE]))
     if p[HYSTERESIS] > 0.0:
         v, z = s[Y_RATE], s[BENT]
