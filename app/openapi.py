@@ -74,6 +74,7 @@ def _complete(document: dict[str, Any]) -> None:
     _refer(document)
     for path, item in document["paths"].items():
         for method, operation in item.items():
+            operation["summary"] = _summary(operation["description"])
             responses = operation["responses"]
             if "HTTPValidationError" in str(responses.get("422")):
                 del responses["422"]
@@ -81,6 +82,11 @@ def _complete(document: dict[str, Any]) -> None:
                 responses.setdefault(str(status), _problem(TITLES[status]))
             responses["default"] = _problem("Any other error")
             _give_examples(f"{method.upper()} {path}", operation, schemas)
+
+
+def _summary(description: str) -> str:
+    """The first sentence of an endpoint's docstring: by default the summary is the name of its function."""
+    return description.split("\n\n")[0].replace("\n", " ").split(". ")[0].removesuffix(".")
 
 
 def _refer(inside: Any) -> None:

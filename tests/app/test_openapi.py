@@ -88,6 +88,12 @@ def addresses(client: TestClient, route: str) -> Iterator[str]:
         yield path.replace(f"{{{name}}}", one)
 
 
+@pytest.mark.parametrize("route", ROUTES)
+def test_the_summary_of_a_route_is_the_first_sentence_of_its_description(route: str) -> None:
+    summary = operation(route)["summary"]
+    assert operation(route)["description"].replace("\n", " ").startswith(summary) and " " in summary and len(summary) < 120
+
+
 @pytest.mark.parametrize("route", [one for one in ROUTES if one.startswith("GET ")])
 def test_every_get_answers_as_described(earlier: TestClient, route: str) -> None:
     for path in addresses(earlier, route):
