@@ -1,1 +1,1 @@
-"""Quantities with units, errors, files, compilation and the declaration of parts: what every other room stands on."""
+"""Quantities with units, errors, files, compilation and the declaration of parts. Every other room uses this one."""

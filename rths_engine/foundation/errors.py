@@ -1,4 +1,4 @@
-"""One error tree. Every error says what, where, which value, which bound and how to mend it."""
+"""The errors of the engine. Every error says what is wrong, where, the value, its bound and how to mend it."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Issue:
-    """One thing wrong with an input.
+    """One problem of an input.
 
-    `where` is a dotted path into the input (`stations.0.actuator.alpha`, indices from 0; empty for the whole),
-    `value` what was given, `problem` the bound or rule it breaks, `fix` how to mend it.
+    `where` is a dotted path into the input (`stations.0.actuator.alpha`, indices from 0; empty for the whole input). `value`
+    is the value given, `problem` the bound or rule that it breaks, and `fix` how to mend it.
     """
 
     where: str
@@ -30,7 +30,7 @@ class Issue:
 
 
 class RthsError(Exception):
-    """An input or state the engine can't work with; `issues` lists everything found, not only the first."""
+    """An input or state that the engine cannot use. `issues` lists all problems, not only the first."""
 
     def __init__(self, issues: Issue | str | Iterable[Issue]):
         if isinstance(issues, str):
@@ -40,10 +40,10 @@ class RthsError(Exception):
 
 
 def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:
-    """The error with its inputs under other names.
+    """The error with new names for its inputs.
 
-    With `heldout.0` -> `Held-out recording 1`, an issue at `heldout.0` and below is reported at `Held-out recording 1`. The
-    command line and the service each have their own names for their inputs.
+    With `heldout.0` -> `Held-out recording 1`, an issue at `heldout.0` or below it is reported at `Held-out recording 1`. The
+    command line and the service use different names for the same inputs.
     """
 
     def name(where: str) -> str:
@@ -55,19 +55,19 @@ def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:
 
 
 class PlanError(RthsError):
-    """A test plan that can't be run as written."""
+    """A test plan that cannot run as written."""
 
 
 class MotionError(RthsError):
-    """A ground-motion record that can't be read, found or used."""
+    """A ground-motion record that does not exist, cannot be read or cannot be used."""
 
 
 class RecordingError(RthsError):
-    """A recording that is missing, damaged or of another form than expected."""
+    """A recording that is missing, damaged or not in the expected format."""
 
 
 class MeasuredError(RthsError):
-    """A file of measurements, or its mapping, that can't be imported."""
+    """A file of measurements, or its mapping, that cannot be imported."""
 
 
 def _short(value: Any, limit: int = 80) -> str:

@@ -12,14 +12,14 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 
 # chosen; see docs/decisions/0023
-LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled to rounding
+LOST = 1e-13  # a pivot this small relative to its diagonal entry is rounding error: the matrix is singular
 
 
 class Factor(NamedTuple):
-    """P A P^T = L D L^T of a symmetric positive definite matrix; L by compressed columns without its unit diagonal.
+    """P A P^T = L D L^T of a symmetric positive definite matrix; L in compressed columns, without its unit diagonal.
 
-    The cost of a solve and its memory traffic grow with the entries of L, for frames about with the degrees of freedom.
-    Fails first when the equations are coupled all to all: L is then half a dense matrix, read by its indices.
+    The time of a solve is proportional to the number of entries in L. For frames that is about proportional to the number of
+    degrees of freedom. It is slow when every equation is coupled to all others: L is then half of a dense matrix.
     """
 
     order: Any  # P: equation order[k] is eliminated as number k
@@ -30,7 +30,7 @@ class Factor(NamedTuple):
 
 
 def factorised(matrix: Array) -> Factor:
-    """The factor of `matrix` (n, n), symmetric, in minimum-degree order. PlanError unless it is positive definite."""
+    """The factor of the symmetric `matrix` (n, n) in minimum-degree order. Raises PlanError unless it is positive definite."""
     diagonal = np.diagonal(matrix)
     if not np.isfinite(matrix).all() or not (diagonal > 0).all():
         raise PlanError(_SINGULAR)

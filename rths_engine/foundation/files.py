@@ -1,4 +1,4 @@
-"""Files that are whole or absent, and the proof of it."""
+"""Write files completely or not at all, and compute their checksums."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 @contextmanager
 def temporary(target: Path) -> Iterator[Path]:
-    """A new file in `target`'s folder to be written and moved there; it is removed whatever happens."""
+    """A temporary file in the folder of `target`, to be written and moved to `target`. It is removed in every case."""
     descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".tmp")
     os.close(descriptor)
     path = Path(name)
@@ -23,14 +23,14 @@ def temporary(target: Path) -> Iterator[Path]:
 
 
 def write(target: Path, text: str) -> None:
-    """Write a file of text, whole or not at all."""
+    """Write a text file completely or not at all."""
     with temporary(target) as written:
         written.write_text(text, encoding="utf-8")
         written.replace(target)
 
 
 def sync(path: Path) -> None:
-    """Force a file's content, or a folder's names, to the disk."""
+    """Force the content of a file, or the names in a folder, to the disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

@@ -1,7 +1,8 @@
-"""A digest of everything that a compiled function is made of, and of nothing else.
+"""A digest of everything that a compiled function consists of, and of nothing else.
 
-It walks from the function through what its bytecode names: functions that it calls, constants that it reads, named tuples that
-it may be given. Sentences, docstrings, labels, bounds and comments are not compiled and leave the digest as it is.
+The walk starts at the function and follows the names in its bytecode: functions that it calls, constants that it reads, and
+named tuples that it can receive. Sentences, docstrings, labels, bounds and comments are not compiled, so they do not change
+the digest.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ OWN = __name__.partition(".")[0]
 
 
 def fingerprint(function: Callable[..., Any], *more: object) -> str:
-    """Hex SHA-256 of a function with all that it reaches, and of `more`. NameError for a name that is defined below it."""
+    """Hex SHA-256 of a function, of everything that it reaches, and of `more`. Raises NameError for a name defined later."""
     digest = hashlib.sha256(repr(more).encode())
     for line in sorted(Walk(function).lines):
         digest.update(line.encode() + b"\n")
@@ -37,7 +38,7 @@ class Walk:
         self._walk("", function)
 
     def _walk(self, place: str, value: Any) -> None:
-        value = getattr(value, "py_func", value)  # what a compiled function was before
+        value = getattr(value, "py_func", value)  # the Python function behind a compiled function
         if hasattr(value, "__code__"):
             self._function(place, value)
         elif is_named_tuple(value):
@@ -60,7 +61,7 @@ class Walk:
             self._walk(f"{name}.{cell}", held.cell_contents)
         for code in _codes(function.__code__):
             self._names(name, code, function.__globals__)
-        for held in function.__globals__.values():  # an argument may be any that the module knows
+        for held in function.__globals__.values():  # an argument can be any named tuple of the module
             if is_named_tuple(held):
                 self._tuple(held)
 
@@ -70,7 +71,7 @@ class Walk:
             if step.opname != "LOAD_GLOBAL" or hasattr(builtins, step.argval):
                 continue
             if step.argval not in scope:
-                raise NameError(f"{name} is compiled before {step.argval}, which it names, is defined")
+                raise NameError(f"{name} uses {step.argval}, but is compiled before {step.argval} is defined")
             value = scope[step.argval]
             self._walk(f"{name}.{step.argval}", value)
             if isinstance(value, ModuleType) and value.__name__.partition(".")[0] in self.own:
@@ -91,7 +92,7 @@ def is_named_tuple(value: Any) -> TypeGuard[type]:
 
 
 def _codes(code: CodeType) -> Iterator[CodeType]:
-    """The code and what is nested in it, as loops in brackets are."""
+    """The code object and the code objects nested in it, such as comprehensions."""
     yield code
     for held in code.co_consts:
         if isinstance(held, CodeType):
@@ -99,7 +100,7 @@ def _codes(code: CodeType) -> Iterator[CodeType]:
 
 
 def _instructions(code: CodeType) -> Iterator[str]:
-    """Each instruction with the constant or name itself, whose number a docstring would shift."""
+    """Each instruction with its constant or name, not with the index of the constant, which changes with a docstring."""
     yield repr(code.co_varnames[: code.co_argcount])
     for step in dis.get_instructions(code):
         held = step.argval

@@ -1,7 +1,8 @@
-"""The only place that compiles. Parts are plain Python; `compiled`, `entry` and `fold` turn them into one machine code.
+"""Compilation, all in this module. Parts are plain Python; `compiled`, `entry` and `fold` make machine code of them.
 
-Entry points are kept on disk under a digest of all that they are compiled from (`fingerprint`): numba alone looks at the file
-of the entry point itself, so that it would serve stale code after an edit to a part, and compile anew after one to a docstring.
+Entry points are stored on disk under a digest of everything that they are compiled from (`fingerprint`). numba's own cache
+checks only the file of the entry point: it would use old code after a change in a part, and would compile again after a change
+in a docstring.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": F
 
 
 class Kept:
-    """Where numba keeps the machine code of one entry point: a cache locator of numba's, by its protocol."""
+    """Where numba stores the machine code of one entry point: an implementation of numba's cache locator protocol."""
 
     def __init__(self, function: Callable[..., Any]):
         self.digest = fingerprint(function, numba.__version__, _OPTIONS)
@@ -63,7 +64,7 @@ def compiled(function: Callable[..., Any]) -> Any:
 
 
 def entry(function: Callable[..., Any]) -> Any:
-    """Compile a function that Python calls; kept on disk."""
+    """Compile a function that Python calls, and store it on disk."""
     config: Any = numba.config
     others = config.CACHE_LOCATOR_CLASSES
     config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Kept.__name__}"
@@ -74,11 +75,11 @@ def entry(function: Callable[..., Any]) -> Any:
 
 
 def fold(steps: Sequence[Callable[..., Any]]) -> Any:
-    """One compiled `dispatch(code, *args)` that calls `steps[code](*args)`; the last step answers any higher code.
+    """One compiled `dispatch(code, *args)` that calls `steps[code](*args)`; a code above the last calls the last step.
 
-    Written out as one chain of branches: a function for each branch compiles twice as long, and deepens the compiler's
-    recursion. Each dispatch is named by what it holds. Code that was kept on disk finds what it calls by name, and would call
-    another process's dispatch of the same name.
+    The source is one chain of branches. One function for each branch would double the compile time and deepen the recursion of
+    the compiler. The name of each dispatch contains a digest of its steps, because stored code finds its callees by name: with
+    equal names it would call the dispatch of another process.
     """
     last = len(steps) - 1
     branches = [f"    if code == {code}:\n        return step_{code}(*args)" for code in range(last)]
@@ -88,7 +89,7 @@ def fold(steps: Sequence[Callable[..., Any]]) -> Any:
 
 
 def named(function: Callable[..., Any], steps: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
-    """The closure under a name of its own: a digest of what it calls."""
+    """The function with a unique name that contains a digest of the functions it calls."""
     held = "|".join(f"{step.__module__}.{step.__qualname__}" for step in steps)
     function.__qualname__ = f"{function.__name__}_{hashlib.sha256(held.encode()).hexdigest()[:16]}"
     return function

@@ -1,4 +1,4 @@
-"""Where in the input a pydantic error lies: its location without the labels that pydantic adds for the choice of a union."""
+"""Where in the input a pydantic error is: its location without the labels that pydantic adds for the choice of a union."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from pydantic import BaseModel
 def path(location: Sequence[int | str], kind: Any) -> list[int | str]:
     """The keys and indices that lead into the input, from pydantic's `location` of an error in a value of the type `kind`.
 
-    At a union pydantic names its choice between the key and what lies inside: `motion, record, scale, pga, pga` for
-    `motion.scale.pga`. A label can equal a key, so the type says which is which, not the input. Where the type says
-    nothing (`Any`), the rest of the location is taken as keys.
+    At a union, pydantic inserts the label of the chosen type after the key: `motion, record, scale, pga, pga` for
+    `motion.scale.pga`. A label can equal a key, so the type decides which is which, not the input. Where the type is `Any`,
+    the rest of the location is taken as keys.
     """
     found: list[int | str] = []
     kinds = _choices(kind)
@@ -28,12 +28,12 @@ def path(location: Sequence[int | str], kind: Any) -> list[int | str]:
 
 
 def dotted(location: Sequence[int | str], kind: Any) -> str:
-    """The same as one text, `motion.scale.pga`, as errors name a field."""
+    """The path as text, `motion.scale.pga`: the name of a field in errors."""
     return ".".join(str(step) for step in path(location, kind))
 
 
 def _choices(kind: Any) -> list[Any]:
-    """What the type can be, apart from None; a type alone is its only choice."""
+    """The types that a union allows, without None. A type that is not a union is its only choice."""
     while get_origin(kind) is Annotated:
         kind = get_args(kind)[0]
     if get_origin(kind) in (Union, UnionType):
@@ -42,12 +42,12 @@ def _choices(kind: Any) -> list[Any]:
 
 
 def _chosen(kinds: list[Any], label: int | str) -> list[Any]:
-    """What the label of a choice leaves: of unions told apart by a field, the kinds with this value in it."""
+    """The types that remain after the label of a choice: those whose discriminating field has the label as its value."""
     return next((_choices(one) for one in kinds if any(label in values for values in _constants(one))), [Any])
 
 
 def _constants(kind: Any) -> Iterator[tuple[Any, ...]]:
-    """The values of each field that holds one constant, such as a part's `kind`."""
+    """The values of each field that has one constant value, such as a part's `kind`."""
     for one in _choices(kind):
         if isinstance(one, type) and issubclass(one, BaseModel):
             for field in one.model_fields.values():

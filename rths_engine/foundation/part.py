@@ -1,6 +1,6 @@
-"""What every part of a plan is: a frozen value in SI whose fields declare label, unit and bounds once for all uses.
+"""The base classes of a plan's parts: frozen values in SI whose fields declare label, unit and bounds once.
 
-Validation, the JSON schema, the web form's labels and the report read the same declaration.
+Validation, JSON schema, labels of the web form and report all read this declaration.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 
 # chosen; see docs/decisions/0023
-LONGEST_TEXT = 80  # characters of a refused text that are told
+LONGEST_TEXT = 80  # characters of an invalid text that an error repeats
 T = TypeVar("T", bound=BaseModel)
 
 
@@ -33,9 +33,9 @@ def quantity(
     tests: Sequence[str] = (),
     **bounds: Any,
 ) -> Any:
-    """Declare a field holding SI `unit`, shown to people in `shown`; `bounds` are pydantic's gt, ge, lt, le.
+    """Declare a field in the SI unit `unit`, which people read in `shown`. `bounds` are pydantic's gt, ge, lt and le.
 
-    `tests` are the kinds of test that use the field, where not every one does.
+    `tests` are the kinds of test that use the field. Empty: all kinds use it.
     """
     shown = shown or unit
     extra: dict[str, Any] = {"unit": unit, "shown": shown, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
@@ -44,7 +44,7 @@ def quantity(
 
 
 class Value(BaseModel):
-    """A frozen, fully checked value. Numbers are SI; text such as `"36007 kN/m"` is read with its unit."""
+    """A frozen, validated value. Numbers are SI; text such as `"36007 kN/m"` is converted from its unit."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -75,7 +75,7 @@ def kinds(union: Any) -> tuple[type[Any], ...]:
 class Part(Value):
     """A part with a compiled step. `kind` is its name in plans, `title` its name for people.
 
-    `build(dt)` gives the parameter and the initial state vector that the compiled `step` works on.
+    `build(dt)` returns the parameter vector and the initial state vector of the compiled `step`.
     """
 
     title: ClassVar[str]
@@ -85,7 +85,7 @@ class Part(Value):
 
 
 def validated(model: type[T], data: Any) -> T:
-    """`data` as a `model`. Raises PlanError listing every issue with its path, value and bound."""
+    """`data` as a `model`. Raises PlanError with every issue: its path, value and bound."""
     try:
         return model.model_validate(data)
     except ValidationError as error:
@@ -94,7 +94,7 @@ def validated(model: type[T], data: Any) -> T:
 
 
 def _follows(detail: Any, details: list[Any]) -> bool:
-    """Whether a list only seems too short because items of it were refused."""
+    """Whether a list only appears too short because some of its items are not valid."""
     inside = detail["loc"]
     return detail["type"] == "too_short" and any(
         other is not detail and other["loc"][: len(inside)] == inside for other in details
@@ -102,14 +102,14 @@ def _follows(detail: Any, details: list[Any]) -> bool:
 
 
 def _too_long(value: Any, field: FieldInfo) -> bool:
-    """Whether a list will be refused for its length, so that its items need not be looked at."""
+    """Whether a list is longer than its field allows; its items are not read then."""
     most = min((bound.max_length for bound in field.metadata if isinstance(bound, MaxLen)), default=math.inf)
     return isinstance(value, list | tuple) and len(value) > most
 
 
 @dataclass(frozen=True, slots=True)
 class _Unread:
-    """Text that is no quantity; pydantic refuses it where it stands, and the issue says what is wrong with it."""
+    """Text that is not a valid quantity. pydantic rejects it in its place, and the issue states the problem."""
 
     text: str
     problem: str

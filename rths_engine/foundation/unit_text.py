@@ -1,11 +1,11 @@
-"""Units as text: how one is shown to people, and which powers of which symbols a typed one says."""
+"""Units as text: a unit as people read it, and the powers of the symbols in a typed unit."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
 
-# a symbol, and whether its power is multiplied by the open exponent n of (s/m)^n -> its power
+# (symbol, whether its power is multiplied by the free exponent n of (s/m)^n) -> power
 Powers = Mapping[tuple[str, bool], int]
 
 _SUPERSCRIPTS = {"⁰": "0", "¹": "1", "²": "2", "³": "3", "⁴": "4", "⁻": "-", "ⁿ": "n"}
@@ -16,7 +16,7 @@ _PLAIN_PARENTHESES = re.compile(r"/\((\w+(?:\^\w)?)\)")
 
 
 def ascii_signs(text: str) -> str:
-    """The text with the signs of a keyboard: `−` as `-`, `·` as `*`, `²` as `^2`, `**` as `^`."""
+    """The text with keyboard characters only: `−` as `-`, `·` as `*`, `²` as `^2`, `**` as `^`."""
     typed = _RAISED.sub(lambda raised: "^" + "".join(_SUPERSCRIPTS[sign] for sign in raised[0]), text.translate(_SIGNS))
     return typed.replace("**", "^")
 
@@ -31,9 +31,9 @@ def shown(unit: str) -> str:
 
 
 def powers(text: str) -> Powers | None:
-    """The powers of the symbols in a unit, the same for every way to write it; None where the text is not a unit.
+    """The powers of the symbols in a unit, equal for all spellings of the unit; None where the text is not a unit.
 
-    `1/(mm^2*s)`, `1/mm²/s` and `mm^-2 s^-1` say the same. `/` divides by the one factor that follows it.
+    `1/(mm^2*s)`, `1/mm²/s` and `mm^-2 s^-1` give equal powers. `/` divides by the next factor only.
     """
     tokens: list[str] = []
     typed = ascii_signs(text).strip()
@@ -51,7 +51,7 @@ def powers(text: str) -> Powers | None:
 
 
 def _product(tokens: list[str]) -> dict[tuple[str, bool], int]:
-    """Factors with `*`, `/` or nothing between them, up to a closing parenthesis or the end."""
+    """Powers of factors with `*`, `/` or nothing between them, up to a closing parenthesis or the end."""
     found = _factor(tokens)
     while tokens and tokens[0] != ")":
         sign = -1 if tokens[0] == "/" else 1

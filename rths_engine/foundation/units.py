@@ -1,4 +1,4 @@
-"""Units at the edge: `si = factor * shown`. Inside the engine every number is SI."""
+"""Conversion of units at the edge of the engine: `si = factor * shown`. Inside the engine every number is SI."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ UNITS: dict[str, tuple[str, float]] = {
 }
 
 # chosen; see docs/decisions/0023
-LONGEST = 40  # characters of a unit; longer text is not looked into
+LONGEST = 40  # characters of a unit; longer text is not parsed
 _BY_POWERS = {frozenset((unit_text.powers(unit) or {}).items()): unit for unit in reversed(UNITS)}
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:[^\d\s.,]|1\s*/|1\s*$).*)?$")
 
@@ -108,7 +108,7 @@ def pretty(unit: str) -> str:
 
 
 def named(text: str) -> str | None:
-    """The unit of UNITS that is written so, as shown or with the signs of a keyboard: `1/mm²`, `1/mm^2`, `mm^-2`; or None."""
+    """The unit of UNITS that `text` names, in any spelling (`1/mm²`, `1/mm^2`, `mm^-2`); None where it names no unit."""
     typed = text.strip()
     if typed in UNITS or len(typed) > LONGEST:
         return typed if typed in UNITS else None
@@ -132,10 +132,10 @@ def from_si(value: float, unit: str) -> float:
 
 
 def parse(text: str, unit: str) -> float:
-    """Read `"36007 kN/m"` as SI where `unit` (here `N/m`) gives the dimension; a bare number is SI already.
+    """The SI value of a text such as `"36007 kN/m"`; `unit` (here `N/m`) gives the dimension. A number without unit is SI.
 
-    Numbers and units are read as they are shown, `−0.4 1/mm²`, and as they are typed, `-0.4 1/mm^2`. Raises RthsError if
-    the text is not a number, or if its unit is unknown or of another dimension.
+    Numbers and units can be written as they are shown, `−0.4 1/mm²`, or as they are typed, `-0.4 1/mm^2`. Raises RthsError
+    if the text is not a number, or if its unit is unknown or has a different dimension.
     """
     found = _QUANTITY.match(unit_text.ascii_signs(text))
     if not found:
@@ -156,4 +156,4 @@ def _lookup(unit: str) -> tuple[str, float]:
     try:
         return UNITS[unit]
     except KeyError:
-        raise RthsError(Issue("", f"unknown unit; known are {', '.join(UNITS)}", unit)) from None
+        raise RthsError(Issue("", f"is not a known unit; the known units are {', '.join(UNITS)}", unit)) from None

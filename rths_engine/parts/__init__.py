@@ -1,1 +1,1 @@
-"""What a test is made of: structures, integrators, actuators, compensators, specimens, left-out physics and ground motions."""
+"""The parts of a test: structures, integrators, actuators, compensators, specimens, left-out physics and ground motions."""

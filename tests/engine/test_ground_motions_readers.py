@@ -202,14 +202,14 @@ def test_text_that_calls_itself_at2_is_refused_with_line_and_remedy() -> None:
 
 
 def test_prose_is_refused_as_no_numbers() -> None:
-    raises("Dear colleague,\nhere is the record.\n", "holds no numbers", "COSMOS V2", name="letter.txt")
+    raises("Dear colleague,\nhere is the record.\n", "contains no numbers", "COSMOS V2", name="letter.txt")
 
 
 def test_a_word_among_the_samples_is_named_with_its_line() -> None:
     lines = at2().splitlines()
     lines[8] = lines[8][:-3] + "xyz"
-    raises("\n".join(lines), "line 9", "xyz", "is no number")
-    raises(columns(" ") + "end of record\n", "line 124", "is no number", unit="g")
+    raises("\n".join(lines), "line 9", "xyz", "is not a number")
+    raises(columns(" ") + "end of record\n", "line 124", "is not a number", unit="g")
 
 
 @pytest.mark.parametrize("count", [122, 124])

@@ -1,8 +1,9 @@
 """Actuators: `step(p, s, x_comp, force) -> displacement` (m, N).
 
-`force` is the specimen's at the last substep. The command x_comp is a displacement (m), or the quantity that drives the kind.
+`force` is the force of the specimen at the last substep. The command x_comp is a displacement (m), or the quantity that drives
+this kind of actuator.
 
-Each has a `velocity_limit` (m/s) and a `force_limit` (N): what it reaches at most.
+Each actuator has a `velocity_limit` (m/s) and a `force_limit` (N), its largest velocity and force.
 """
 
 from typing import Annotated

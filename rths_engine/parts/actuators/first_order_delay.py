@@ -15,11 +15,11 @@ class FirstOrderDelay(Part):
 
     d_m[q] = d_m[q-1] + (d_p[q] - d_m[q-1]) / alpha   (5a)
 
-    The increment is held to velocity_limit * dt. While the specimen resists with force_limit or more, the piston stalls:
-    it moves no further against the force, and may still move with it (one substep behind the force).
+    The increment is limited to velocity_limit * dt. While the specimen resists with force_limit or more, the piston stalls:
+    it does not move against the force, but it can move with the force. The stall is one substep behind the force.
     alpha >= 1 (number); the delay is about (alpha - 1) controller steps. State: s[0] piston displacement (m).
-    Fails first where the real delay grows with frequency or demand.
-    Source: Chen and Ricles (2012), EESD 41, 549-569, equation (5a); the limits are of the cylinders in its section 4.
+    Not valid where the real delay grows with frequency or demand.
+    Source: Chen and Ricles (2012), EESD 41, 549-569, equation (5a); the limits are those of the cylinders in section 4.
     """
 
     kind: Literal["first_order_delay"] = "first_order_delay"

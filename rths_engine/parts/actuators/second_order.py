@@ -17,11 +17,12 @@ class SecondOrderActuator(Part):
 
     y'' + 2 zeta omega y' + omega^2 y = omega^2 d_p(t - T),  omega = 2 pi f
 
-    Exact for a command linear between substeps (and for a dead time between two substeps by linear interpolation). On a ramp it
-    lags by 2 zeta / omega + T. The increment is held to velocity_limit * dt; while the specimen resists with force_limit or
-    more, the piston stalls against the force, one substep behind it; after either it goes on from the velocity it has.
-    State: s[0] y (m), s[1] y' / omega (m), s[2] last delayed command (m), s[3] place in the ring, then the ring of commands.
-    Fails first where the servo-valve saturates: f and zeta then fall with the amplitude.
+    The step is exact for a command that is linear between substeps; a dead time that is not a whole number of substeps is
+    interpolated. y lags a ramp by 2 zeta / omega + T. The increment is limited to velocity_limit * dt. While the specimen
+    resists with force_limit or more, the piston stalls against the force, one substep behind it. After a limit or a stall the
+    motion continues from the actual velocity.
+    State: s[0] y (m), s[1] y' / omega (m), s[2] last delayed command (m), s[3] index in the ring, then the ring of commands.
+    Not valid where the servo-valve saturates: f and zeta then decrease with the amplitude.
     Source: Merritt (1967), "Hydraulic Control Systems", Wiley; dead time after Horiuchi et al. (1999), EESD 28, 1121-1141.
     """
 
@@ -35,7 +36,7 @@ class SecondOrderActuator(Part):
 
     def build(self, dt: float) -> tuple[Array, Array]:
         angle = 2 * math.pi * self.frequency * dt
-        rates = np.zeros((4, 4))  # of y, y' / omega, the delayed command and its increment in a substep
+        rates = np.zeros((4, 4))  # for y, y' / omega, the delayed command and its increment in a substep
         rates[0, 1], rates[1, :3] = angle, [-angle, -2 * self.damping_ratio * angle, angle]
         rates[2, 3] = 1.0
         rows = expm(rates)[:2].ravel()

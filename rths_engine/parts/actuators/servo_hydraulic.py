@@ -18,15 +18,15 @@ class ServoHydraulicActuator(Part):
     T_v o' = clip((d_p - y) / (T v_0), -1, 1) - o,  g = v_0 o sqrt(1 - sgn(o) p_L / p_s),  A p_L' = k_h (g - y'),
     m y'' = A p_L + 2 zeta sqrt(k_h m) (g - y') - F
 
-    o valve opening, g valve flow over piston area A (m/s), p_L load pressure, p_s supply pressure: A p_s is the force
-    capacity and v_0 the velocity without load at full opening. F is the specimen's force of the last substep. Beyond
-    p_L = p_s the flow turns back. On a ramp against a constant force the lag is T / sqrt(1 - F / (A p_s)) - dt, so that the
-    delay grows with force and, beyond a tracking error of T v_0, with the velocity asked for; with F = 0 and full bandwidths
-    this is `FirstOrderDelay` with alpha = T / dt. The oil column and the mass are integrated exactly for constant g and F;
-    g is implicit in p_L, with the root of its quadratic equation.
+    o is the valve opening, g the valve flow over the piston area A (m/s), p_L the load pressure and p_s the supply pressure.
+    A p_s is the force capacity and v_0 the velocity without load at full opening. F is the specimen's force of the last
+    substep. Beyond p_L = p_s the flow reverses. On a ramp against a constant force the lag is T / sqrt(1 - F / (A p_s)) - dt.
+    The delay therefore grows with the force and, beyond a tracking error of T v_0, with the commanded velocity. With F = 0 and
+    unlimited bandwidths the model equals `FirstOrderDelay` with alpha = T / dt. The oil column and the mass are integrated
+    exactly for constant g and F; g is implicit in p_L and is the root of a quadratic equation.
     State: s[0] y (m), s[1] y' / omega_h (m), s[2] oil compression A p_L / k_h (m), s[3] o; omega_h = sqrt(k_h / m).
-    Fails first with a specimen stiff or viscous against the mass (c dt > 2 m): its force, one substep late, then drives the
-    oil column; and where T < 1 / (2 zeta omega_h), where the position loop does.
+    Not valid with a specimen that is stiff or viscous relative to the mass (c dt > 2 m): its force, one substep late, then
+    makes the oil column unstable. Not valid where T < 1 / (2 zeta omega_h): the position loop then makes it unstable.
     Source: Merritt (1967), "Hydraulic Control Systems", Wiley; Zhao, French, Shield and Posbergh (2003), EESD 32, 1773-1794.
     """
 
@@ -42,7 +42,7 @@ class ServoHydraulicActuator(Part):
 
     def build(self, dt: float) -> tuple[Array, Array]:
         omega = math.sqrt(self.oil_stiffness / self.mass)
-        rates = np.zeros((5, 5))  # over omega: of y, y' / omega, oil compression, g / omega, F / k_h
+        rates = np.zeros((5, 5))  # over omega, for y, y' / omega, oil compression, g / omega, F / k_h
         rates[0, 1] = 1.0
         rates[1, 1:] = -2 * self.oil_damping, 1.0, 2 * self.oil_damping, -1.0
         rates[2, 1], rates[2, 3] = -1.0, 1.0
@@ -59,7 +59,7 @@ class ServoHydraulicActuator(Part):
         s[3] = asked + p[1] * (s[3] - asked)
         speed, sense = abs(s[3]) * p[2], 1.0 if s[3] >= 0.0 else -1.0
         rate, oil, resisted = s[1], s[2], force * p[4]
-        still = p[13] * rate + p[14] * oil + p[16] * resisted  # oil compression at the end without flow
+        still = p[13] * rate + p[14] * oil + p[16] * resisted  # oil compression at the end of the substep without flow
         drop = 1.0 - sense * p[3] * still
         relief = p[3] * max(p[15], 0.0) * speed
         root = relief + math.sqrt(relief * relief + 4.0 * abs(drop))

@@ -1,4 +1,4 @@
-"""Electric drive in open loop: a voltage asks for a velocity."""
+"""Electric drive in open loop: a voltage commands a velocity."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class VelocityDrive(Part):
-    """Electric drive in open loop: a voltage asks for a velocity.
+    """Electric drive in open loop: a voltage commands a velocity.
 
     T y'' + y' = clip(k (u - u_0), -v_max, v_max)
 
-    The command is the voltage u (V) at the amplifier, not a displacement; k gain, u_0 voltage at which the drive rests, T time
-    constant of motor and carriage. The amplifier saturates at v_max, which is v_max / k in volts. Exact for a voltage that is
-    held over a substep. While the specimen resists with force_limit or more, the drive stalls against it, one substep behind
-    the force. State: s[0] y (m), s[1] y' (m/s).
-    Fails first at low voltage, where the friction of the guides takes a share of it.
+    The command is the voltage u (V) at the amplifier, not a displacement. k is the gain, u_0 the voltage at which the drive
+    rests, T the time constant of motor and carriage. The amplifier saturates at v_max, that is at v_max / k in volts. The step
+    is exact for a voltage that is constant over a substep. While the specimen resists with force_limit or more, the drive
+    stalls against the force, one substep behind it. State: s[0] y (m), s[1] y' (m/s).
+    Not valid at low voltage, where the friction of the guides absorbs a share of it.
     Source: Franklin, Powell and Emami-Naeini (2010), "Feedback Control of Dynamic Systems", section 2.3: the DC motor whose
     inductance is neglected.
     """

@@ -1,6 +1,6 @@
 """Delay compensators: `step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt) -> x_comp`, all in m, m^2 and s.
 
-`x_meas` and `ti` are of the last substep; s[0] is the recorded d_alpha.
+`x_meas` and `ti` are the values of the last substep. s[0] is recorded as d_alpha.
 """
 
 from typing import Annotated

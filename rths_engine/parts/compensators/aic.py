@@ -16,10 +16,10 @@ class AdaptiveInverseCompensation(Part):
     d_p[q] = alpha d_c[q] - (alpha - 1) d_c[q-1],  alpha = alpha_es + d_alpha   (7a)
     d_alpha = kp TI + ki integral of TI dt   (7b)
 
-    TI is the tracking indicator (m^2) up to the last substep; the integral is trapezoidal. The published gains hold for
-    TI in mm^2: kp = 0.4 1/mm^2 and ki = kp/10 per second.
+    TI is the tracking indicator (m^2) up to the last substep; the integral is trapezoidal. The published gains are
+    kp = 0.4 1/mm^2 and ki = kp/10 per second, for TI in mm^2.
     State: s[0] d_alpha (recorded), s[1] integral of TI (m^2 s), s[2] last TI (m^2).
-    Fails first when the command barely moves, since TI then carries no information on the delay.
+    Not valid when the command hardly moves: TI then contains no information about the delay.
     Source: Chen and Ricles (2012), EESD 41, 549-569, equations (7a) and (7b).
     """
 

@@ -12,13 +12,13 @@ from rths_engine.foundation.kernel import compiled
 from rths_engine.foundation.part import Part, quantity
 
 # chosen; see docs/decisions/0023
-MOST_SAMPLES = 2048  # of the moving window; a longer one skips substeps
-FILTERS, COEFFICIENTS, SUMS, FRESH, WINDOW = 5, 9, 12, 21, 30  # places in the state
+MOST_SAMPLES = 2048  # of the moving window; a longer window skips substeps
+FILTERS, COEFFICIENTS, SUMS, FRESH, WINDOW = 5, 9, 12, 21, 30  # indices in the state
 
 
 @compiled
 def _accumulate(s, sums, sample, sign):
-    """Add sign times a sample's products to nine sums: x x, x x', x x'', x' x', x' x'', x'' x'', x u, x' u, x'' u."""
+    """Add `sign` times the products of a sample to nine sums: x x, x x', x x'', x' x', x' x'', x'' x'', x u, x' u, x'' u."""
     x, v, a, u = sign * s[sample], s[sample + 1], s[sample + 2], s[sample + 3]
     s[sums] += x * s[sample]
     s[sums + 1] += x * v
@@ -33,7 +33,7 @@ def _accumulate(s, sums, sample, sign):
 
 @compiled
 def _descend(s, own, diagonal, mixed, low, high):
-    """Move one coefficient to the least squares within its bounds, the others held; `mixed` is their part of its equation."""
+    """Least squares of one coefficient within its bounds, with the others fixed; `mixed` is their part of its equation."""
     if diagonal > 0.0:
         s[COEFFICIENTS + own] = min(max((s[SUMS + 6 + own] - mixed) / diagonal, low), high)
 
@@ -43,18 +43,18 @@ class AdaptiveTimeSeries(Part):
 
     d_p = a0 d_c + a1 d_c' + a2 d_c'',  a minimising the sum over the window of (d_p - a0 d_m - a1 d_m' - a2 d_m'')^2
 
-    Derivatives are backward differences over h: (3 d(t) - 4 d(t-h) + d(t-2h)) / (2h) and (d(t) - 2 d(t-h) + d(t-2h)) / h^2;
-    h = one integration step keeps the kinks of the ramped command out of d_c''. Both d_p and d_m pass two equal first-order
-    low-pass filters before the fit, which leaves their relation as it is and most of the sensor noise out.
-    The window's sums gain the newest sample and lose the oldest, and are renewed once a window, so that rounding can't pile
-    up. Each substep makes one sweep of coordinate descent within |a0 - 1| <= gain_range, 0 <= a1 <= tau_max and
-    0 <= a2 <= tau_max^2 / 2: it converges to the bounded least squares, also where the motion is a single sine and the normal
-    equations, which the paper inverts, are singular. Start: a = (1, tau, tau^2 / 2). Adapts only while the measured
-    displacement's RMS over the window (at rest before the test) exceeds the threshold.
-    State: s[0] (a1 - tau) / dt (recorded as d_alpha), s[1] substeps since the last sample, s[2] place in the window, s[3] place
+    Derivatives are backward differences over h: (3 d(t) - 4 d(t-h) + d(t-2h)) / (2h) and (d(t) - 2 d(t-h) + d(t-2h)) / h^2.
+    With h = one integration step, the kinks of the ramped command do not enter d_c''. Both d_p and d_m pass two equal
+    first-order low-pass filters before the fit, which remove most of the sensor noise and do not change their relation.
+    The sums of the window add the newest sample and subtract the oldest. They are computed anew once a window, so that
+    rounding errors do not accumulate. Each substep makes one sweep of coordinate descent within |a0 - 1| <= gain_range,
+    0 <= a1 <= tau_max and 0 <= a2 <= tau_max^2 / 2. The sweeps converge to the bounded least squares, also where the motion is
+    a single sine and the normal equations, which the paper inverts, are singular. Start: a = (1, tau, tau^2 / 2). The
+    coefficients adapt only while the RMS of the measured displacement over the window exceeds the threshold.
+    State: s[0] (a1 - tau) / dt (recorded as d_alpha), s[1] substeps since the last sample, s[2] index in the window, s[3] index
     in the delay lines, s[4] last d_p (m), then filters (4), a (3), running and fresh sums (9 each), the window (d_m, d_m',
-    d_m'', d_p a sample), and the delay lines of d_c and of filtered d_m.
-    Fails first when the actuator changes faster than the window, and where sensor noise outweighs d_m''.
+    d_m'', d_p for each sample), and the delay lines of d_c and of filtered d_m.
+    Not valid when the actuator changes faster than the window, or where sensor noise is larger than d_m''.
     Source: Chae, Kazemibidokhti and Ricles (2013), "Adaptive time series compensator for delay compensation of
     servo-hydraulic actuator systems for real-time hybrid simulation", EESD 42, 1697-1715.
     """

@@ -1,4 +1,4 @@
-"""Derivative feed-forward: velocity and acceleration of the command added to it."""
+"""Derivative feed-forward: adds the velocity and the acceleration of the command to the command."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class DerivativeFeedForward(Part):
-    """Derivative feed-forward: velocity and acceleration of the command added to it.
+    """Derivative feed-forward: adds the velocity and the acceleration of the command to the command.
 
     d_p[q] = d_c[q] + g_v (3 d_c[q] - 4 d_c[q-1] + d_c[q-2]) / (2 dt) + g_a (d_c[q] - 2 d_c[q-1] + d_c[q-2]) / dt^2
 
-    Inverts a lag T with g_v = T, and a second-order actuator with g_v = 2 zeta / omega and g_a = 1 / omega^2. g_v in s, g_a in
-    s^2, given as its root. State: s[0] unused, s[1] the command before the last (m).
-    Fails first at the kinks of a ramped command, where d_c'' is a spike: keep g_a = 0 unless the command is smooth.
+    It inverts a lag T with g_v = T, and a second-order actuator with g_v = 2 zeta / omega and g_a = 1 / omega^2. g_v is in s
+    and g_a in s^2; the plan gives the root of g_a. State: s[0] unused, s[1] the command before the last command (m).
+    Not valid at the kinks of a ramped command, where d_c'' is a spike: use g_a = 0 unless the command is smooth.
     Source: Jung and Shing (2006), "Performance evaluation of a real-time pseudodynamic test system", EESD 35, 789-810.
     """
 

@@ -15,10 +15,10 @@ class DualCompensation(Part):
 
     d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1] + kp (d_c[q-1] - d_m[q-1])
 
-    The tracking error of the last substep corrects what a wrong alpha_es leaves: on a ramp a first-order actuator's lag falls
-    from (alpha - alpha_es) controller steps to (alpha - alpha_es) / (1 + kp). kp = 0 is inverse compensation.
-    State: none. Fails first at a high gain: with `FirstOrderDelay` the loop is stable while kp < 2 alpha - 1, and a dead time
-    lowers that limit much.
+    The tracking error of the last substep corrects the error of a wrong alpha_es: on a ramp, the lag of a first-order actuator
+    falls from (alpha - alpha_es) controller steps to (alpha - alpha_es) / (1 + kp). kp = 0 is inverse compensation.
+    State: none. Not stable at a high gain: with `FirstOrderDelay` the loop is stable while kp < 2 alpha - 1, and a dead time
+    makes this limit much lower.
     Source: Chen and Ricles (2009), "Improving the inverse compensation method for real-time hybrid simulation through a dual
     compensation scheme", EESD 38, 1237-1255.
     """

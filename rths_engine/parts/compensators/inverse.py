@@ -11,10 +11,12 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class InverseCompensation(Part):
-    """d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1]   (7a with d_alpha = 0).
+    """Inverse compensation: the inverse of the first-order delay, as an extrapolation of the command.
 
-    Exact inverse of `FirstOrderDelay` (5a) when alpha_es equals the actuator's alpha; alpha_es = 1 is no compensation.
-    State: none. Fails first when the actuator's delay is estimated wrongly or changes during the test.
+    d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1]   (7a with d_alpha = 0)
+
+    Exact inverse of `FirstOrderDelay` (5a) when alpha_es equals the actuator's alpha. alpha_es = 1 means no compensation.
+    State: none. Not valid when the estimated delay of the actuator is wrong or the delay changes during the test.
     Source: Chen and Ricles (2009), J. Eng. Mech. 135; equation numbers from Chen and Ricles (2012), EESD 41, 549-569.
     """
 

@@ -11,7 +11,7 @@ from rths_engine.foundation.part import Part
 
 
 class NoCompensation(Part):
-    """d_p[q] = d_c[q]: the delay of the actuator is not corrected and adds energy to the structure."""
+    """No compensation, d_p[q] = d_c[q]: the delay of the actuator is not corrected and adds energy to the structure."""
 
     kind: Literal["none"] = "none"
     title: ClassVar[str] = "None"

@@ -15,10 +15,10 @@ class PhaseLead(Part):
 
     r T d_p' + d_p = d_c + T d_c',  0 <= r < 1;  frequency response (1 + i omega T) / (1 + i omega r T)
 
-    Discretised by the backward difference, as the actuator (5a) is, so that r = 0 with T = (alpha - 1) dt inverts it exactly.
-    The delay taken away at low frequency is (1 - r) T; noise is amplified at most 1 / r times.
-    State: s[0] unused, s[1] the last compensated command less the last command (m), from rest 0.
-    Fails first above 1 / (2 pi T) Hz, where the amplitude grows faster than the actuator's falls.
+    Discretised by the backward difference, like the actuator (5a), so that r = 0 with T = (alpha - 1) dt inverts it exactly.
+    The compensator removes the delay (1 - r) T at low frequency and amplifies noise at most 1 / r times.
+    State: s[0] unused, s[1] the last compensated command minus the last command (m), 0 at rest.
+    Not valid above 1 / (2 pi T) Hz, where its amplitude grows faster than that of the actuator falls.
     Source: Zhao, French, Shield and Posbergh (2003), "Considerations for the development of real-time dynamic testing using
     servo-hydraulic actuation", EESD 32, 1773-1794.
     """

@@ -15,10 +15,11 @@ class PolynomialExtrapolation(Part):
 
     d_p(t) = sum over i = 0 ... n of w_i d_c(t - i h) = P(t + tau),  P the polynomial of order n through these samples
 
-    tau (s) is the delay and h the whole number of controller steps nearest to it (at least one); for h = tau the weights are
-    the published 2, -1 (n = 1), 3, -3, 1 (n = 2) and 4, -6, 4, -1 (n = 3). Exact for polynomials of order n.
+    tau (s) is the delay and h the whole number of controller steps nearest to tau, at least one step. For h = tau the weights
+    are the published 2, -1 (n = 1), 3, -3, 1 (n = 2) and 4, -6, 4, -1 (n = 3). Exact for polynomials of order n.
     State: s[0] unused, s[1] position in the ring, then the ring of the last n h / dt + 1 commands (m).
-    Fails first at higher frequencies, where order n amplifies up to 2^(n+1) - 1 times: an ill-damped higher mode goes unstable.
+    Not valid at higher frequencies, where order n amplifies up to 2^(n+1) - 1 times: a higher mode with little damping becomes
+    unstable.
     Source: Horiuchi, Inoue, Konno and Namita (1999), EESD 28, 1121-1141.
     """
 

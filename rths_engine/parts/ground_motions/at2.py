@@ -18,23 +18,23 @@ _LISTED = re.compile(rf"^\s*(\d+)\s+({NUMBER})\s+NPTS\s*,\s*DT", re.IGNORECASE)
 
 
 def looks_like(lines: list[str]) -> bool:
-    """Whether the lines are a PEER AT2 file: its header holds NPTS and DT."""
+    """Whether the lines are a PEER AT2 file: its header contains NPTS and DT."""
     return any("NPTS" in line.upper() and "DT" in line.upper() for line in lines[:_HEADER_LINES])
 
 
 def parse(lines: list[str]) -> Parsed:
-    """Raises MotionError with the line where header or samples are not as the format says."""
+    """The record in an AT2 file. Raises MotionError with the line where header or samples do not follow the format."""
     at, count, dt = _counts(lines)
     header = lines[: at - 1]
     about = " ".join(header).upper()
     if re.search(r"\b(VELOCITY|DISPLACEMENT) TIME", about):
         raise MotionError(
-            Issue("file", "holds velocity or displacement, not acceleration", fix="give the record's acceleration (.AT2)")
+            Issue("file", "contains velocity or displacement, not acceleration", fix="give the record's acceleration (.AT2)")
         )
     samples = np.array(block(enumerate(lines[at:], start=at + 1)))
     if len(samples) != count:
         problem = f"says NPTS = {count}, but {len(samples)} samples follow"
-        raise MotionError(Issue(f"line {at}", problem, fix="download the record again, or correct NPTS"))
+        raise MotionError(Issue(f"line {at}", problem, fix="download the record again or correct NPTS"))
     described = header[1].strip() if len(header) > 1 else ""
     event, station, component = _described(described)
     return Parsed(samples, "at2", unit_in(about) or "g", dt, described, event, station, component)
@@ -49,17 +49,17 @@ def _counts(lines: list[str]) -> tuple[int, int, float]:
                 return at, int(found[1]), float(found[2])
             except ValueError:
                 raise MotionError(
-                    Issue(f"line {at}", "needs an equal step DT in seconds", found[2], "give a record with a uniform step")
+                    Issue(f"line {at}", "needs a uniform step DT in seconds", found[2], "give a record with a uniform step")
                 ) from None
         if "NPTS" in line.upper():
             fix = "write it as 'NPTS= 4000, DT= .0100 SEC'"
-            raise MotionError(Issue(f"line {at}", "does not say NPTS and DT in a known way", line.strip(), fix))
+            raise MotionError(Issue(f"line {at}", "does not state NPTS and DT in a known format", line.strip(), fix))
     first = lines[0].strip()
-    fix = "an AT2 file has 'NPTS= 4000, DT= .0100 SEC' in line 4; for plain columns choose that format, unit and step"
-    raise MotionError(Issue("line 1", "no NPTS and DT in the header, so this is no AT2 record", first, fix))
+    fix = "an AT2 file has 'NPTS= 4000, DT= .0100 SEC' in line 4; for plain columns choose the format, the unit and the step"
+    raise MotionError(Issue("line 1", "the header has no NPTS and DT, so this is not an AT2 record", first, fix))
 
 
 def _described(line: str) -> tuple[str, str, str]:
-    """Event, station and component of `Northridge-01, 1/17/1994, Canyon Country - W Lost Cany, 0`."""
+    """Event, station and component from `Northridge-01, 1/17/1994, Canyon Country - W Lost Cany, 0`."""
     parts = [part.strip() for part in line.split(",")]
     return (", ".join(parts[:-2]), parts[-2], parts[-1]) if len(parts) >= 3 else (line, "", "")

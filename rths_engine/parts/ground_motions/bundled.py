@@ -1,4 +1,4 @@
-"""The records that come with the program: AT2 files beside an index with their origin. Read once."""
+"""The records that come with the program: AT2 files and an index of their origin. Each file is read once."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def names() -> tuple[str, ...]:
 
 @cache
 def bundled(name: str) -> Motion:
-    """The bundled record `name`; KeyError for another name."""
+    """The bundled record `name`. Raises KeyError where there is none of this name."""
     entry = _index()[name]
     parsed = read(gzip.decompress((_DATA / f"{name}.at2.gz").read_bytes()), f"{name}.at2", format="at2")
     return Motion(

@@ -1,4 +1,4 @@
-"""What every record read from a file must satisfy before it is a motion."""
+"""Checks that every record from a file must pass before it becomes a motion."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _SAME_STEP = 1e-3
 
 
 def checked(parsed: Parsed, unit: str | None, dt: float | None) -> tuple[Array, float]:
-    """Acceleration (m/s^2) and step (s); a given `unit` overrides the file's. Raises MotionError with every issue."""
+    """Acceleration (m/s^2) and step (s); a given `unit` overrides that of the file. Raises MotionError with every issue."""
     issues: list[Issue] = []
     chosen_unit, step = _unit(parsed, unit, issues), _step(parsed, dt, issues)
     count = len(parsed.samples)
     if count < FEWEST_SAMPLES:
         issues.append(Issue("file", f"needs at least {FEWEST_SAMPLES} samples", count, "give the whole record"))
     if count > MOST_SAMPLES:
-        issues.append(Issue("file", f"holds more than {MOST_SAMPLES:,} samples", count, "cut or resample the record"))
+        issues.append(Issue("file", f"has more than {MOST_SAMPLES:,} samples", count, "cut or resample the record"))
     bad = np.flatnonzero(~np.isfinite(parsed.samples))
     if len(bad):
         problem = "needs a finite number, not NaN or infinity"
@@ -46,14 +46,14 @@ def _unit(parsed: Parsed, unit: str | None, issues: list[Issue]) -> str | None:
             issues += error.issues
     elif parsed.unit is None:
         fix = "choose one of " + ", ".join(ACCELERATION_UNITS)
-        issues.append(Issue("unit", "the file does not say its unit of acceleration", fix=fix))
+        issues.append(Issue("unit", "the file does not state its unit of acceleration", fix=fix))
     return parsed.unit
 
 
 def _step(parsed: Parsed, dt: float | None, issues: list[Issue]) -> float | None:
     step = parsed.dt if parsed.dt is not None else dt
     if step is None:
-        issues.append(Issue("dt", "the file does not say its step", fix="give the step in seconds, for example 0.01"))
+        issues.append(Issue("dt", "the file does not state its step", fix="give the step in seconds, for example 0.01"))
     elif not SHORTEST_STEP <= step <= LONGEST_STEP:
         issues.append(Issue("dt", f"needs a step of {SHORTEST_STEP} to {LONGEST_STEP} s", step, "give the step in seconds"))
     elif dt is not None and abs(dt / step - 1) > _SAME_STEP:
@@ -74,7 +74,7 @@ def _check_peak(acceleration: Array, unit: str) -> None:
 
 
 def _better_unit(pga: float, unit: str) -> str | None:
-    """The commonest unit in which the record would peak between 0.02 g and 3 g."""
+    """The most common unit in which the record would peak between 0.02 g and 3 g."""
     for other in ("g", "cm/s^2", "m/s^2", "mm/s^2"):
         if other != unit and 0.02 <= pga * units.factor(other) / units.factor(unit) <= 3:
             return other

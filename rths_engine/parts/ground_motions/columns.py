@@ -1,6 +1,6 @@
-"""Plain columns: acceleration alone (one or several values a line), or time and one or more channels of acceleration.
+"""Plain columns: acceleration only (one or several values a line), or time and one or more channels of acceleration.
 
-Fields are separated by tab, semicolon, comma or space. Comment and header lines may come first, and may give step and unit.
+Tab, semicolon, comma or space separates the fields. Comment and header lines can come first and can state step and unit.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ _STEP = re.compile(
 )
 _RATE = re.compile(rf"\b(?:sampling rate|sampling frequency|fs)\b\s*[=:]?\s*({NUMBER})\s*(?:hz|sps|samples)", re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
-_UNIFORM = 0.05  # of a step: time stamps are often rounded to few digits
+_UNIFORM = 0.05  # of a step: time stamps often have few digits
 
 Row = tuple[int, list[float]]
 
 
 def looks_like(lines: list[str]) -> bool:
-    """Whether most lines that are no comment hold numbers alone."""
+    """Whether most lines, apart from comments, contain only numbers."""
     texts = [text for line in lines if (text := line.strip()) and not text.startswith(_COMMENT)]
     return 2 * sum(_only_numbers(text) for text in texts) > len(texts)
 
 
 def parse(lines: list[str], channel: int = 1) -> Parsed:
-    """Raises MotionError with the line where the columns end being columns."""
+    """The record in a file of columns. Raises MotionError with the line where the columns break off."""
     header, data = _split(lines)
     rows = _rows(data)
     dt, unit = header_step(header), unit_in(" ".join(header))
@@ -64,7 +64,7 @@ def _timed(table: Array, rows: Sequence[Row], header_dt: float | None, unit: str
 
 
 def _split(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
-    """Header and comment lines, and the numbered lines of data. Text between the data is an error of `_rows`."""
+    """Header and comment lines, and the numbered lines of data. `_rows` raises the error for text between the data."""
     header: list[str] = []
     data: list[tuple[int, str]] = []
     for at, line in enumerate(lines, start=1):
@@ -77,7 +77,7 @@ def _split(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
             data.append((at, text))
     if not data:
         fix = "give PEER AT2, COSMOS V2, or columns of numbers"
-        raise MotionError(Issue("file", "holds no numbers", lines[0].strip(), fix))
+        raise MotionError(Issue("file", "contains no numbers", lines[0].strip(), fix))
     return header, data
 
 
@@ -93,14 +93,14 @@ def _rows(data: list[tuple[int, str]]) -> list[Row]:
         if separator:
             fields = text.removesuffix(separator).split(separator)
             if not all(field.strip() for field in fields):
-                raise MotionError(Issue(f"line {at}", "has an empty field", text, "fill it or remove the line"))
+                raise MotionError(Issue(f"line {at}", "has an empty field", text, "fill the field or remove the line"))
             text = " ".join(fields)
         rows.append((at, numbers(text.replace(",", ".") if decimal_comma else text, f"line {at}")))
     return rows
 
 
 def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
-    """Separator (empty: spaces) and whether a comma is the decimal sign. Raises MotionError where that is not clear."""
+    """Separator (empty: spaces), and whether the comma is the decimal sign. Raises MotionError where this is ambiguous."""
     text = "\n".join(line for _, line in data)
     separator = next((sign for sign in ";\t" if sign in text), "")
     if "," not in text:
@@ -117,11 +117,11 @@ def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
             return separator, True
     at, line = next((at, line) for at, line in data if "," in line)
     fix = "write numbers with a decimal point, or separate the columns by semicolons"
-    raise MotionError(Issue(f"line {at}", "the comma may be a decimal sign or a separator", line, fix))
+    raise MotionError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
 
 
 def header_step(header: list[str]) -> float | None:
-    """The time step (s) that a header gives, as a step or as a rate; None where it gives neither."""
+    """The time step (s) from a header that states a step or a sampling rate; None where it states neither."""
     for line in header:
         if found := _STEP.search(line):
             milli = "ms" in ((found[1] or "").lower(), (found[3] or "").lower())
@@ -132,13 +132,13 @@ def header_step(header: list[str]) -> float | None:
 
 
 def _count_and_step(rows: list[Row]) -> float | None:
-    """The step (s) where the first line is `count step` of the samples that follow."""
+    """The step (s) where the first line is `count step` for the samples after it; else None."""
     first, rest = rows[0][1], sum(len(row) for _, row in rows[1:])
     return first[1] if len(first) == 2 and rest > 2 and first[0] == rest and 0 < first[1] < 1 else None
 
 
 def _is_time(table: Array) -> bool:
-    """Whether the first column can be time: it only ever grows. Two columns are time and acceleration in any case."""
+    """Whether the first column can be time: it always increases. Two columns are always time and acceleration."""
     return len(table) > 2 and (table.shape[1] == 2 or bool(np.all(np.diff(table[:, 0]) > 0)))
 
 
@@ -152,7 +152,7 @@ def _uniform_step(times: Array, rows: Sequence[Row]) -> float:
     off = np.flatnonzero(np.abs(times - times[0] - np.arange(len(times)) * dt) > _UNIFORM * abs(dt))
     if dt <= 0 or len(off):
         at = rows[off[0] if len(off) else 0][0]
-        fix = "resample the record to a uniform step; for acceleration alone put one value on each line"
-        problem = f"the first column is no time with a uniform step (about {dt:g} s)"
+        fix = "resample the record to a uniform step; for acceleration only, write one value on each line"
+        problem = f"the first column is not a time with a uniform step (about {dt:g} s)"
         raise MotionError(Issue(f"line {at}", problem, f"{times[off[0] if len(off) else 0]:g}", fix))
     return dt

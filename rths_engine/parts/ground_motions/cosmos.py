@@ -1,4 +1,4 @@
-"""COSMOS V2 and CSMIP V2: per channel a text header, then blocks of acceleration, velocity and displacement.
+"""COSMOS V2 and CSMIP V2: for each channel a text header, then blocks of acceleration, velocity and displacement.
 
 The acceleration block opens with `4096 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` (CSMIP) or with
 `4096 acceleration pts, approx 41 secs, units=cm/sec2(04),Format=(8f10.5)` (COSMOS, step in the real-value header, number 34).
@@ -30,7 +30,7 @@ _STEP_NUMBER = 34  # of the real-value header of COSMOS V2: the step, s
 
 @dataclass(frozen=True, slots=True)
 class _Block:
-    """One acceleration block: the line (from 1) that opens it, its samples' count, and the header before it."""
+    """One acceleration block: its first line (from 1), its number of samples, and the header before it."""
 
     at: int
     count: int
@@ -44,7 +44,7 @@ def looks_like(lines: list[str]) -> bool:
 
 
 def parse(lines: list[str], channel: int = 1) -> Parsed:
-    """The acceleration of the `channel`-th block. Raises MotionError listing the channels when there are fewer."""
+    """The acceleration in block number `channel`. Raises MotionError with a list of the channels when there are fewer."""
     blocks = _blocks(lines)
     if not blocks:
         fix = "a V2 file has '... points of accel data equally spaced at ...' or '... acceleration pts, ...'"
@@ -56,7 +56,7 @@ def parse(lines: list[str], channel: int = 1) -> Parsed:
     chosen = blocks[channel - 1]
     opening = lines[chosen.at - 1]
     if re.search(r"\buncorrected\b", chosen.header[0], re.IGNORECASE) or "counts" in opening:
-        raise MotionError(Issue("line 1", "is an uncorrected record", fix="give the corrected one (volume 2, .V2)"))
+        raise MotionError(Issue("line 1", "is an uncorrected record", fix="give the corrected record (volume 2, .V2)"))
     event, station = _origin(chosen.header)
     return Parsed(
         samples=_samples(lines, chosen),
@@ -121,7 +121,7 @@ def _name(found: _Block) -> str:
 
 
 def _origin(header: list[str]) -> tuple[str, str]:
-    """Event and station, from the lines where both formats write them."""
+    """Event and station, from the header lines that both formats use for them."""
     station = next((line.split(":")[-1] for line in header if re.search(r"CA\s*:", line)), "")
     event = next((line for line in header if re.search(r"\bearthquake\b", line, re.IGNORECASE)), "")
     return " ".join(event.split())[:80], " ".join(station.split())[:80]

@@ -1,4 +1,4 @@
-"""The records a plan can name: the bundled ones and those stored in a folder."""
+"""The library of records that a plan can name: the bundled records and those stored in a folder."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NAME = re.compile(r"[a-z0-9](?:[a-z0-9-]{0,78}[a-z0-9])?")
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """What a list of records shows; SI. `problem` says why a damaged record can't be used (its numbers are zero then)."""
+    """A record's row in a list, in SI. `problem` says why a damaged record cannot be used; its numbers are zero then."""
 
     name: str
     title: str
@@ -39,7 +39,7 @@ class Summary:
 
 
 class MotionLibrary:
-    """Bundled records, always there and read-only, and those in `folder` (None: bundled only)."""
+    """The bundled records, which are read-only, and the records in `folder` (None: bundled records only)."""
 
     def __init__(self, folder: Path | None):
         self.folder = folder
@@ -49,11 +49,11 @@ class MotionLibrary:
         return sorted({*bundled.names(), *(path.stem for path in self._files())})
 
     def summaries(self) -> list[Summary]:
-        """One line a record, sorted by name; a damaged record is listed with its problem."""
+        """The summary of each record, sorted by name. A damaged record is listed with its problem."""
         return [self.summary(name) for name in self.names()]
 
     def summary(self, name: str) -> Summary:
-        """What the list shows of `name`. Raises MotionError naming the nearest names when there is none."""
+        """The summary of the record `name`. Raises MotionError with similar names where there is no such record."""
         if name in bundled.names():
             return _summary(bundled.bundled(name))
         path = self._path(name)
@@ -64,15 +64,15 @@ class MotionLibrary:
             return Summary(name=name, title=name, problem=error.issues[0].problem)
 
     def get(self, name: str) -> Motion:
-        """The record `name`. Raises MotionError naming the nearest names when there is none, or when it is damaged."""
+        """The record `name`. Raises MotionError where it is damaged, or, with similar names, where there is no such record."""
         return bundled.bundled(name) if name in bundled.names() else stored.load(self._path(name))
 
     def add(self, motion: Motion) -> None:
-        """Store `motion` under its name. Raises MotionError when the name is taken or is no record name."""
+        """Store `motion` under its name. Raises MotionError when the name is in use or is not a valid record name."""
         if self.folder is None:
             raise MotionError(Issue("name", "this library has no folder to store records in", motion.name))
         if not _NAME.fullmatch(motion.name):
-            problem = "needs 1 to 80 lower-case letters, digits and hyphens"
+            problem = "needs 1 to 80 lower-case letters, digits or hyphens"
             raise MotionError(Issue("name", problem, motion.name, f"name it '{slug(motion.name)}'"))
         try:
             if motion.name in bundled.names():
@@ -80,13 +80,13 @@ class MotionLibrary:
             stored.save(self.folder, motion)
         except FileExistsError:
             raise MotionError(
-                Issue("name", "there is a record of this name already", motion.name, "choose another name")
+                Issue("name", "a record with this name already exists", motion.name, "choose another name")
             ) from None
 
     def remove(self, name: str) -> None:
-        """Delete a stored record. Raises MotionError for a bundled or unknown one."""
+        """Delete a stored record. Raises MotionError for a bundled or an unknown record."""
         if name in bundled.names():
-            raise MotionError(Issue("record", "comes with the program and can't be removed", name))
+            raise MotionError(Issue("record", "comes with the program and cannot be removed", name))
         try:
             self._path(name).unlink()
         except FileNotFoundError:
@@ -105,7 +105,7 @@ class MotionLibrary:
     def _unknown(self, name: str) -> MotionError:
         near = difflib.get_close_matches(slug(name), self.names(), n=3, cutoff=0.4)
         fix = f"did you mean {' or '.join(near)}?" if near else "choose one of the library's records"
-        return MotionError(Issue("record", "there is no record of this name", name, fix))
+        return MotionError(Issue("record", "no record has this name", name, fix))
 
 
 def _summary(motion: Motion) -> Summary:

@@ -1,4 +1,4 @@
-"""What a format reader finds in a file, before units and checks."""
+"""The content of a record file as a format reader returns it, before units and checks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from rths_engine.foundation.arrays import Array
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """Samples in the file's unit. `unit` and `dt` (s) are None where the file does not say; `channels` names all there are."""
+    """Samples in the unit of the file. `unit` and `dt` (s) are None where the file does not state them.
+
+    `channels` has the names of all channels in the file.
+    """
 
     samples: Array
     format: str

@@ -1,4 +1,4 @@
-"""Reads a record file of any known format, found by its content."""
+"""Read a record file of any known format; the content decides the format."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ def read(
     format: str | None = None,
     channel: int = 1,
 ) -> Motion:
-    """The motion in a file, named after it. `unit` and `dt` (s) serve where the file does not say; `format` is one of FORMATS.
+    """The motion in a file, named after the file. `unit` and `dt` (s) are used where the file does not state them.
 
-    Raises MotionError with every issue found: what, where, value, bound and how to mend it.
+    `format` is a key of FORMATS. Raises MotionError with every issue: what, where, value, bound and how to mend it.
     """
     parsed = _parsed(raw, filename, format, channel)
     acceleration, step = checked(parsed, unit, dt)
@@ -45,19 +45,19 @@ def read(
 
 
 def channels(raw: bytes, filename: str, format: str | None = None) -> tuple[str, ...]:
-    """Names of the acceleration channels in a file, in the order `channel` counts them from 1."""
+    """Names of the acceleration channels in a file, in the order of the numbers of `channel`, from 1."""
     return _parsed(raw, filename, format, 1).channels or ("acceleration",)
 
 
 def check_size(size: int) -> None:
-    """Raises MotionError for a file of more bytes than any record has."""
+    """Raises MotionError for a file that is larger than the limit."""
     if size > _LARGEST_FILE:
         raise MotionError(Issue("file", f"is larger than {_LARGEST_FILE:,} bytes", size, "cut or resample the record"))
 
 
 def _parsed(raw: bytes, filename: str, format: str | None, channel: int) -> Parsed:
     if format is not None and format not in FORMATS:
-        raise MotionError(Issue("format", "is no known format", format, "choose one of " + ", ".join(FORMATS)))
+        raise MotionError(Issue("format", "is not a known format", format, "choose one of " + ", ".join(FORMATS)))
     check_size(len(raw))
     lines = lines_of(raw)
     found = format or _detected(lines, filename)
@@ -71,7 +71,7 @@ def _parsed(raw: bytes, filename: str, format: str | None, channel: int) -> Pars
 
 
 def _detected(lines: list[str], filename: str) -> str:
-    """The format by content; text that is no format at all is reported as the one its name promises."""
+    """The format according to the content. For text of no known format: the format of its file name."""
     if cosmos.looks_like(lines):
         return "cosmos"
     if at2.looks_like(lines):

@@ -1,4 +1,4 @@
-"""One ground-motion record: acceleration at equal steps, with where it comes from."""
+"""One ground-motion record: acceleration at equal steps, with its origin."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rths_engine.foundation.errors import Issue, MotionError
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Ground acceleration (m/s^2, read-only) every `dt` (s); sample i is at i * dt, linear in between."""
+    """Ground acceleration (m/s^2, read-only) every `dt` (s). Sample i is at i * dt; linear between samples."""
 
     name: str
     title: str
@@ -56,7 +56,7 @@ class Motion:
         return (len(self.acceleration) - 1) * self.dt
 
     def resampled(self, dt: float, duration: float | None = None) -> Motion:
-        """The same motion every `dt` (s) up to `duration`: linear between samples, zero after the record's end."""
+        """The same motion every `dt` (s) up to `duration` (s): linear between samples, zero after the end of the record."""
         count = int(np.floor((self.duration if duration is None else duration) / dt + 1e-9)) + 1
         own = np.arange(len(self.acceleration)) * self.dt
         times = np.arange(count) * dt
@@ -69,6 +69,6 @@ class Motion:
 
 
 def slug(text: str) -> str:
-    """A record name made of `text`: lower-case letters, digits and hyphens, at most 80."""
+    """A record name made from `text`: at most 80 lower-case letters, digits and hyphens."""
     plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().lower()
     return re.sub(r"[^a-z0-9]+", "-", plain).strip("-")[:80].strip("-") or "motion"

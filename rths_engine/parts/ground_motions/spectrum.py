@@ -1,8 +1,8 @@
 """Pseudo-acceleration response spectrum Sa = w^2 max |u| of u'' + 2 d w u' + w^2 u = -a(t), u at rest before the record.
 
 Exact for acceleration that is linear between samples, as Nigam and Jennings (1969, BSSA 59, 909-922), here in complex form:
-z = v - conj(p) u with p = w (-d + i sqrt(1 - d^2)) obeys one first-order recurrence, run as a digital filter. The peak is taken
-at points at most T/20 apart (a peak between them is at most 1.3 % higher) and over one period after the record.
+z = v - conj(p) u with p = w (-d + i sqrt(1 - d^2)) obeys one first-order recurrence, which runs as a digital filter. The peak
+is taken at points at most T/20 apart (a peak between them is at most 1.3 % higher), up to one period after the record.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from rths_engine.parts.ground_motions.record import Motion
 
 # chosen; see docs/decisions/0023
 _POINTS_A_PERIOD = 20
-_FINEST = 32  # parts of one step: below dt / 2 the response follows the record, so finer finds no higher peak
+_FINEST = 32  # parts of one step: for periods below dt / 2 the response follows the record, and finer parts give no higher peak
 
 
 def response_spectrum(acceleration: ArrayLike, dt: float, periods: ArrayLike, damping: float = 0.05) -> Array:
@@ -57,7 +57,7 @@ def _displacement(samples: Array, w: float, damping: float) -> Array:
 
     u = Im z / Im p, where z' = p z - a in time counted in steps.
     """
-    from scipy.signal import lfilter  # a second of import, which a run that scales by a factor is spared
+    from scipy.signal import lfilter  # imported here: it takes 1 s, which a run with a scale factor does not need
 
     pole = w * complex(-damping, np.sqrt(1 - damping**2))
     grown = np.expm1(pole)

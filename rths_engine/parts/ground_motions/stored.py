@@ -1,4 +1,4 @@
-"""A record as a file of the library: one .npz with the samples and, readable alone, what describes them."""
+"""A record as a file of the library: one .npz with the samples and a description that can be read without the samples."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _DAMAGE = (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFil
 
 
 def save(folder: Path, motion: Motion) -> None:
-    """Write `motion` to `folder` whole or not at all. FileExistsError when its name is taken."""
+    """Write `motion` to `folder` completely or not at all. Raises FileExistsError when its name is in use."""
     folder.mkdir(parents=True, exist_ok=True)
     target = folder / f"{motion.name}{SUFFIX}"
     with files.temporary(target) as written:
         with written.open("wb") as file:
             np.savez_compressed(file, meta=np.array(json.dumps(_description(motion))), acceleration=motion.acceleration)
         files.sync(written)
-        os.link(written, target)  # unlike a rename, fails when the name is taken
+        os.link(written, target)  # unlike a rename, this fails when the name is in use
         files.sync(folder)
 
 
@@ -43,12 +43,12 @@ def load(path: Path) -> Motion:
     except (*_DAMAGE, MotionError) as error:
         raise _damaged(path, error) from None
     if motion.sha256 != about["sha256"]:
-        raise _damaged(path, "its checksum is not the one it was stored with")
+        raise _damaged(path, "its checksum differs from the stored checksum")
     return motion
 
 
 def describe(path: Path) -> dict[str, Any]:
-    """Title, origin, step, duration and so on without reading the samples. Raises MotionError when the file is damaged."""
+    """Title, origin, step, duration and so on, read without the samples. Raises MotionError when the file is damaged."""
     try:
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             return _about(file)
@@ -65,7 +65,7 @@ def _description(motion: Motion) -> dict[str, Any]:
 def _about(file: Any) -> dict[str, Any]:
     about: dict[str, Any] = json.loads(str(file["meta"]))
     if about["schema"] != _SCHEMA:
-        raise ValueError(f"its form is {about['schema']}, not {_SCHEMA}")
+        raise ValueError(f"its format is {about['schema']}, not {_SCHEMA}")
     return about
 
 

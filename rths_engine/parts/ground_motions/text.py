@@ -1,4 +1,4 @@
-"""From bytes to lines, and from lines to numbers, with the line number in every error."""
+"""Conversion of bytes to lines and of lines to numbers, with the line number in every error."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def lines_of(raw: bytes) -> list[str]:
     if control or raw.startswith(b"%PDF"):
         where = f"byte {control.start()}" if control else "file"
         fix = "give the record as text: PEER AT2, COSMOS V2 or plain columns"
-        raise MotionError(Issue(where, "is binary content, not a text file", fix=fix))
+        raise MotionError(Issue(where, "is binary, not text", fix=fix))
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -32,13 +32,13 @@ def lines_of(raw: bytes) -> list[str]:
     lines = text.replace("\x1a", "").splitlines()
     for number, line in enumerate(lines, start=1):
         if len(line) > _LONGEST_LINE:
-            problem = f"has {len(line)} characters; at most {_LONGEST_LINE} fit a line"
+            problem = f"has {len(line)} characters; a line takes at most {_LONGEST_LINE}"
             raise MotionError(Issue(f"line {number}", problem, fix="write a few numbers on each line"))
     return lines
 
 
 def value(token: str) -> float | None:
-    """`token` as a number, Fortran's D exponent included; None where it is none."""
+    """`token` as a number, also with Fortran's D exponent; None where it is not a number."""
     try:
         return float(token.replace("D", "E").replace("d", "e")) if "_" not in token else None
     except ValueError:
@@ -46,13 +46,13 @@ def value(token: str) -> float | None:
 
 
 def numbers(line: str, where: str, width: int = 0) -> list[float]:
-    """The numbers of a line, also where fixed columns of `width` touch. Raises MotionError naming what is no number."""
+    """The numbers of a line, also where fixed columns of `width` touch. Raises MotionError for text that is not a number."""
     line = line.rstrip()
     if not width and "_" not in line:
         try:
             return [float(token) for token in line.split()]
         except ValueError:
-            pass  # the slow way below reads touching numbers and D exponents, or says what is wrong
+            pass  # the slower code below reads touching numbers and D exponents, or reports the error
     if width:
         tokens = [field for start in range(0, len(line), width) if (field := line[start : start + width].strip())]
     else:
@@ -65,11 +65,12 @@ def numbers(line: str, where: str, width: int = 0) -> list[float]:
             continue
         parts = _GLUED.findall(token)
         if len(parts) < 2 or "".join(parts) != token:
-            raise MotionError(Issue(where, "is no number", token, "mend or remove it: after the header there are numbers only"))
+            fix = "correct or remove it: only numbers can follow the header"
+            raise MotionError(Issue(where, "is not a number", token, fix))
         found += [float(part.replace("D", "E").replace("d", "e")) for part in parts]
     return found
 
 
 def block(lines: Iterable[tuple[int, str]], width: int = 0) -> list[float]:
-    """All numbers of (line number, line) pairs."""
+    """All numbers in pairs of line number and line."""
     return [number for at, line in lines for number in numbers(line, f"line {at}", width)]

@@ -1,4 +1,4 @@
-"""Acceleration units as headers write them."""
+"""Acceleration units as they are written in headers."""
 
 from __future__ import annotations
 
@@ -20,14 +20,15 @@ _WRITTEN = (
 
 
 def unit_in(text: str) -> str | None:
-    """The acceleration unit that `text` names, None where it names none or more than one."""
+    """The acceleration unit that `text` names; None where it names no unit or several units."""
     found = [unit for unit, pattern in _WRITTEN if pattern.search(text)]
     return found[0] if len(found) == 1 else None
 
 
 def checked_unit(unit: str) -> str:
-    """`unit` when it is one of acceleration. Raises MotionError listing those there are."""
+    """`unit`, where it is a unit of acceleration. Raises MotionError with a list of these units otherwise."""
     plain = units.named(unit)
     if plain is None or plain not in ACCELERATION_UNITS:
-        raise MotionError(Issue("unit", "is no unit of acceleration", unit, "choose one of " + ", ".join(ACCELERATION_UNITS)))
+        fix = "choose one of " + ", ".join(ACCELERATION_UNITS)
+        raise MotionError(Issue("unit", "is not a unit of acceleration", unit, fix))
     return plain

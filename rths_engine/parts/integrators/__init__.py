@@ -1,4 +1,4 @@
-"""Integrators: parts that turn M, C, K into the scheme that the loop steps."""
+"""Integrators: parts that convert M, C and K to the scheme that the loop executes."""
 
 from typing import Annotated
 

@@ -14,9 +14,9 @@ class CentralDifference(Stepping):
 
     M (x[i+1] - 2 x[i] + x[i-1]) / dt^2 + C (x[i+1] - x[i-1]) / (2 dt) + r[i] = F[i]
 
-    With w[i] = (x[i+1] - x[i]) / dt: (M + dt/2 C) (w[i] - w[i-1]) / dt = F[i] - C w[i-1] - r[i]. These are the displacements
-    of explicit Newmark, to rounding; laboratories know it by either name. Second order; stable while omega dt <= 2 in every
-    mode, so that every degree of freedom needs mass.
+    With w[i] = (x[i+1] - x[i]) / dt: (M + dt/2 C) (w[i] - w[i-1]) / dt = F[i] - C w[i-1] - r[i]. The displacements equal those
+    of explicit Newmark except for rounding; laboratories use both names. Second order; stable while omega dt <= 2 in every
+    mode, so every degree of freedom needs mass.
     Source: Takanashi et al. (1975), Bull. Earthquake Resistant Structure Research Center 8; Chopra, section 5.3.
     """
 

@@ -19,10 +19,11 @@ class KrAlphaIntegrator(Stepping):
     alpha_1 = inv(M + X) M,  alpha_3 = inv(M + X) (alpha_m M + alpha_f X),  X = gamma dt C + beta dt^2 K
     alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),  gamma = 1/2 - alpha_m + alpha_f,  beta = (1/2 + gamma)^2 / 4
 
-    rho is the spectral radius at high frequency: 1 dissipates nothing and is CR, 0 annihilates the highest modes in a step.
-    With A = alpha_1 a, and M inv(M + X) X symmetric, this is D A[i] = (1 - alpha_f) R[i] + alpha_f R[i-1] - E A[i-1] with
-    D = (1 - alpha_m) M + (1 - alpha_f) X and E = alpha_m M + alpha_f X, so that massless degrees of freedom are allowed.
-    Explicit, second order, unconditionally stable for linear elastic systems. Fails first when the tangent stiffness exceeds K.
+    rho is the spectral radius at high frequency. rho = 1 has no dissipation and equals CR; rho = 0 removes the highest modes in
+    one step. With A = alpha_1 a, and M inv(M + X) X symmetric, the equations become
+    D A[i] = (1 - alpha_f) R[i] + alpha_f R[i-1] - E A[i-1], D = (1 - alpha_m) M + (1 - alpha_f) X, E = alpha_m M + alpha_f X,
+    so massless degrees of freedom are allowed.
+    Explicit, second order, unconditionally stable for linear elastic systems. Not valid when the tangent stiffness exceeds K.
     Source: Kolay and Ricles (2014), EESD 43, 1361-1380.
     """
 

@@ -1,4 +1,4 @@
-"""What every integrator has: its step, and the substeps of the command ramp."""
+"""The fields that every integrator has: its step, and the substeps of the command ramp."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rths_engine.parts.integrators.scheme import Scheme
 
 
 class Stepping(Value):
-    """An integrator. `build` gives its scheme from M (kg), C (N s/m), K (N/m), each (n, n), with the stations' equivalents."""
+    """An integrator. `build` returns its scheme for M (kg), C (N s/m), K (N/m), (n, n) each, with the stations' equivalents."""
 
     dt: float = quantity("Integration step Δt", "s", "ms", gt=0, le=0.1, default=10 / 1024)
     substeps: int = quantity(

@@ -1,4 +1,4 @@
-"""Left-out effects: physics that a model can be extended by, one a file, by the component they belong to."""
+"""Left-out effects: physics that can be added to a model. One file for each effect, one folder for each component."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""A signal late by a fraction of substeps, or early by extrapolation."""
+"""Delay of a signal by a fraction of a substep or more; a negative delay extrapolates the signal."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled
 
-HEAD = 2  # places in the state before the ring: that of the newest sample, whether it has begun
+HEAD = 2  # entries of the state before the ring: index of the newest sample, and 1 after the first substep
 
 
 def ring(longest: float, dt: float) -> Array:
-    """State that remembers a signal for `longest` seconds."""
+    """State that stores a signal over `longest` seconds."""
     return np.zeros(HEAD + math.ceil(max(longest, 0.0) / dt) + 2)
 
 
 @compiled
 def delayed(s, length, y, late):
-    """Signal y as it was `late` substeps ago, linear in between; for late < 0 on its last slope.
+    """Signal y as it was `late` substeps ago, linear between substeps. For late < 0 it is extrapolated along its last slope.
 
-    `length` is that of the part of the ring in use.
+    `length` is the number of samples of the ring in use.
     """
     if s[1] == 0.0:
         s[HEAD : HEAD + length] = y

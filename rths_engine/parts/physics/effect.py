@@ -1,4 +1,4 @@
-"""What every left-out effect is: a part nested in its component, which vanishes at its neutral values."""
+"""A left-out effect: a part nested in a component of the plan. At its neutral values it changes nothing."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ COMMAND, PISTON, INPUT, SERIES, FORCE, X_SENSOR, F_SENSOR, STOREY, PART, MATRICE
 
 
 class Effect(Part):
-    """What every left-out effect is: a part nested in its component, which vanishes at its neutral values.
+    """A left-out effect: a part nested in a component of the plan. At its neutral values it changes nothing.
 
-    A left-out effect. `step(p, s, y, x, v, w, t, dt) -> y` replaces the signal y at its `hook`:
+    `step(p, s, y, x, v, w, t, dt) -> y` replaces the signal y at the effect's `hook`:
 
     COMMAND   y compensated command, x and v of the piston at the last substep, w force on it
     PISTON    y piston displacement, x and v of the command it follows, w force on it
-    INPUT     y displacement that reaches the specimen, x and v of the piston, w specimen's force at the last substep
+    INPUT     y displacement that reaches the specimen, x and v of the piston, w force of the specimen at the last substep
     SERIES    y flexibility (m/N) before the specimen, which the loop solves with it
-    FORCE     y specimen's force, x and v of the end that INPUT left, w current (1 where none is known)
+    FORCE     y force of the specimen, x and v of the specimen's end after INPUT, w current (1 where the current is not known)
     X_SENSOR  y displacement reading; F_SENSOR  y force reading; x and v of the piston, w the true value
-    STOREY    y becomes a force against the drift of a storey, from 0; x and v of the drift, w its elastic force
+    STOREY    y force against the drift of a storey, 0 on entry; x and v of the drift, w elastic force of the storey
 
-    t time (s) of the substep, dt (s). With the `neutral` values `step` returns y to rounding. Effects without a step change
-    something before the run: PART by `amended`, MATRICES by `assembled`, GROUND by `shaken`.
+    t is the time (s) of the substep and dt (s) its length. With the `neutral` values `step` returns y, except for rounding.
+    Effects without a step act before the run: PART by `amended`, MATRICES by `assembled`, GROUND by `shaken`.
     """
 
     hook: ClassVar[int]
@@ -35,7 +35,7 @@ class Effect(Part):
 
     @property
     def id(self) -> str:
-        """Its name in plans and diagnoses, unique within a component."""
+        """The name of the effect in plans and diagnoses, unique within a component."""
         return str(type(self).model_fields["kind"].default)
 
     @staticmethod
@@ -56,7 +56,7 @@ class Effect(Part):
 
 
 def amended(part: Part, effects: Sequence[Effect]) -> Part:
-    """A component's part with what PART effects change of it."""
+    """The component's part after all its PART effects."""
     for effect in effects:
         if effect.hook == PART:
             part = effect.amended(part)

@@ -1,4 +1,4 @@
-"""A change in time, continuous in its moment so that a fit can move it."""
+"""A change at one moment, continuous in the moment, so that a fit can move the moment."""
 
 from __future__ import annotations
 
@@ -7,5 +7,5 @@ from rths_engine.foundation.kernel import compiled
 
 @compiled
 def past(t, moment, dt):
-    """Share of the substep that ends at t which lies after `moment`: 0 before, 1 after."""
+    """Share, 0 to 1, of the substep ending at t that lies after `moment`."""
     return min(max((t - moment) / dt, 0.0), 1.0)

@@ -1,4 +1,4 @@
-"""What follows from a component's list of searches: its laws in the order of their codes, and their union for plans."""
+"""Lists that follow from a component's searches: its laws in the order of their codes, and the union type for plans."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from rths_engine.parts.physics.search import Search
 
 
 def laws(searches: Sequence[Search[Any]]) -> tuple[type[Effect], ...]:
-    """The laws of the effects that the searches look for, in their order."""
+    """The law of each search, in the order of the searches."""
     return tuple(search.effect for search in searches)
 
 
 def union(kinds: Sequence[type[Effect]]) -> Any:
-    """The type of a plan's field: told apart by `kind`, and effects of one kind by `channel`."""
+    """The type of a plan's field: `kind` selects the class; `channel` selects it among classes of the same kind."""
     alike: dict[str, list[type[Effect]]] = {}
     for kind in kinds:
         alike.setdefault(kind.model_fields["kind"].default, []).append(kind)
-    return _told_apart("kind", [_told_apart("channel", same) for same in alike.values()])
+    return _discriminated("kind", [_discriminated("channel", same) for same in alike.values()])
 
 
-def _told_apart(field: str, kinds: Sequence[Any]) -> Any:
+def _discriminated(field: str, kinds: Sequence[Any]) -> Any:
     return kinds[0] if len(kinds) == 1 else Annotated[reduce(or_, kinds), Field(discriminator=field)]

@@ -1,4 +1,4 @@
-"""How a diagnosis searches for a left-out effect: apart from the law, which knows nothing of it."""
+"""How a diagnosis searches for a left-out effect. The law of the effect does not depend on its search."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from rths_engine.parts.physics.effect import Effect
 
 # chosen; see docs/decisions/0023
 TINY = 1e-12
-UNSURE = 0.5  # of the logarithm of a number
-PRESLIDING = 0.02  # of the stroke: friction that builds up over more is rather a hysteresis of its own
+UNSURE = 0.5  # standard deviation of the logarithm of a number
+PRESLIDING = 0.02  # share of the stroke: friction that builds up over a longer displacement is more likely hysteresis
 E = TypeVar("E", bound=Effect)
 
 
 class Seen(NamedTuple):
-    """Sizes of what a component went through (SI): from them an effect's own are guessed."""
+    """Amplitudes that a component went through (SI); the start values of an effect are derived from them."""
 
     x: float  # largest displacement
     v: float  # largest velocity
-    f: float  # largest force (of a structure: of a storey)
+    f: float  # largest force (for a structure: of a storey)
     time: float  # duration
-    energy: float  # dissipated, sum of |f v| dt
+    energy: float  # dissipated energy, sum of |f v| dt
     dt: float
-    storey: int = 1  # of a structure, from 1: x and v are of its drift
+    storey: int = 1  # storey of a structure, from 1; x and v are those of its drift
 
     @property
     def stiffness(self) -> float:
@@ -34,15 +34,15 @@ class Seen(NamedTuple):
 
     @property
     def acceleration(self) -> float:
-        """Largest, of a harmonic motion of this displacement and velocity."""
+        """Largest acceleration of a harmonic motion with this displacement and velocity."""
         return self.v * self.v / max(self.x, TINY)
 
 
 class Search(Generic[E]):
     """How a diagnosis searches for one effect; `effect` is the class of its law.
 
-    `needs` are the roles that have to be recorded, `relatives` the ids of effects that resemble it in a recording. A fit leaves
-    the `held` numbers where they are, and `otherwise` says what these may as well be. A sentence of a diagnosis reads:
+    `needs` are the roles that must be recorded. `relatives` are the ids of effects that look similar in a recording. A fit does
+    not change the `held` numbers; `otherwise` gives another plausible value for each of them. A sentence of a diagnosis reads:
     "The specimen {says}: {noun} was left out."
     """
 
@@ -56,30 +56,30 @@ class Search(Generic[E]):
         self.effect = effect
 
     def guesses(self, seen: Seen) -> Iterator[E]:
-        """Values to look for the effect with: a few sizes that would show in such a recording."""
+        """Start values for the fit of the effect: a few sizes that would be visible in the recording."""
         raise NotImplementedError
 
     def doubt(self, effect: E, seen: Seen) -> float:
-        """-2 ln of the prior odds of such numbers, beside those that are common."""
+        """-2 ln of the prior odds of these numbers against common ones."""
         return 0.0
 
     def says(self, effect: E) -> str:
-        """What the effect does, with its size and unit: the middle of the sentence of a diagnosis."""
+        """What the effect does, with its size and unit: the verb phrase of a diagnosis' sentence."""
         raise NotImplementedError
 
     def sized(self, **sizes: float) -> E:
-        """The effect with sizes moved into their bounds: a recording may hold anything."""
+        """The effect with `sizes`, each moved into the bounds of its field: a recording can give sizes out of range."""
         fields = self.effect.model_fields
         return self.effect(**{name: _within(size, fields[name].metadata) for name, size in sizes.items()})
 
     def times(self, effect: E, share: float) -> E:
-        """The effect with a share of its size, where that is told from zero."""
+        """The effect with `share` times those of its numbers whose neutral value is 0."""
         fields, zeros = self.effect.model_fields, [name for name, neutral in effect.neutral.items() if neutral == 0.0]
         return effect.model_copy(update={name: _within(share * getattr(effect, name), fields[name].metadata) for name in zeros})
 
 
 def beyond(size: float, most: float) -> float:
-    """-2 ln of how likely a positive number is beyond `most`: normal in its logarithm, with a deviation of UNSURE."""
+    """-2 ln of the relative likelihood of a number above `most`: normal in its logarithm, standard deviation UNSURE."""
     return max(0.0, math.log(max(size, TINY) / max(most, TINY)) / UNSURE) ** 2
 
 

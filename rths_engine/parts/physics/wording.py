@@ -1,4 +1,4 @@
-"""Sizes as a sentence says them."""
+"""Text of a size for a sentence."""
 
 from __future__ import annotations
 

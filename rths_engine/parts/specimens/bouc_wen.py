@@ -12,13 +12,13 @@ from rths_engine.foundation.kernel import compiled
 from rths_engine.foundation.part import Part, quantity
 
 # chosen; see docs/decisions/0023
-SATURATED = 20.0  # yield displacements of one move after which zeta is at its asymptote, within exp(-20 + 1)
-SLIPPING = 1.0 - 1e-9  # of the asymptote
+SATURATED = 20.0  # yield displacements: after a longer move zeta equals its asymptote within exp(-20 + 1)
+SLIPPING = 1.0 - 1e-9  # share of the asymptote
 
 
 @compiled
 def _slope(zeta, way, n, eta):
-    """x_y d zeta / dx while x moves in the sense of `way`, 1 or -1."""
+    """x_y d zeta / dx while x moves in the direction `way`, 1 or -1."""
     turned = eta if zeta * way > 0.0 else -eta
     return 1.0 - abs(zeta) ** n * (turned + 1.0 - eta)
 
@@ -27,7 +27,7 @@ def _slope(zeta, way, n, eta):
 def moved(zeta, ratio, n, eta):
     """Hysteretic variable zeta after a move of `ratio` yield displacements.
 
-    Classical Runge-Kutta in parts below 0.5 / n.
+    Classical Runge-Kutta integration in parts shorter than 0.5 / n.
     """
     move = min(max(ratio, -SATURATED), SATURATED)
     way = 1.0 if move >= 0.0 else -1.0
@@ -50,13 +50,14 @@ class BoucWen(Part):
 
     f = r k x + (1 - r) f_y zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta)),  x_y = f_y / k
 
-    k initial stiffness, r post-yield ratio, f_y yield force, n sharpness of the yield, eta = beta / (beta + gamma) fullness of
-    the unloading: 0.5 unloads straight with k; from 0.5 to 1 every cycle dissipates. Rate-independent, so integrated over the
-    displacement, by classical Runge-Kutta in as many parts as keep each below 0.5 x_y / n.
+    k is the initial stiffness, r the post-yield ratio, f_y the yield force, n the sharpness of yielding and
+    eta = beta / (beta + gamma) the fullness of the unloading: eta = 0.5 unloads in a straight line with k, and from 0.5 to 1
+    every cycle dissipates. The model is rate-independent. It is integrated over the displacement by classical Runge-Kutta in
+    parts shorter than 0.5 x_y / n.
     x (m), f (N). State: s[0] last displacement (m), s[1] zeta. Monotonic from rest: zeta = 1 - exp(-x/x_y) for n = 1 and
     tanh(x/x_y) for n = 2.
-    Fails first in small cycles after partial unloading, where the force drifts instead of closing the loop (no Drucker
-    stability), and where strength degrades.
+    Not valid in small cycles after partial unloading, where the force drifts and the loop does not close (no Drucker
+    stability), or where strength degrades.
     Source: Wen (1976), "Method for random vibration of hysteretic systems", J. Eng. Mech. Div. ASCE 102, 249-263.
     """
 

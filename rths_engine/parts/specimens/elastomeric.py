@@ -20,10 +20,10 @@ class Elastomeric(Part):
     f = k x + sum of f_i,  f_i' = k_i v - f_i / tau_i   (generalised Maxwell model, 1 to 4 branches)
 
     At frequency omega: storage stiffness k + sum k_i (omega tau_i)^2 / (1 + (omega tau_i)^2), loss stiffness
-    sum k_i omega tau_i / (1 + (omega tau_i)^2); a cycle dissipates pi X^2 times the loss stiffness. Exact for a displacement
+    sum k_i omega tau_i / (1 + (omega tau_i)^2). A cycle dissipates pi X^2 times the loss stiffness. Exact for a displacement
     that is linear between substeps: f_i[q] = e_i f_i[q-1] + k_i (tau_i / dt) (1 - e_i) (x[q] - x[q-1]), e_i = exp(-dt / tau_i).
     x (m), f (N). State: s[0] last displacement (m), s[1 to 4] branch forces (N).
-    Fails first at large strain, where the rubber softens with amplitude (Payne effect) and with its own heat.
+    Not valid at large strain, where the rubber softens with amplitude (Payne effect) and with temperature.
     Source: Christensen (1982), "Theory of Viscoelasticity", 2nd ed., Academic Press.
     """
 
@@ -41,9 +41,7 @@ class Elastomeric(Part):
     def _paired(self) -> Elastomeric:
         stiffnesses, times = len(self.branch_stiffnesses), len(self.relaxation_times)
         if stiffnesses != times:
-            raise ValueError(
-                f"has {stiffnesses} branch stiffnesses and {times} relaxation times: give one of each for a branch"
-            )
+            raise ValueError(f"has {stiffnesses} branch stiffnesses and {times} relaxation times: give both for each branch")
         return self
 
     def build(self, dt: float) -> tuple[Array, Array]:

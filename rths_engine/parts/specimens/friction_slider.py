@@ -13,12 +13,13 @@ from rths_engine.foundation.part import Part, quantity
 class FrictionSlider(Part):
     """Friction slider with slack.
 
-    f = k sgn(u) max(|u| - g, 0),  u = x - x_s;  the slider x_s follows so that |f| <= f_s
+    f = k sgn(u) max(|u| - g, 0),  u = x - x_s;  the slider x_s moves so that |f| <= f_s
 
-    A Coulomb slider (slip force f_s) behind a spring k and a slack (free play g each way, as of worn pins). Exact return
-    mapping; rate-independent. A closed cycle of amplitude X dissipates 4 f_s (X - g - f_s / k), or nothing while X is smaller.
+    A Coulomb slider (slip force f_s) in series with a spring k and a slack (free play g in each direction, as in worn pins).
+    Exact return mapping; rate-independent. A closed cycle of amplitude X dissipates 4 f_s (X - g - f_s / k), or nothing for a
+    smaller X.
     x (m), f (N). State: s[0] slider displacement (m).
-    Fails first where static friction exceeds kinetic friction (stick-slip) and where impact at the end of the slack matters.
+    Not valid where static friction exceeds kinetic friction (stick-slip) and where impact at the end of the slack matters.
     Source: Coulomb's law with the spring-slider element of Iwan (1966), J. Appl. Mech. 33, 893-900, and a symmetric gap.
     """
 

@@ -16,13 +16,14 @@ class HyperbolicTangent(Part):
 
     f = k x + c v + f_0 tanh(v / v_0 + x / x_0),  v the displacement increment over dt
 
-    f_0 yield force, v_0 velocity scale of the yield, x_0 displacement scale of the pre-yield hysteresis; a large x_0 leaves it
-    out. Explicit: no equation to solve. Energy of a cycle at least pi c omega X^2, at most 4 f_0 X more.
+    f_0 is the yield force, v_0 the velocity scale of yielding and x_0 the displacement scale of the pre-yield hysteresis. A
+    large x_0 removes this hysteresis. The force is explicit: no equation must be solved. A cycle dissipates at least
+    pi c omega X^2, and at most 4 f_0 X more.
     x (m), f (N). State: s[0] last displacement (m).
-    Fails first where the force depends on the path and not on x and v alone: stops, restarts, small cycles off centre.
+    Not valid where the force depends on the path and not only on x and v: stops, restarts, small cycles away from the centre.
     Source: after Kwok et al. (2006), "A novel hysteretic model for magnetorheological fluid dampers and parameter
-    identification using particle swarm optimization", Sens. Actuators A 132, 441-451, with x / x_0 for their delta sgn(x),
-    whose force jumps at x = 0.
+    identification using particle swarm optimization", Sens. Actuators A 132, 441-451, with x / x_0 instead of
+    delta sgn(x), whose force jumps at x = 0.
     """
 
     kind: Literal["hyperbolic_tangent"] = "hyperbolic_tangent"

@@ -11,9 +11,9 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class LinearSpecimen(Part):
-    """f = k x + c v, with v the displacement increment over dt.
+    """Linear spring and dashpot in parallel: f = k x + c v, with v the displacement increment over dt.
 
-    x (m), f (N). State: s[0] last displacement (m). Fails first at any yielding, friction or slack.
+    x (m), f (N). State: s[0] last displacement (m). Not valid with yielding, friction or slack.
     """
 
     kind: Literal["linear"] = "linear"

@@ -11,13 +11,15 @@ from rths_engine.foundation.part import Part, quantity
 
 
 class MrDamper(Part):
-    """f' = k (v - f/c - v_s);   v_s = 0 while |f| <= a, else |f| = a + b |v_s|^n with v_s along f.
+    """MR damper at constant current (passive-on): Maxwell element in series with a rate-dependent slider.
 
-    Spring k and dashpot c (the Maxwell element) carry the force before yield; the slider yields at a and hardens with its
-    velocity by b and n. Solved implicitly (backward Euler) in w = |v_s|^n, where the residual
-    F0 - a - b w - k' dt w^(1/n) is concave and falling, so that Newton's method from its right converges monotonically.
+    f' = k (v - f/c - v_s);   v_s = 0 while |f| <= a, else |f| = a + b |v_s|^n with v_s along f
+
+    The spring k and the dashpot c (the Maxwell element) deform before yield. The slider yields at the force a and hardens with
+    its velocity by b and n. The equation is solved implicitly (backward Euler) in w = |v_s|^n. Its residual
+    F0 - a - b w - k' dt w^(1/n) is concave and decreasing, so Newton's method converges monotonically from the right.
     x (m), f (N). State: s[0] last displacement (m), s[1] force (N).
-    Fails first when the current changes, when the fluid heats, and at strokes where the accumulator stiffens.
+    Not valid when the current changes, when the fluid heats up, or at strokes where the accumulator stiffens.
     Form and values after Chae, Ricles and Sause (2013), "Modeling of a large-scale magneto-rheological damper for seismic
     hazard mitigation. Part I: Passive mode", EESD 42, 669-685, for 2.5 A.
     """

@@ -1,4 +1,4 @@
-"""Structures: parts whose `assemble()` gives matrices, floors, storey drifts and inelastic members."""
+"""Structures: parts whose `assemble()` returns matrices, floors, storey drifts and inelastic members."""
 
 from typing import Annotated
 

@@ -12,10 +12,10 @@ from rths_engine.parts.structures.modes import MECHANISM
 
 
 def condensed(stiffness: Array, kept: NDArray[np.int64]) -> Array:
-    """K_c = inv(F_kk) with F = inv(K): the stiffness (N/m) that the degrees of freedom `kept` see when no other is loaded.
+    """K_c = inv(F_kk) with F = inv(K): the stiffness (N/m) of the degrees of freedom `kept`, with no load on the others.
 
-    Exact in a linear run from rest with C = a0 M + a1 K, when mass, ground motion and stations act on the kept ones alone:
-    every other one then follows statically, x_s = -inv(K_ss) K_sk x_k. Fails first when a member yields.
+    Exact in a linear run from rest with C = a0 M + a1 K, when mass, ground motion and stations act on the kept degrees of
+    freedom only: the others then follow statically, x_s = -inv(K_ss) K_sk x_k. Not valid when a member yields.
     Raises PlanError for a mechanism.
     Source: Guyan (1965), AIAA J. 3, 380; Chopra, Dynamics of Structures, section 9.3.
     """

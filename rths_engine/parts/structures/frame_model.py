@@ -1,4 +1,4 @@
-"""A plane frame as nodes, members, bars and springs, and its matrices."""
+"""A plane frame made of nodes, members, bars and springs, and its matrices."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.structures.assembled import Members
 
-# three-point Lobatto rule on (0, 1), and curvature times length of the two end rotations at its points
+# three-point Lobatto rule on (0, 1), and curvature times length from the two end rotations at its points
 WEIGHTS = np.array([1.0, 4.0, 1.0]) / 6
 CURVATURE = np.array([[-4.0, -2.0], [-1.0, 1.0], [2.0, 4.0]])
 
@@ -29,7 +29,10 @@ class Member:
 
 @dataclass
 class FrameModel:
-    """Degrees of freedom are numbered as nodes come; -1 is supported; nodes of a diaphragm share their lateral one."""
+    """A plane frame. Degrees of freedom are numbered in the order of the nodes; -1 is supported.
+
+    All nodes of a diaphragm share one lateral degree of freedom.
+    """
 
     points: list[tuple[float, float]] = field(default_factory=list)
     dofs: list[tuple[int, int, int]] = field(default_factory=list)
@@ -78,7 +81,7 @@ class FrameModel:
         return total
 
     def rest(self) -> Array:
-        """Stiffness of bars and springs: what stays elastic."""
+        """Stiffness (n, n) of bars and springs, which stay elastic."""
         total: Array = np.zeros((self.size, self.size))
         for start, end, stiffness in self.bars:
             _, shape = self._shape(start, end)
@@ -99,7 +102,7 @@ class FrameModel:
         return row
 
     def _shape(self, start: int, end: int) -> tuple[float, Array]:
-        """Length and (3, 6) rows of elongation, start and end rotation against the chord."""
+        """Length, and rows (3, 6) for elongation, start rotation and end rotation relative to the chord."""
         dx, dy = np.subtract(self.points[end], self.points[start])
         length = float(np.hypot(dx, dy))
         c, s = dx / length, dy / length

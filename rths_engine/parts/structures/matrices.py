@@ -16,14 +16,14 @@ from rths_engine.parts.structures.modes import circular_frequencies, rayleigh
 
 # chosen; see docs/decisions/0023
 MOST_DOF = 2000
-EQUAL = 1e-9  # of the largest entry: closer entries are the same number written twice
+EQUAL = 1e-9  # of the largest entry: closer entries count as equal
 SYMBOLS = {"mass": "M", "stiffness": "K", "damping": "C"}
 Entry = Annotated[float, Field(ge=-1e18, le=1e18)]
 Row = tuple[Entry, ...]
 
 
 def _of_possible_size(rows: Any) -> Any:
-    """Refuses what is too large before each of its numbers is looked at."""
+    """Reject a matrix that is too large before its numbers are read."""
     if isinstance(rows, list | tuple) and any(len(part) > MOST_DOF for part in (rows, *rows) if isinstance(part, list | tuple)):
         raise ValueError(f"takes at most {MOST_DOF} rows of {MOST_DOF} numbers")
     return rows
@@ -33,12 +33,12 @@ Rows = Annotated[tuple[Row, ...], BeforeValidator(_of_possible_size)]
 
 
 class MatricesStructure(Value):
-    """M a + C v + K x = -M iota a_g + L^T f + F, with M (n, n), C (n, n) and K (n, n) as given.
+    """A linear structure given by its matrices: M a + C v + K x = -M iota a_g + L^T f + F.
 
-    Without C: Rayleigh damping with `damping_ratio` in modes 1 and 2. Without floors, every degree of freedom is one; without
-    iota, a ground displacement moves every floor as much and nothing else; without L, a damper of storey s works between floors
-    s - 1 and s. M and K are symmetric, K positive definite, M positive semidefinite: massless degrees of freedom are allowed.
-    Fails first when members yield. Source: Chopra, Dynamics of Structures, chapter 9.
+    M, C and K are (n, n). Defaults: C is Rayleigh damping with `damping_ratio` in modes 1 and 2; every degree of freedom is a
+    floor; iota is 1 at floors and 0 elsewhere; L places a damper of storey s between floors s - 1 and s. M and K are symmetric,
+    K is positive definite and M positive semidefinite: massless degrees of freedom are allowed.
+    Not valid when members yield. Source: Chopra, Dynamics of Structures, chapter 9.
     """
 
     kind: Literal["matrices"] = "matrices"
@@ -64,7 +64,7 @@ class MatricesStructure(Value):
     def _square(cls, rows: Rows, info: ValidationInfo) -> Rows:
         name, count = SYMBOLS[str(info.field_name)], len(info.data.get("mass", rows))
         if rows and (len(rows) != count or any(len(row) != count for row in rows)):
-            raise ValueError(f"matrix {name} needs {count} rows of {count} numbers, as many as M has rows")
+            raise ValueError(f"matrix {name} needs {count} rows of {count} numbers, because M has {count} rows")
         if rows:
             _check_symmetry(name, np.array(rows))
         return rows
@@ -94,7 +94,7 @@ class MatricesStructure(Value):
         return drifts
 
     def assemble(self) -> Assembled:
-        """The matrices as the loop takes them. Raises PlanError when it is a mechanism or mass is missing or negative."""
+        """The matrices as the loop uses them. Raises PlanError for a mechanism, and for a mass that is missing or negative."""
         return _assembled(self)
 
 
@@ -141,5 +141,5 @@ def _check_mass(mass: Array) -> None:
         raise PlanError(Issue("structure.mass", "is all zero", fix="give at least one degree of freedom mass"))
     least = float(np.linalg.eigvalsh(mass)[0])
     if least < -EQUAL * np.abs(mass).max():
-        fix = "a mass matrix has no negative eigenvalue"
+        fix = "give a mass matrix without negative eigenvalues"
         raise PlanError(Issue("structure.mass", f"has the negative eigenvalue {least:.4g} kg", fix=fix))

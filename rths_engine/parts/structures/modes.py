@@ -12,19 +12,19 @@ from rths_engine.foundation.errors import Issue, PlanError
 PROBLEM = "its stiffness matrix is singular: it is a mechanism"
 MECHANISM = Issue("structure", PROBLEM, fix="support it or raise its softest stiffness")
 DEPENDENT = Issue(
-    "structure.mass", "the mass matrix is singular", fix="give each degree of freedom mass of its own, or none at all"
+    "structure.mass", "the mass matrix is singular", fix="give each degree of freedom its own mass, or no mass at all"
 )
 WEIGHTLESS = Issue(
-    "structure", "a degree of freedom has next to no mass beside the others", fix="give it more mass, or none at all"
+    "structure", "a degree of freedom has almost no mass relative to the others", fix="give it more mass, or no mass at all"
 )
-LOST = 1e-13  # a pivot this small beside its own diagonal entry has cancelled to rounding
+LOST = 1e-13  # a pivot this small relative to its diagonal entry is rounding error: the matrix is singular
 
 
 def circular_frequencies(mass: Array, stiffness: Array) -> Array:
-    """Circular frequencies omega (rad/s), rising, of K phi = omega^2 M phi; massless DOF give none.
+    """Circular frequencies omega (rad/s), ascending, of K phi = omega^2 M phi; massless DOF have none.
 
     1/omega^2 are the eigenvalues of G^T F G, where F is the flexibility at the DOF that have mass and G G^T their mass matrix.
-    Raises PlanError for a mechanism or next to no mass.
+    Raises PlanError for a mechanism or for a mass that is almost zero.
     """
     massive = np.flatnonzero(mass.any(axis=0))
     try:
@@ -38,7 +38,7 @@ def circular_frequencies(mass: Array, stiffness: Array) -> Array:
         if not len(massive) or _lost(factor, np.diagonal(stiffness)):
             raise PlanError(MECHANISM)
         flexibility = cho_solve((factor, lower), np.eye(len(mass))[:, massive])[massive]
-        squares = eigvalsh(root.T @ flexibility @ root)  # 1 / omega^2, rising
+        squares = eigvalsh(root.T @ flexibility @ root)  # 1 / omega^2, ascending
         if not squares[0] > 0:
             raise PlanError(WEIGHTLESS)
         omega: Array = 1 / np.sqrt(squares[::-1])
@@ -48,7 +48,7 @@ def circular_frequencies(mass: Array, stiffness: Array) -> Array:
 
 
 def _lost(factor: Array, diagonal: Array) -> bool:
-    """Whether a pivot of a Cholesky factor has cancelled to rounding: the matrix is singular."""
+    """Whether a pivot of a Cholesky factor is rounding error, so that the matrix is singular."""
     return bool((np.diagonal(factor) ** 2 <= LOST * diagonal).any())
 
 

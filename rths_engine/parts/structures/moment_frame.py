@@ -20,14 +20,14 @@ from rths_engine.parts.structures.modes import circular_frequencies, rayleigh
 from rths_engine.parts.structures.sections import SECTIONS
 
 # chosen; see docs/decisions/0023
-MOST_DOF = 3000  # K is stored dense while a plan is checked
+MOST_DOF = 3000  # a check of a plan stores K as a dense matrix
 BayWidth = Annotated[float, Field(ge=0.1, le=100)]
 LEAN_AREA = 0.5  # m^2
-LEAN_INERTIA = 1e-5  # m^4, next to none
+LEAN_INERTIA = 1e-5  # m^4, almost zero
 
 
 class FrameStorey(Value):
-    """One storey: its columns, the beams of the floor on top of it, the floor's mass and the braces to its dampers."""
+    """One storey: its columns, the beams and the mass of the floor above, and the braces of its dampers."""
 
     height: float = quantity("Storey height", "m", ge=0.1, le=50)
     mass: float = quantity(
@@ -48,15 +48,17 @@ class FrameStorey(Value):
 
 
 class MomentFrame(Value):
-    """M a + C v + r(x) = F. Every member is three beam-columns in series (hinge_fraction, rest, hinge_fraction of its length).
+    """Steel moment-resisting frame with lumped yielding, lean-on column and braces.
 
-    Each beam-column: linear curvature between its ends, bilinear moment-curvature law (yield moment Z fy, second slope
-    `hardening`) at three Lobatto points, elastic axially; small displacements. Floors are rigid diaphragms. A lean-on column
-    carries all gravity loads; its P-delta effect is K_g = -P/h on the storey's drift. Braces of a storey meet in a node at its
-    top, between two elastic bars that start from the second and third column line; dampers act between node and floor.
-    Masses act on the floors' lateral displacement; rotations and vertical displacements are massless. C = a0 M + a1 K with the
-    initial K. A frame that stays elastic is condensed to its floors and brace tops, which is exact.
-    Fails first at large rotations, local buckling and axial-flexural interaction.
+    M a + C v + r(x) = F. Every member is three beam-columns in series (hinge_fraction, rest, hinge_fraction of its length).
+
+    Each beam-column has linear curvature between its ends, a bilinear moment-curvature law (yield moment Z fy, second slope
+    `hardening`) at three Lobatto points, and elastic axial stiffness; displacements are small. Floors are rigid diaphragms. A
+    lean-on column carries all gravity loads; its P-delta effect is K_g = -P/h on the drift of the storey. The braces of a
+    storey are two elastic bars from the second and third column line that meet in a node at the top of the storey. Dampers act
+    between this node and the floor. Masses act on the lateral displacement of the floors; rotations and vertical displacements
+    are massless. C = a0 M + a1 K with the initial K. A frame that stays elastic is condensed exactly to its floors and brace
+    tops. Not valid with large rotations, local buckling or axial-flexural interaction.
     Sources: Chen and Ricles (2012), EESD 41, section 4; Neuenhofer and Filippou (1997), J. Struct. Eng. 123, for the element.
     """
 
@@ -78,17 +80,19 @@ class MomentFrame(Value):
         for number, storey in enumerate(self.storeys, start=1):
             for name in (storey.column, storey.beam):
                 if name not in SECTIONS:
-                    raise ValueError(f"unknown section '{name}' in storey {number}; known are {', '.join(SECTIONS)}")
+                    raise ValueError(
+                        f"storey {number} has the unknown section '{name}'; the known sections are {', '.join(SECTIONS)}"
+                    )
             if storey.brace_stiffness and len(self.bays) < 2:
-                raise ValueError(f"storey {number} has braces, which need at least two bays")
+                raise ValueError(f"storey {number} has braces, and braces need at least two bays")
         lines = len(self.bays) + 1
         size = len(self.storeys) * (1 + 2 * lines + 6 * lines + 4 * (lines - 1))
         if size > MOST_DOF:
-            raise ValueError(f"the frame has some {size} degrees of freedom; {MOST_DOF} is the most")
+            raise ValueError(f"the frame has about {size} degrees of freedom; the maximum is {MOST_DOF}")
         return self
 
     def assemble(self) -> Assembled:
-        """The frame's matrices and members. Raises PlanError when it is a mechanism."""
+        """The matrices and members of the frame. Raises PlanError for a mechanism."""
         return _assembled(self)
 
     def model(self) -> FrameModel:
@@ -110,7 +114,7 @@ class MomentFrame(Value):
         return model
 
     def _lean_on(self, model: FrameModel, x: float, y: Array) -> None:
-        """An axially stiff, flexurally negligible column that carries the gravity load of all floors."""
+        """A column with high axial and negligible bending stiffness that carries the gravity load of all floors."""
         nodes = [model.node(x, y[0], fixed=(True, True, True))]
         nodes += [model.node(x, y[level + 1], lateral=floor) for level, floor in enumerate(model.floors)]
         axial, bending = self.elastic_modulus * LEAN_AREA, self.elastic_modulus * LEAN_INERTIA
@@ -157,7 +161,7 @@ class MomentFrame(Value):
         return found
 
     def summary(self) -> Iterator[str]:
-        """What the model consists of, in words."""
+        """Sentences about the size of the model."""
         model = self.model()
         yield f"{model.size} degrees of freedom"
         yield f"{len(model.members)} beam-columns, {len(model.bars)} brace bars"

@@ -1,4 +1,4 @@
-"""No structure: for tests of a specimen or an actuator alone."""
+"""No structure, for tests of a specimen or an actuator alone."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rths_engine.parts.structures.assembled import Assembled, no_members
 
 
 class NoStructure(Value):
-    """Nothing is computed: the station follows the drive of the plan."""
+    """No structure is computed: the station follows the drive of the plan."""
 
     kind: Literal["none"] = "none"
     title: ClassVar[str] = "No structure"

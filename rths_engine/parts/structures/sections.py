@@ -1,4 +1,4 @@
-"""Steel sections by name."""
+"""Steel sections, by name."""
 
 from __future__ import annotations
 

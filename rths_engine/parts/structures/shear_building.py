@@ -1,4 +1,4 @@
-"""Shear building: rigid floors, one lateral spring a storey."""
+"""Shear building: rigid floors and one lateral spring in each storey."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rths_engine.parts.structures.modes import circular_frequencies, rayleigh
 
 
 class Storey(Value):
-    """One storey: the floor's mass on top of a lateral spring."""
+    """One storey: a lateral spring and the mass of the floor above it."""
 
     mass: float = quantity("Floor mass", "kg", "t", gt=0, le=1e9)
     stiffness: float = quantity("Storey stiffness", "N/m", "kN/m", gt=0, le=1e13)
@@ -22,10 +22,13 @@ class Storey(Value):
 
 
 class ShearBuilding(Value):
-    """M a + C v + K x = F:  M = diag(m_j);  K tridiagonal, k_j between floors j-1 and j;  C = a0 M + a1 K (Rayleigh).
+    """Shear building: rigid floors and one lateral spring in each storey.
 
-    a0 and a1 give `damping_ratio` in the first two modes (in the only mode for one storey). x: floors relative to
-    the ground (m), n = number of storeys. Fails first when beams are flexible, members yield or P-delta matters.
+    M a + C v + K x = F:  M = diag(m_j);  K tridiagonal, k_j between floors j-1 and j;  C = a0 M + a1 K (Rayleigh)
+
+    a0 and a1 give `damping_ratio` in the first two modes, or in the only mode of a building with one storey. x (m) are the
+    displacements of the floors relative to the ground.
+    Not valid when beams are flexible, members yield or the P-delta effect matters.
     Source: Chopra, Dynamics of Structures, chapters 9 and 11.
     """
 
@@ -35,7 +38,7 @@ class ShearBuilding(Value):
     title: ClassVar[str] = "Shear building"
 
     def assemble(self) -> Assembled:
-        """The building's matrices. Raises PlanError when it is a mechanism."""
+        """The matrices of the building. Raises PlanError for a mechanism."""
         return _assembled(self)
 
 

@@ -22,12 +22,12 @@ LONGEST = 0.1  # s
 class AmplitudeDependentDelay(Effect):
     """Delay that grows with the amplitude.
 
-    y(t) = d(t - min(b a, 0.1 s)),  a = the largest |d| of late, forgotten as exp(-t / T_a)
+    y(t) = d(t - min(b a, 0.1 s)),  a = the largest recent |d|, which decays as exp(-t / T_a)
 
     The delay grows by b (s/m) with the amplitude a of the command; T_a (s) is the memory of the amplitude. Neutral: b = 0.
-    State: a, then `physics.delay`.
-    Source: Darby, Williams and Blakeborough (2002), J. Eng. Mech. 128, 1306-1314, on delays that change during a test.
-    Fails first where the delay follows the velocity or the force more than the amplitude.
+    State: a, then the ring of `physics.delay`.
+    Source: Darby, Williams and Blakeborough (2002), J. Eng. Mech. 128, 1306-1314, about delays that change during a test.
+    Not valid where the delay follows the velocity or the force more than the amplitude.
     """
 
     kind: Literal["amplitude_dependent_delay"] = "amplitude_dependent_delay"
@@ -53,10 +53,10 @@ class AmplitudeDependentDelaySearch(Search[AmplitudeDependentDelay]):
     relatives = ("delay_error", "velocity_saturation")
     held = ("memory",)
     otherwise: ClassVar = {"memory": 1.0}
-    noun = "a delay that grows with the amplitude"
+    noun = "an amplitude-dependent delay"
 
     def guesses(self, seen: Seen) -> Iterator[AmplitudeDependentDelay]:
         yield self.sized(slope=0.01 / max(seen.x, 1e-6))
 
     def says(self, effect: AmplitudeDependentDelay) -> str:
-        return f"follows its command later by {said(effect.slope, 'ms/mm')} of amplitude"
+        return f"follows its command with a delay that grows by {said(effect.slope, 'ms/mm')} of amplitude"

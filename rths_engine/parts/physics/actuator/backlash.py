@@ -19,10 +19,10 @@ class Backlash(Effect):
 
     y = min(max(y[q-1], d - g/2), d + g/2)
 
-    The play operator: the piston's end y follows the drive d with free play g (m) and rests while the drive crosses it after a
-    reversal. Neutral: g = 0. State: s[0] y, s[1] whether it has begun; at the start the play is centred.
+    The play operator: the piston's end y follows the drive d with free play g (m). After a reversal y rests while the drive
+    crosses the play. Neutral: g = 0. State: s[0] y, s[1] 1 after the first substep. At the start the play is centred.
     Source: Brokate and Sprekels (1996), "Hysteresis and Phase Transitions", Springer, section 2.2.
-    Fails first where the force of the specimen pushes the piston through the play.
+    Not valid where the force of the specimen pushes the piston through the play.
     """
 
     kind: Literal["backlash"] = "backlash"
@@ -53,4 +53,4 @@ class BacklashSearch(Search[Backlash]):
             yield self.sized(gap=share * seen.x)
 
     def says(self, effect: Backlash) -> str:
-        return f"rests over {said(effect.gap, 'mm')} after each reversal"
+        return f"rests after each reversal while its drive moves {said(effect.gap, 'mm')}"

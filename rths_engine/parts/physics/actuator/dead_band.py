@@ -1,4 +1,4 @@
-"""A drive that leaves small errors standing."""
+"""A drive that does not correct small errors."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from rths_engine.parts.physics.wording import said
 
 
 class DeadBand(Effect):
-    """A drive that leaves small errors standing.
+    """A drive that does not correct small errors.
 
     y = x + e - clip(e, -b, b),  e = d - x
 
-    The drive sees of the error e between command d and piston x only what exceeds b (m), as behind a valve with overlap:
-    within b the piston rests, beyond it lags by b more. Neutral: b = 0. No state.
-    Source: Merritt (1967), "Hydraulic Control Systems", Wiley, overlapped spools. Fails first where dither bridges the overlap.
+    The drive reacts only to the part of the error e between command d and piston x that exceeds b (m), as with an overlapped
+    valve. The piston rests while |e| <= b; beyond that it lags by b more. Neutral: b = 0. No state.
+    Source: Merritt (1967), "Hydraulic Control Systems", Wiley, overlapped spools. Not valid where dither bridges the overlap.
     """
 
     kind: Literal["dead_band"] = "dead_band"
@@ -51,4 +51,4 @@ class DeadBandSearch(Search[DeadBand]):
             yield self.sized(half_width=share * seen.x)
 
     def says(self, effect: DeadBand) -> str:
-        return f"does not react to errors below {said(effect.half_width, 'mm')}"
+        return f"does not react to errors smaller than {said(effect.half_width, 'mm')}"

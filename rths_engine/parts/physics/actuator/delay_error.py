@@ -1,4 +1,4 @@
-"""More or less delay than the actuator model has."""
+"""A delay longer or shorter than that of the actuator model."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ from rths_engine.parts.physics.wording import said
 
 
 class DelayError(Effect):
-    """More or less delay than the actuator model has.
+    """A delay longer or shorter than that of the actuator model.
 
     y(t) = d(t - T)
 
-    The command d reaches the actuator T (s) later than its model has it, or for T < 0 earlier: then on its last slope,
-    y = d + |T| v, right while omega |T| is small. Linear between substeps. Neutral: T = 0. State: `physics.delay`.
+    The command d reaches the actuator T (s) later than in its model, or earlier for T < 0. An earlier command is extrapolated
+    along its last slope, y = d + |T| v, which is valid while omega |T| is small. Linear between substeps. Neutral: T = 0.
+    State: the ring of `physics.delay`.
     Source: Horiuchi et al. (1999), EESD 28, 1121-1141: a delay T acts as the negative damping -k T of a specimen k.
-    Fails first where the delay changes with amplitude or frequency.
+    Not valid where the delay changes with amplitude or frequency.
     """
 
     kind: Literal["delay_error"] = "delay_error"

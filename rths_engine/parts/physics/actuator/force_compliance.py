@@ -1,4 +1,4 @@
-"""A piston that gives way to the force on it."""
+"""A piston that deflects under the force on it."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from rths_engine.parts.physics.wording import said
 
 
 class ForceCompliance(Effect):
-    """A piston that gives way to the force on it.
+    """A piston that deflects under the force on it.
 
     y = y_0 - c,  tau c' = phi F - c
 
-    The oil column and the rod give way by phi (m/N) under the specimen's force F of the last substep, over tau (s), which also
-    keeps the explicit step stable, about while phi k < 2 tau / dt for a specimen of stiffness k. Neutral: phi = 0.
+    The oil column and the rod deflect by phi (m/N) times the specimen's force F of the last substep, with the lag tau (s). The
+    lag also keeps the explicit step stable while about phi k < 2 tau / dt, for a specimen of stiffness k. Neutral: phi = 0.
     State: s[0] c. Source: Merritt (1967), "Hydraulic Control Systems", Wiley.
-    Fails first where the controller takes the deflection back slowly, by its integral part.
+    Not valid where the integral part of the controller slowly removes the deflection.
     """
 
     kind: Literal["force_compliance"] = "force_compliance"
@@ -53,4 +53,4 @@ class ForceComplianceSearch(Search[ForceCompliance]):
             yield self.sized(flexibility=share / max(seen.stiffness, TINY))
 
     def says(self, effect: ForceCompliance) -> str:
-        return f"gives way by {said(effect.flexibility, 'mm/kN')} under the force on it"
+        return f"deflects by {said(effect.flexibility, 'mm/kN')} of force on its piston"

@@ -1,4 +1,4 @@
-"""A piston that moves by another amount than commanded."""
+"""A piston that moves more or less than commanded."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from rths_engine.parts.physics.wording import said
 
 
 class GainError(Effect):
-    """A piston that moves by another amount than commanded.
+    """A piston that moves more or less than commanded.
 
     y = (1 + e) d
 
-    e of either sign: a position loop without integral part, or calibrated on another transducer. Neutral: e = 0. No state.
-    Fails first where the gain depends on the frequency.
+    e has either sign. Causes are a position loop without an integral part, or a calibration with a different transducer.
+    Neutral: e = 0. No state.
+    Not valid where the gain depends on the frequency.
     """
 
     kind: Literal["gain_error"] = "gain_error"

@@ -1,4 +1,4 @@
-"""Dynamics of second order that the actuator model lacks."""
+"""Second-order dynamics that the actuator model lacks."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 # chosen; see docs/decisions/0023
-SHORT = 0.01  # of a substep: a shorter T does nothing
+SHORT = 0.01  # of a substep: a shorter T has no effect
 
 
 class SecondOrderLag(Effect):
-    """Dynamics of second order that the actuator model lacks.
+    """Second-order dynamics that the actuator model lacks.
 
     T^2 y'' + 2 zeta T y' + y = d,  T = 1 / (2 pi f)
 
-    The command d passes an oil column or a valve of natural frequency f before the actuator of the model. Exact for a command
-    linear between substeps; it lags a ramp by 2 zeta T. Neutral: T = 0. State: s[0] y, s[1] T y' (m), s[2] last command,
-    s[3] whether it has begun, at rest.
-    Source: Merritt (1967), "Hydraulic Control Systems", Wiley. Fails first where f falls with the amplitude.
+    The command d passes an oil column or a valve of natural frequency f before it reaches the model's actuator. The step is
+    exact for a command that is linear between substeps. y lags a ramp by 2 zeta T. Neutral: T = 0.
+    State: s[0] y, s[1] T y' (m), s[2] last command, s[3] 1 after the first substep. It starts at rest.
+    Source: Merritt (1967), "Hydraulic Control Systems", Wiley. Not valid where f falls with the amplitude.
     """
 
     kind: Literal["second_order_lag"] = "second_order_lag"
@@ -70,4 +70,4 @@ class SecondOrderLagSearch(Search[SecondOrderLag]):
 
     def says(self, effect: SecondOrderLag) -> str:
         frequency = said(1 / (2 * math.pi * max(effect.time_constant, 1e-9)), "Hz")
-        return f"passes its command through a further {frequency} with {said(effect.damping_ratio, '%')} of critical damping"
+        return f"has a further lag of second order at {frequency} with {said(effect.damping_ratio, '%')} of critical damping"

@@ -20,11 +20,11 @@ class StickFriction(Effect):
 
     y rests after a reversal until |d - y| = b;  then y = d + o,  o' = -o / tau from o = -+ b
 
-    Seals hold the piston y at every reversal of the drive d until it is b (m) ahead; once loose, the piston catches up over
-    tau (s). Neutral: b = 0. State: s[0] y, s[1] d of the last substep, s[2] way of motion, 1, -1 or 0, s[3] o, s[4] 1 while it
-    sticks, s[5] whether it has begun.
-    Source: stiction of Armstrong-Helouvry, Dupont and Canudas de Wit (1994), Automatica 30, 1083-1138, seen from the position.
-    Fails first where a force on the piston helps it loose.
+    At every reversal of the drive d, seals hold the piston y until d is b (m) ahead. Then the piston catches up with the time
+    constant tau (s). Neutral: b = 0. State: s[0] y, s[1] d of the last substep, s[2] direction of motion (1, -1 or 0), s[3] o,
+    s[4] 1 while the piston sticks, s[5] 1 after the first substep.
+    Source: stiction of Armstrong-Helouvry, Dupont and Canudas de Wit (1994), Automatica 30, 1083-1138, as a displacement.
+    Not valid where a force on the piston helps to release it.
     """
 
     kind: Literal["stick_friction"] = "stick_friction"
@@ -69,4 +69,4 @@ class StickFrictionSearch(Search[StickFriction]):
             yield self.sized(breakaway=share * seen.x)
 
     def says(self, effect: StickFriction) -> str:
-        return f"sticks at each reversal until it is {said(effect.breakaway, 'mm')} behind"
+        return f"sticks at each reversal until its drive is {said(effect.breakaway, 'mm')} ahead"

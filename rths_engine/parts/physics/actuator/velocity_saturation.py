@@ -1,4 +1,4 @@
-"""A drive that reaches less velocity than its model."""
+"""A drive whose velocity limit is lower than that of its model."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from rths_engine.parts.physics.wording import said
 
 
 class VelocitySaturation(Effect):
-    """A drive that reaches less velocity than its model.
+    """A drive whose velocity limit is lower than that of its model.
 
     |y'| <= v_max
 
-    The velocity limit of the actuator's model becomes the smaller of its own and v_max (m/s), for both directions: a pump or a
-    valve that gives less flow than its data sheet. Neutral: v_max = 10 m/s, beyond any actuator here.
-    Source: Merritt (1967), "Hydraulic Control Systems", Wiley. Fails first where extension and retraction differ.
+    The velocity limit of the actuator becomes the smaller of the model's limit and v_max (m/s), in both directions. The cause
+    is a pump or a valve with less flow than its data sheet. Neutral: v_max = 10 m/s, above the limit of every actuator here.
+    Source: Merritt (1967), "Hydraulic Control Systems", Wiley. Not valid where extension and retraction differ.
     """
 
     kind: Literal["velocity_saturation"] = "velocity_saturation"
@@ -41,7 +41,7 @@ class VelocitySaturation(Effect):
 class VelocitySaturationSearch(Search[VelocitySaturation]):
     needs = ("x_comp", "x_meas")
     relatives = ("amplitude_dependent_delay", "delay_error")
-    noun = "saturation of the velocity"
+    noun = "velocity saturation"
 
     def guesses(self, seen: Seen) -> Iterator[VelocitySaturation]:
         for share in (0.6, 0.8, 0.95):

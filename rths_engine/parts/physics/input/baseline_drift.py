@@ -1,4 +1,4 @@
-"""A ground motion whose zero line moves."""
+"""A ground motion whose baseline moves."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from rths_engine.parts.physics.wording import said
 
 
 class BaselineDrift(Effect):
-    """A ground motion whose zero line moves.
+    """A ground motion whose baseline moves.
 
     a = a_g + b + c t
 
     The zero of the accelerometer is off by b (m/s^2) and moves by c (m/s^3). Neutral: b = c = 0.
-    Source: Boore and Bommer (2005), Soil Dyn. Earthquake Eng. 25, 93-115. Fails first where the zero jumps during the shaking.
+    Source: Boore and Bommer (2005), Soil Dyn. Earthquake Eng. 25, 93-115. Not valid where the zero jumps during the shaking.
     """
 
     kind: Literal["baseline_drift"] = "baseline_drift"
@@ -40,7 +40,7 @@ class BaselineDrift(Effect):
 class BaselineDriftSearch(Search[BaselineDrift]):
     needs = ("ag",)
     relatives = ("scale_error",)
-    noun = "a drift of the baseline"
+    noun = "baseline drift"
 
     def guesses(self, seen: Seen) -> Iterator[BaselineDrift]:
         size = 0.02 * seen.acceleration
@@ -48,4 +48,4 @@ class BaselineDriftSearch(Search[BaselineDrift]):
         yield self.sized(rate=size / max(seen.time, seen.dt))
 
     def says(self, effect: BaselineDrift) -> str:
-        return f"has a baseline off by {said(effect.offset, 'mm/s^2')} that drifts by {said(effect.rate, 'mm/s^3')}"
+        return f"has a baseline offset of {said(effect.offset, 'mm/s^2')} and a baseline drift of {said(effect.rate, 'mm/s^3')}"

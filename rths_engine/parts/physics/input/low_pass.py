@@ -20,8 +20,9 @@ class LowPass(Effect):
 
     T a' + a = a_g,  T = 1 / (2 pi f_c)
 
-    The ground motion has passed a first-order filter of the corner frequency f_c, of a table or an amplifier. Exact for a_g
-    linear between samples, at rest before the first. Neutral: T = 0. Fails first with the steeper filters of digital recorders.
+    The ground motion passed a first-order filter with the corner frequency f_c, in a shaking table or an amplifier. The step is
+    exact for a_g that is linear between samples and zero before the first sample. Neutral: T = 0.
+    Not valid for the steeper filters of digital recorders.
     """
 
     kind: Literal["low_pass"] = "low_pass"
@@ -40,7 +41,7 @@ class LowPass(Effect):
         decay = math.exp(-1 / ratio)
         mean = ratio * (1 - decay)
         numerator = [1 - mean, mean - decay]
-        from scipy.signal import lfilter  # here, because it takes 0.7 s to load
+        from scipy.signal import lfilter  # imported here: loading it takes 0.7 s
 
         passed: Array = lfilter(numerator, [1.0, -decay], ground)
         return passed
@@ -49,7 +50,7 @@ class LowPass(Effect):
 class LowPassSearch(Search[LowPass]):
     needs = ("ag",)
     relatives = ("scale_error", "time_shift")
-    noun = "a low-pass of the ground motion"
+    noun = "a low-pass filter of the ground motion"
 
     def guesses(self, seen: Seen) -> Iterator[LowPass]:
         for frequency in (3.0, 15.0):
@@ -57,4 +58,4 @@ class LowPassSearch(Search[LowPass]):
 
     def says(self, effect: LowPass) -> str:
         corner = said(1 / (2 * math.pi * max(effect.time_constant, 1e-9)), "Hz")
-        return f"has lost half its power at {corner} and more above"
+        return f"lacks half of its power at {corner} and more at higher frequencies"

@@ -1,4 +1,4 @@
-"""A ground motion of another size than recorded."""
+"""A ground motion larger or smaller than recorded."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from rths_engine.parts.physics.wording import said
 
 
 class GroundScaleError(Effect):
-    """A ground motion of another size than recorded.
+    """A ground motion larger or smaller than recorded.
 
     a = (1 + e) a_g
 
-    The table shakes by another factor than recorded. Neutral: e = 0. Fails first where the table loses one band only.
+    The amplitude of the shaking differs from the record by the share e. Neutral: e = 0.
+    Not valid where the shaking table attenuates one frequency band only.
     """
 
     kind: Literal["scale_error"] = "scale_error"

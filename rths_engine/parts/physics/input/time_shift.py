@@ -19,8 +19,8 @@ class TimeShift(Effect):
 
     a(t) = a_g(t - T)
 
-    The ground motion comes T (s) later than recorded, earlier for T < 0; linear between samples, the first and the last value
-    beyond them. Neutral: T = 0. Fails first where the clocks drift apart.
+    The ground motion comes T (s) later than recorded, or earlier for T < 0. Linear between samples; before the first sample and
+    after the last one it keeps their value. Neutral: T = 0. Not valid where the clocks drift apart.
     """
 
     kind: Literal["time_shift"] = "time_shift"

@@ -1,4 +1,4 @@
-"""Left-out effects of a sensor, each for either channel."""
+"""Left-out effects of a sensor, each for the displacement and for the force reading."""
 
 from typing import TYPE_CHECKING, Any
 

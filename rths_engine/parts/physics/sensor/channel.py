@@ -1,4 +1,4 @@
-"""The two readings of a station that a sensor effect may be of."""
+"""The two readings of a station, displacement and force, that a sensor effect can change."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from rths_engine.parts.physics.effect import F_SENSOR, X_SENSOR, Effect
 from rths_engine.parts.physics.search import Search, Seen
 
 # chosen; see docs/decisions/0023
-CALIBRATED = 2 * math.log(3)  # of BIC: odds of three to one against
+CALIBRATED = 2 * math.log(3)  # added to BIC: prior odds 1:3
 
 
 class Reading(Effect):
-    """y = w: an effect of a sensor, for the displacement and for the force as a kind each, with its own units."""
+    """An effect of a sensor: without the effect y = w. Subclasses exist for displacement and force, each with its own units."""
 
 
 class OfDisplacement(Reading):
@@ -36,7 +36,7 @@ R = TypeVar("R", bound=Reading)
 
 
 class ReadingSearch(Search[R]):
-    """In the reading that the law is of, shown in the unit `shown`."""
+    """Search for an effect of one reading, which people read in the unit `shown`."""
 
     def __init__(self, effect: type[R]):
         super().__init__(effect)
@@ -44,7 +44,7 @@ class ReadingSearch(Search[R]):
         self.shown = "mm" if issubclass(effect, OfDisplacement) else "kN"
 
     def doubt(self, effect: R, seen: Seen) -> float:
-        """An actuator that answers otherwise often reads the same; the sensor was calibrated before the test."""
+        """A constant penalty: an actuator effect often reads the same, and the sensor was calibrated before the test."""
         return CALIBRATED
 
     def largest(self, seen: Seen) -> float:

@@ -19,8 +19,8 @@ class Clipping(Reading):
 
     y = min(max(w, -L), L)
 
-    The sensor or its amplifier reads no more than L (m or N), either way. Neutral: L at its upper bound. No state.
-    Fails first where the range is not centred.
+    The sensor or its amplifier does not read beyond L (m or N) in either direction. Neutral: L at its upper bound. No state.
+    Not valid where the range is not centred.
     """
 
     kind: Literal["clipping"] = "clipping"
@@ -59,4 +59,4 @@ class ClippingSearch(ReadingSearch[Clipping]):
             yield self.sized(limit=share * self.largest(seen))
 
     def says(self, effect: Clipping) -> str:
-        return f"reads no more than {said(effect.limit, self.shown)}"
+        return f"does not read beyond ±{said(effect.limit, self.shown)}"

@@ -19,8 +19,8 @@ class Drift(Reading):
 
     y = w + r t
 
-    The zero of the sensor moves by r (m/s or N/s): its amplifier warms up. Neutral: r = 0. No state.
-    Fails first where the drift levels out during the test.
+    The zero of the sensor moves by r (m/s or N/s), for example while its amplifier warms up. Neutral: r = 0. No state.
+    Not valid where the drift levels out during the test.
     """
 
     kind: Literal["drift"] = "drift"

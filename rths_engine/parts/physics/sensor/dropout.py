@@ -1,4 +1,4 @@
-"""A sensor that stands still for a while."""
+"""A sensor that repeats one reading for some time."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from rths_engine.parts.physics.wording import said
 
 
 class Dropout(Reading):
-    """A sensor that stands still for a while.
+    """A sensor that repeats one reading for some time.
 
     y(t) = w(t_0) for t_0 < t <= t_0 + D
 
-    The reading of the moment t_0 (s) is held for D (s): samples lost on their way. At the ends by the share of the substep.
-    Neutral: D = 0. State: s[0] the last reading before t_0. Fails first where lost samples read zero.
+    The reading at t_0 (s) is repeated for D (s), because samples were lost. The substep at each end counts by its share.
+    Neutral: D = 0. State: s[0] the last reading before t_0. Not valid where lost samples read zero.
     """
 
     kind: Literal["dropout"] = "dropout"
@@ -61,4 +61,4 @@ class DropoutSearch(ReadingSearch[Dropout]):
             yield self.sized(time=part * seen.time, duration=0.1 * seen.time)
 
     def says(self, effect: Dropout) -> str:
-        return f"holds its reading from {said(effect.time, 's')} for {said(effect.duration, 's')}"
+        return f"repeats one reading from {said(effect.time, 's')} on, for {said(effect.duration, 's')}"

@@ -1,4 +1,4 @@
-"""A sensor that reads too much by a constant."""
+"""A sensor with a constant error."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from rths_engine.parts.physics.wording import said
 
 
 class Offset(Reading):
-    """A sensor that reads too much by a constant.
+    """A sensor with a constant error.
 
     y = w + o
 
-    The zero of the sensor is off by o (m or N): a transducer moved, a bridge not balanced. Neutral: o = 0. No state.
-    Fails first where the zero moves with time.
+    The zero of the sensor is off by o (m or N): a transducer moved, or a bridge was not balanced. Neutral: o = 0. No state.
+    Not valid where the zero moves with time.
     """
 
     kind: Literal["offset"] = "offset"
@@ -57,4 +57,4 @@ class OffsetSearch(ReadingSearch[Offset]):
         yield self.sized(error=0.02 * self.largest(seen))
 
     def says(self, effect: Offset) -> str:
-        return f"reads {said(abs(effect.error), self.shown)} too {'much' if effect.error >= 0 else 'little'}"
+        return f"reads {said(abs(effect.error), self.shown)} too {'high' if effect.error >= 0 else 'low'}"

@@ -1,4 +1,4 @@
-"""A sensor that reads too much by a share."""
+"""A sensor with an error proportional to its reading."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from rths_engine.parts.physics.wording import said
 
 
 class ScaleError(Reading):
-    """A sensor that reads too much by a share.
+    """A sensor with an error proportional to its reading.
 
     y = (1 + e) w
 
-    The sensor's factor is off by the share e: another calibration, another range. Neutral: e = 0. No state.
-    Fails first where the error depends on the reading.
+    The factor of the sensor is off by the share e, because of a wrong calibration or range. Neutral: e = 0. No state.
+    Not valid where the error depends on the reading.
     """
 
     kind: Literal["scale_error"] = "scale_error"

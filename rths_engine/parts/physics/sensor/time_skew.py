@@ -20,9 +20,10 @@ class TimeSkew(Reading):
 
     y(t) = w(t - T)
 
-    The reading is late by T (s), by a filter or another clock, or early for T < 0: then on its last slope, which is right while
-    omega |T| is small. Linear between substeps. Neutral: T = 0. State: `physics.delay`.
-    Fails first where a filter also takes amplitude away.
+    A filter or a different clock makes the reading late by T (s), or early for T < 0. An early reading is extrapolated along
+    its last slope, which is valid while omega |T| is small. Linear between substeps. Neutral: T = 0.
+    State: the ring of `physics.delay`.
+    Not valid where a filter also reduces the amplitude.
     """
 
     kind: Literal["time_skew"] = "time_skew"

@@ -19,9 +19,10 @@ class AddedInertia(Effect):
 
     f = f_0 + m (x[q] - 2 x[q-1] + x[q-2]) / dt^2
 
-    m (kg) of clevis, rod or fixture between load cell and specimen. The second difference is the acceleration half a substep
-    before v. Neutral: m = 0. State: s[0] x[q-1], s[1] x[q-2], s[2] samples seen, up to 2; no force before the third.
-    Fails first on displacements with measurement noise, which it turns into force by 4 / dt^2: smooth them before.
+    m (kg) is the mass of clevis, rod or fixture between load cell and specimen. The second difference is the acceleration half
+    a substep before v. Neutral: m = 0.
+    State: s[0] x[q-1], s[1] x[q-2], s[2] samples so far, up to 2; no force before the third sample.
+    Not valid for displacements with measurement noise, which the second difference multiplies by 4 m / dt^2: smooth them first.
     """
 
     kind: Literal["added_inertia"] = "added_inertia"
@@ -47,10 +48,10 @@ class AddedInertia(Effect):
 class AddedInertiaSearch(Search[AddedInertia]):
     needs = ("x_meas", "f_meas")
     relatives = ("parallel_stiffness",)
-    noun = "the inertia of moving parts"
+    noun = "added inertia"
 
     def guesses(self, seen: Seen) -> Iterator[AddedInertia]:
         yield self.sized(mass=0.1 * seen.f / max(seen.acceleration, 1e-6))
 
     def says(self, effect: AddedInertia) -> str:
-        return f"is measured together with {said(effect.mass, 'kg')} of moving mass"
+        return f"has a measured force that includes the inertia of {said(effect.mass, 'kg')}"

@@ -1,4 +1,4 @@
-"""Strength that differs by direction."""
+"""Strength that differs between the two directions of force."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from rths_engine.parts.physics.wording import said
 
 
 class Asymmetry(Effect):
-    """Strength that differs by direction.
+    """Strength that differs between the two directions of force.
 
     f = (1 + a) f_0 for f_0 > 0, (1 - a) f_0 for f_0 < 0
 
-    Neutral: a = 0. Fails first where the asymmetry is of the displacement and not of the force.
+    Neutral: a = 0. Not valid where the asymmetry depends on the displacement and not on the force.
     """
 
     kind: Literal["asymmetry"] = "asymmetry"
@@ -39,11 +39,12 @@ class Asymmetry(Effect):
 class AsymmetrySearch(Search[Asymmetry]):
     needs = ("x_meas", "f_meas")
     relatives = ("offset",)
-    noun = "asymmetry of the strength"
+    noun = "strength asymmetry"
 
     def guesses(self, seen: Seen) -> Iterator[Asymmetry]:
         yield self.effect(share=0.1)
 
     def says(self, effect: Asymmetry) -> str:
-        way = "positive" if effect.share > 0 else "negative"
-        return f"is {said(abs(effect.share), '%')} stronger than on average in {way} force, and as much weaker in the other"
+        way, other = ("positive", "negative") if effect.share > 0 else ("negative", "positive")
+        share = said(abs(effect.share), "%")
+        return f"is {share} stronger than its average in {way} force, and {share} weaker in {other} force"

@@ -17,14 +17,14 @@ from rths_engine.parts.physics.wording import said
 class Backlash(Effect):
     """Backlash between actuator and specimen.
 
-    |x - u| <= g/2;  u = x -+ g/2 in contact, which lasts while the specimen's force presses on it;  u rests in between
+    |x - u| <= g/2;  u = x -+ g/2 in contact, which lasts while the specimen's force presses on it;  u rests between contacts
 
-    The specimen's end u has free play g (m) in its connection: after a reversal the specimen unloads, then nothing is felt
-    until the play is taken up in the other sense. Contact opens by the force of the last substep. Neutral: g = 0.
-    State: s[0] u, s[1] side in contact, 1, -1 or 0, s[2] whether it has begun; at the start a force presses on one side, or
-    the play is centred.
-    Source: Nordin and Gutman (2002), Automatica 38, 1633-1649, the dead zone in series. Fails first where the play closes with
-    an impact.
+    The specimen's end u has free play g (m) in its connection. After a reversal the specimen unloads. Then the force stays zero
+    until the piston has crossed the play. The force of the last substep decides when a contact opens. Neutral: g = 0.
+    State: s[0] u, s[1] side in contact (1, -1 or 0), s[2] 1 after the first substep. At the start a force presses on one side,
+    or the play is centred.
+    Source: Nordin and Gutman (2002), Automatica 38, 1633-1649, the dead zone in series.
+    Not valid where the play closes with an impact.
     """
 
     kind: Literal["backlash"] = "backlash"
@@ -64,4 +64,4 @@ class BacklashSearch(Search[Backlash]):
             yield self.sized(gap=share * seen.x)
 
     def says(self, effect: Backlash) -> str:
-        return f"moves freely over {said(effect.gap, 'mm')} after each reversal"
+        return f"moves {said(effect.gap, 'mm')} without force after each reversal"

@@ -20,9 +20,9 @@ class BoucWenHysteresis(Effect):
 
     f = f_0 + F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
 
-    F (N) strength, x_y (m) yield displacement, n sharpness, eta fullness of the unloading, as in `specimens.bouc_wen`, over
-    the same substeps. Neutral: F = 0. State: s[0] x of the last substep, s[1] zeta, s[2] whether it has begun.
-    Source: Wen (1976), J. Eng. Mech. Div. ASCE 102, 249-263. Fails first in small cycles after partial unloading.
+    F (N) strength, x_y (m) yield displacement, n sharpness, eta fullness of the unloading, integrated as in
+    `specimens.bouc_wen`. Neutral: F = 0. State: s[0] x of the last substep, s[1] zeta, s[2] 1 after the first substep.
+    Source: Wen (1976), J. Eng. Mech. Div. ASCE 102, 249-263. Not valid in small cycles after partial unloading.
     """
 
     kind: Literal["bouc_wen_hysteresis"] = "bouc_wen_hysteresis"
@@ -64,4 +64,5 @@ class BoucWenHysteresisSearch(Search[E]):
         return beyond(PRESLIDING * seen.x, effect.yield_displacement)
 
     def says(self, effect: E) -> str:
-        return f"has a hysteretic force of {said(effect.strength, 'kN')} that yields at {said(effect.yield_displacement, 'mm')}"
+        strength, yielded = said(effect.strength, "kN"), said(effect.yield_displacement, "mm")
+        return f"has a further hysteretic force of {strength} that yields at {yielded}"

@@ -20,10 +20,11 @@ class CoulombFriction(Effect):
 
     f = f_0 + F_c z,  x_e z' = v - |v| z
 
-    F_c friction force (N), either sign of motion; x_e pre-sliding displacement (m), over which the friction builds up after a
-    reversal. Neutral: F_c = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun; z is exact for steps in x.
-    Source: Dahl (1968), A Solid Friction Model, TOR-0158(3107-18)-1, with the exponent 1: Coulomb's law with a contact that
-    gives way. Fails first where static friction exceeds kinetic friction.
+    F_c is the friction force (N) in both directions, x_e the pre-sliding displacement (m) over which the friction builds up
+    after a reversal. Neutral: F_c = 0. z is exact for steps in x.
+    State: s[0] x of the last substep, s[1] z, s[2] 1 after the first substep.
+    Source: Dahl (1968), A Solid Friction Model, TOR-0158(3107-18)-1, with the exponent 1: Coulomb's law, elastic contact.
+    Not valid where static friction exceeds kinetic friction.
     """
 
     kind: Literal["coulomb_friction"] = "coulomb_friction"
@@ -60,4 +61,4 @@ class CoulombFrictionSearch(Search[E]):
         return beyond(effect.presliding, PRESLIDING * seen.x)
 
     def says(self, effect: E) -> str:
-        return f"resists every motion with {said(effect.friction, 'kN')} of friction"
+        return f"resists every motion with a friction force of {said(effect.friction, 'kN')}"

@@ -19,9 +19,9 @@ class CubicStiffness(Effect):
 
     f = f_0 + k_3 x^3
 
-    k_3 (N/m^3), positive where it hardens. Neutral: k_3 = 0. No state. At amplitude X of a sine it adds the stiffness
-    3/4 k_3 X^2 to the first harmonic and k_3 X^3 / 4 of third harmonic.
-    Source: Duffing's spring; Nayfeh and Mook (1979), "Nonlinear Oscillations", Wiley. Fails first at a stop.
+    k_3 (N/m^3) is positive for a spring that hardens. Neutral: k_3 = 0. No state. For a sine of amplitude X the spring adds the
+    stiffness 3/4 k_3 X^2 to the first harmonic, and a third harmonic of the force k_3 X^3 / 4.
+    Source: Duffing's spring; Nayfeh and Mook (1979), "Nonlinear Oscillations", Wiley. Not valid at a stop.
     """
 
     kind: Literal["cubic_stiffness"] = "cubic_stiffness"

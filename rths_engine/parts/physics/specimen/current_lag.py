@@ -1,4 +1,4 @@
-"""Force that follows the current late."""
+"""Force that lags the current."""
 
 from __future__ import annotations
 
@@ -16,15 +16,16 @@ from rths_engine.parts.physics.wording import said
 
 
 class CurrentLag(Effect):
-    """Force that follows the current late.
+    """Force that lags the current.
 
     f = f_0 (i_0 + i_f) / (i_0 + |i|),  tau i_f' = |i| - i_f
 
-    The coil's field, and with it the force, follows the current i (A) over tau (s); i_0 is the current that would make the
-    force without current: the force of the model is taken as proportional to i_0 + |i|. Exact for a current held over the
-    substep. Neutral: tau = 0. State: s[0] i_f, s[1] whether it has begun; at the start i_f = |i|.
+    The field of the coil, and with it the force, follows the current i (A) with the time constant tau (s). The force of the
+    model is assumed proportional to i_0 + |i|, where i_0 stands for the force without current. The step is exact for a current
+    that is constant over the substep. Neutral: tau = 0.
+    State: s[0] i_f, s[1] 1 after the first substep. At the start i_f = |i|.
     Source: Jiang and Christenson (2012), Smart Mater. Struct. 21, 065002, first-order inductance of a large MR damper.
-    Fails first where the magnetic circuit saturates, and where eddy currents make the lag depend on the step.
+    Not valid where the magnetic circuit saturates, or where eddy currents make the lag depend on the size of the change.
     """
 
     kind: Literal["current_lag"] = "current_lag"
@@ -51,11 +52,11 @@ class CurrentLag(Effect):
 class CurrentLagSearch(Search[CurrentLag]):
     needs = ("x_meas", "f_meas", "current")
     relatives = ("strength_drop",)
-    noun = "the lag of the current"
+    noun = "current lag"
 
     def guesses(self, seen: Seen) -> Iterator[CurrentLag]:
         for lag in (0.02, 0.2):
             yield self.effect(lag=lag)
 
     def says(self, effect: CurrentLag) -> str:
-        return f"follows its current {said(effect.lag, 'ms')} late"
+        return f"follows its current with a time constant of {said(effect.lag, 'ms')}"

@@ -19,8 +19,8 @@ class ParallelStiffness(Effect):
 
     f = f_0 + k x
 
-    k (N/m) of either sign: an accumulator, a gas charge, a guide; a negative one takes stiffness away. Neutral: k = 0.
-    No state. Fails first where the spring hardens with its stroke.
+    k (N/m) has either sign. Causes are an accumulator, a gas charge or a guide. Neutral: k = 0. No state.
+    Not valid where the spring hardens with its stroke.
     """
 
     kind: Literal["parallel_stiffness"] = "parallel_stiffness"
@@ -40,7 +40,7 @@ class ParallelStiffness(Effect):
 class ParallelStiffnessSearch(Search[ParallelStiffness]):
     needs = ("x_meas", "f_meas")
     relatives = ("cubic_stiffness", "added_inertia")
-    noun = "a stiffness in parallel"
+    noun = "a parallel stiffness"
 
     def guesses(self, seen: Seen) -> Iterator[ParallelStiffness]:
         yield self.sized(stiffness=0.1 * seen.stiffness)

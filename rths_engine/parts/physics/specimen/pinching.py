@@ -1,4 +1,4 @@
-"""Force that is pinched about the middle of the stroke."""
+"""Force that is reduced about the middle of the stroke."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from rths_engine.parts.physics.wording import said
 
 
 class Pinching(Effect):
-    """Force that is pinched about the middle of the stroke.
+    """Force that is reduced about the middle of the stroke.
 
     f = f_0 (1 - d exp(-(x / x_p)^2))
 
-    d is the share of the force that is lost about x = 0 and x_p (m) half the width of the pinch. Neutral: d = 0. No state.
-    Source: the Gaussian slip zone of Baber and Noori (1985), J. Eng. Mech. 111, 1010-1026, in the force.
-    Fails first where the pinch moves with the force or the largest excursion so far.
+    d is the share of the force that is lost at x = 0, and x_p (m) is half the width of the pinch. Neutral: d = 0. No state.
+    Source: the Gaussian slip zone of Baber and Noori (1985), J. Eng. Mech. 111, 1010-1026, applied to the force.
+    Not valid where the pinch moves with the force or with the largest displacement so far.
     """
 
     kind: Literal["pinching"] = "pinching"

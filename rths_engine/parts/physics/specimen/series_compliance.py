@@ -20,8 +20,8 @@ class SeriesCompliance(Effect):
     u + phi f(u) = x
 
     phi (m/N) is the flexibility of clevises, load cell or frame between the measured displacement x and the specimen's end u.
-    Solved in every substep with the specimen's own law. Neutral: phi = 0. No state.
-    Fails first where the supports have mass.
+    The equation is solved in every substep together with the law of the specimen. Neutral: phi = 0. No state.
+    Not valid where the supports have mass.
     """
 
     kind: Literal["series_compliance"] = "series_compliance"
@@ -41,11 +41,11 @@ class SeriesCompliance(Effect):
 class SeriesComplianceSearch(Search[SeriesCompliance]):
     needs = ("x_meas", "f_meas")
     relatives = ("backlash",)
-    noun = "compliance in series"
+    noun = "series compliance"
 
     def guesses(self, seen: Seen) -> Iterator[SeriesCompliance]:
         for share in (0.005, 0.03, 0.15):
             yield self.sized(flexibility=share / max(seen.stiffness, TINY))
 
     def says(self, effect: SeriesCompliance) -> str:
-        return f"gives way by {said(effect.flexibility, 'mm/kN')} before the specimen"
+        return f"has a flexibility of {said(effect.flexibility, 'mm/kN')} in its connection"

@@ -20,8 +20,8 @@ class StrengthDrop(Effect):
 
     f = f_0 (1 - d [t > t_d])
 
-    From the moment t_d (s) the share d of the force is missing: a seal, a bolt or a coil has failed. Neutral: d = 0. No state.
-    Fails first where the loss takes longer than the rise of the force.
+    From t_d (s) on, the share d of the force is missing, because a seal, a bolt or a coil failed. Neutral: d = 0. No state.
+    Not valid where the loss takes longer than the rise of the force.
     """
 
     kind: Literal["strength_drop"] = "strength_drop"
@@ -42,7 +42,7 @@ class StrengthDrop(Effect):
 class StrengthDropSearch(Search[StrengthDrop]):
     needs = ("x_meas", "f_meas")
     relatives = ("viscous_heating",)
-    noun = "a drop of the strength"
+    noun = "a strength drop"
 
     def guesses(self, seen: Seen) -> Iterator[StrengthDrop]:
         for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):

@@ -1,4 +1,4 @@
-"""Friction that falls with the velocity."""
+"""Friction that decreases with velocity."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from rths_engine.parts.physics.wording import said
 
 
 class StribeckFriction(Effect):
-    """Friction that falls with the velocity.
+    """Friction that decreases with velocity.
 
     f = f_0 + (F_c + F_b exp(-(v / v_s)^2)) z,  x_e z' = v - |v| z
 
     F_c friction at speed, F_c + F_b breakaway friction (N), v_s Stribeck velocity (m/s), x_e pre-sliding displacement (m).
-    Neutral: F_c = F_b = 0. State: s[0] x of the last substep, s[1] z, s[2] whether it has begun.
+    Neutral: F_c = F_b = 0. State: s[0] x of the last substep, s[1] z, s[2] 1 after the first substep.
     Source: Armstrong-Helouvry, Dupont and Canudas de Wit (1994), Automatica 30, 1083-1138.
-    Fails first where the friction lags the velocity (frictional memory).
+    Not valid where the friction lags the velocity (frictional memory).
     """
 
     kind: Literal["stribeck_friction"] = "stribeck_friction"
@@ -65,4 +65,4 @@ class StribeckFrictionSearch(Search[StribeckFriction]):
     def says(self, effect: StribeckFriction) -> str:
         most, least = said(effect.friction + effect.breakaway, "kN"), said(effect.friction, "kN")
         velocity = said(effect.stribeck_velocity, "mm/s")
-        return f"resists motion with {most} of friction at low speed and {least} well above {velocity}"
+        return f"resists motion with a friction force of {most} at low velocity and {least} well above {velocity}"

@@ -1,4 +1,4 @@
-"""Another exponent of the velocity."""
+"""A different exponent of the velocity."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
 # chosen; see docs/decisions/0023
-SLOW = 0.05  # of the reference velocity: slower motion counts as this fast
+SLOW = 0.05  # of the reference velocity: below it the factor levels off
 FAST = 1e6
 
 
 class VelocityExponent(Effect):
-    """Another exponent of the velocity.
+    """A different exponent of the velocity.
 
     f = f_0 ((r^2 + s^2) / (1 + s^2))^(e/2),  r = v / v_r, s = 0.05
 
-    A force that grew with |v|^n grows with |v|^(n + e). The force at the reference velocity v_r (m/s) stays; below s v_r the
-    factor levels out, so that it is bounded for e < 0. v_r only moves the strength of the specimen's own model, and is held.
-    Neutral: e = 0. No state.
+    A force proportional to |v|^n becomes proportional to |v|^(n + e). The force at the reference velocity v_r (m/s) does not
+    change. Below s v_r the factor levels off, so that it is bounded for e < 0. A fit does not change v_r, because v_r only
+    scales the strength of the specimen's model. Neutral: e = 0. No state.
     Source: the fractional power law of fluid viscous dampers, Lee and Taylor (2001), Struct. Des. Tall Build. 10, 311-320.
-    Fails first where the force also has a part that is not of the velocity: spring or friction scale as well.
+    Not valid where the force also has a part that does not depend on velocity: the factor scales spring and friction too.
     """
 
     kind: Literal["velocity_exponent"] = "velocity_exponent"
@@ -50,7 +50,7 @@ class VelocityExponentSearch(Search[VelocityExponent]):
     needs = ("x_meas", "f_meas")
     relatives = ("stribeck_friction", "coulomb_friction")
     held = ("reference_velocity",)
-    noun = "another velocity exponent"
+    noun = "a different velocity exponent"
 
     def guesses(self, seen: Seen) -> Iterator[VelocityExponent]:
         yield self.sized(exponent=0.2, reference_velocity=0.5 * seen.v)
@@ -58,4 +58,4 @@ class VelocityExponentSearch(Search[VelocityExponent]):
     def says(self, effect: VelocityExponent) -> str:
         way = "faster" if effect.exponent >= 0 else "slower"
         power, velocity = said(abs(effect.exponent), "1"), said(effect.reference_velocity, "mm/s")
-        return f"grows {way} with velocity than its model, by the power {power} (equal at {velocity})"
+        return f"has a force that grows {way} with velocity than in its model, by the exponent {power} (equal at {velocity})"

@@ -1,4 +1,4 @@
-"""Force that fades as the specimen heats."""
+"""Force that decreases as the specimen heats up."""
 
 from __future__ import annotations
 
@@ -18,16 +18,15 @@ LEAST = 0.05  # of the cold force
 
 
 class ViscousHeating(Effect):
-    """Force that fades as the specimen heats.
+    """Force that decreases as the specimen heats up.
 
     f = f_0 max(1 - phi E, 0.05),  E' = f v
 
-    E (J) is the work done on the specimen so far, of which all that its springs do not give back heats it, and phi (1/J) the
-    force it loses for that. Trapezoidal rule. Neutral: phi = 0.
-    State: s[0] E, s[1] x and s[2] f of the last substep, s[3] whether it has begun.
-    Source: Makris, Roussos, Whittaker and Kelly (1998), J. Eng. Mech. 124, 1217-1223: no heat leaves in a
-    short test.
-    Fails first where the heat leaves within the test, and where the force fades to less than half: viscosity then levels out.
+    E (J) is the work done on the specimen so far; all of it heats the specimen except the energy that its springs return.
+    phi (1/J) is the share of the force that is lost for each joule. E follows the trapezoidal rule. Neutral: phi = 0.
+    State: s[0] E, s[1] x and s[2] f of the last substep, s[3] 1 after the first substep.
+    Source: Makris, Roussos, Whittaker and Kelly (1998), J. Eng. Mech. 124, 1217-1223: no heat leaves in a short test.
+    Not valid where heat leaves during the test, or where the force falls below half: the viscosity then levels off.
     """
 
     kind: Literal["viscous_heating"] = "viscous_heating"
@@ -60,4 +59,4 @@ class ViscousHeatingSearch(Search[ViscousHeating]):
             yield self.sized(fade=loss / max(seen.energy, 1.0))
 
     def says(self, effect: ViscousHeating) -> str:
-        return f"loses {said(effect.fade * 1e6, '%')} of its force for every MJ it dissipates"
+        return f"loses {said(effect.fade * 1e6, '%')} of its force for every MJ that it dissipates"

@@ -14,7 +14,7 @@ from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled, Members
 
-HORIZONTAL = (0, 3)  # places in a member's six end displacements
+HORIZONTAL = (0, 3)  # indices in a member's six end displacements
 
 
 class BaseFlexibility(Effect):
@@ -22,10 +22,11 @@ class BaseFlexibility(Effect):
 
     V = b / phi: one more degree of freedom b without mass, y = x - iota b,  K -> T^T K T + e e^T / phi,  T = [1, -iota]
 
-    The structure stands on a spring of flexibility phi (m/N) under its base shear V, dampers of the lowest storey on it too; x
-    stays relative to the ground. A single storey's period lengthens by sqrt(1 + phi k). Neutral: phi = 0.
+    The structure, with the dampers of its lowest storey, stands on a spring of flexibility phi (m/N), which carries the base
+    shear V. x stays relative to the ground. The period of a single storey becomes longer by the factor sqrt(1 + phi k).
+    Neutral: phi = 0.
     Source: Veletsos and Meek (1974), EESD 3, 121-138, the sway of a structure on its soil.
-    Fails first where the base also rocks.
+    Not valid where the base also rocks.
     """
 
     kind: Literal["base_flexibility"] = "base_flexibility"
@@ -58,7 +59,7 @@ class BaseFlexibility(Effect):
 
 
 def _standing(members: Members, base: int) -> Members:
-    """The members with their supported horizontal ends on the base."""
+    """The members, with their supported ends attached to the base in the horizontal direction."""
     dofs = members.dofs.copy()
     for end in HORIZONTAL:
         dofs[dofs[:, end] < 0, end] = base
@@ -68,10 +69,10 @@ def _standing(members: Members, base: int) -> Members:
 class BaseFlexibilitySearch(Search[BaseFlexibility]):
     needs = ("x_floor",)
     relatives = ("stiffness_error", "p_delta")
-    noun = "the flexibility of the base"
+    noun = "base flexibility"
 
     def guesses(self, seen: Seen) -> Iterator[BaseFlexibility]:
         yield self.sized(flexibility=0.05 / max(seen.stiffness, TINY))
 
     def says(self, effect: BaseFlexibility) -> str:
-        return f"gives way at its base by {said(effect.flexibility, 'mm/kN')}"
+        return f"moves at its base by {said(effect.flexibility, 'mm/kN')} of base shear"

@@ -14,7 +14,7 @@ class BoucWenHysteresis(OfStorey, specimen.BoucWenHysteresis):
 
     f = F zeta,  x_y zeta' = v (1 - |zeta|^n (eta sgn(v zeta) + 1 - eta))
 
-    x drift of the storey. Else as `physics.specimen.bouc_wen_hysteresis`.
+    x is the drift of the storey. The other symbols are those of `physics.specimen.bouc_wen_hysteresis`.
     """
 
     title: ClassVar[str] = "Bouc-Wen hysteresis of a storey"

@@ -16,7 +16,8 @@ class CoulombFriction(OfStorey, specimen.CoulombFriction):
 
     f = F_c z,  x_e z' = v - |v| z
 
-    x drift of the storey: bolts, partitions or bearings rub between its floors. Else as `physics.specimen.coulomb_friction`.
+    x is the drift of the storey. Bolts, partitions or bearings rub between its floors. The other symbols are those of
+    `physics.specimen.coulomb_friction`.
     """
 
     title: ClassVar[str] = "Coulomb friction of a storey"
@@ -28,7 +29,7 @@ class CoulombFrictionSearch(StoreySearch[CoulombFriction], specimen.CoulombFrict
     noun = "Coulomb friction"
 
     def guesses(self, seen: Seen) -> Iterator[CoulombFriction]:
-        """A free vibration stops at f / F_c quarters of a cycle: more friction does not look like less."""
+        """Two sizes: a free vibration stops after f / F_c quarters of a cycle, so a small friction looks different."""
         for share in (0.01, 0.1):
             guess = self.sized(friction=share * seen.f, presliding=0.01 * seen.x)
             yield guess.model_copy(update={"storey": seen.storey})

@@ -15,7 +15,7 @@ class CubicStiffness(OfStorey, specimen.CubicStiffness):
 
     f = k_3 x^3
 
-    x drift of the storey. Else as `physics.specimen.cubic_stiffness`.
+    x is the drift of the storey. The other symbols are those of `physics.specimen.cubic_stiffness`.
     """
 
     title: ClassVar[str] = "Cubic stiffness of a storey"

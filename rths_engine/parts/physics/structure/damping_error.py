@@ -1,4 +1,4 @@
-"""A structure damped more or less than its model."""
+"""A structure with more or less damping than its model."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class DampingError(Effect):
-    """A structure damped more or less than its model.
+    """A structure with more or less damping than its model.
 
     (1 + e) C
 
     Every modal damping ratio of the structure is off by the share e. Neutral: e = 0.
-    Source: Chopra, Dynamics of Structures, chapter 11. Fails first where one mode is off and another is not.
+    Source: Chopra, Dynamics of Structures, chapter 11. Not valid where the error differs between modes.
     """
 
     kind: Literal["damping_error"] = "damping_error"

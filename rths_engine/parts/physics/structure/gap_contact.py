@@ -20,10 +20,10 @@ class GapContact(OfStorey):
 
     f = k_c (x - g) for x > g,  k_c (x + g) for x < -g
 
-    Beyond the drift g (m) a stop or a neighbouring building of stiffness k_c (N/m) is in contact, on both sides or on one. No
-    energy is lost. Neutral: k_c = 0. No state.
-    Source: the linear spring element of Anagnostopoulos (1988), EESD 16, 443-456. Fails first where impacts dissipate, and with
-    a stop so stiff that contact lasts but a few integration steps.
+    Beyond the drift g (m) the storey touches a stop or a neighbouring building of stiffness k_c (N/m), on both sides or on one.
+    No energy is lost. Neutral: k_c = 0. No state.
+    Source: the linear spring element of Anagnostopoulos (1988), EESD 16, 443-456.
+    Not valid where impacts dissipate energy, or where the stop is so stiff that a contact lasts only a few integration steps.
     """
 
     kind: Literal["gap_contact"] = "gap_contact"

@@ -22,9 +22,9 @@ class MassError(OfStorey):
 
     S M S,  S = diag(1, .., sqrt(1 + e), .., 1)
 
-    The mass of the floor on top of the storey is off by the share e; of a mass matrix that is not diagonal its coupling scales
-    by sqrt(1 + e), so that it stays positive. Damping stays. Neutral: e = 0.
-    Source: Chopra, Dynamics of Structures, chapter 9. Fails first where the floor's rotational mass matters.
+    The mass of the floor on top of the storey is off by the share e. In a mass matrix that is not diagonal, the coupling terms
+    of the floor scale by sqrt(1 + e), so that the matrix stays positive. The damping does not change. Neutral: e = 0.
+    Source: Chopra, Dynamics of Structures, chapter 9. Not valid where the floor's rotational mass matters.
     """
 
     kind: Literal["mass_error"] = "mass_error"
@@ -51,4 +51,4 @@ class MassErrorSearch(StoreySearch[MassError]):
         yield self.effect(storey=seen.storey, share=0.05)
 
     def says(self, effect: MassError) -> str:
-        return f"carries a floor {said(abs(effect.share), '%')} {'heavier' if effect.share >= 0 else 'lighter'} than its model"
+        return f"has a floor {said(abs(effect.share), '%')} {'heavier' if effect.share >= 0 else 'lighter'} than in its model"

@@ -1,4 +1,4 @@
-"""Gravity that works on the drift."""
+"""Gravity load that acts on the drift (P-delta effect)."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class PDelta(Effect):
-    """Gravity that works on the drift.
+    """Gravity load that acts on the drift (P-delta effect).
 
     K - mu lambda K_G,  K_G = sum over storeys of W_s l_s^T l_s,  lambda the least root of det(K - lambda K_G) = 0
 
-    W_s (kg) is the mass above storey s and l_s takes x to its drift, for storeys of equal height; mu is the gravity load as
-    a share of the load lambda K_G at which the structure buckles sideways: K stays positive definite for mu < 1.
-    For one storey mu is the stability coefficient W g / (k h). Neutral: mu = 0.
+    W_s (kg) is the mass above storey s, and the row l_s maps x to the drift of storey s. All storeys have the same height. mu
+    is the gravity load as a share of lambda K_G, the load at which the structure buckles sideways; K stays positive definite
+    for mu < 1. For one storey mu is the stability coefficient W g / (k h). Neutral: mu = 0.
     Source: the linearised geometric stiffness of Wilson and Habibullah (1987), Earthquake Spectra 3, 289-298.
-    Fails first at drifts where the structure yields and where storeys differ in height.
+    Not valid where the structure yields or where storeys differ in height.
     """
 
     kind: Literal["p_delta"] = "p_delta"
@@ -55,4 +55,4 @@ class PDeltaSearch(Search[PDelta]):
         yield self.effect(load=0.05)
 
     def says(self, effect: PDelta) -> str:
-        return f"is softened by gravity, at {said(effect.load, '%')} of the load at which it buckles sideways"
+        return f"is softened by its gravity load, which is {said(effect.load, '%')} of the load at which it buckles sideways"

@@ -20,10 +20,10 @@ class Pinching(OfStorey):
 
     f = -d w exp(-(x / x_p)^2)
 
-    The share d of the storey's elastic force w is missing about the drift x = 0, over x_p (m): bolts in their holes, cracks
-    that have to close. Neutral: d = 0. No state.
+    The share d of the storey's elastic force w is missing at the drift x = 0; x_p (m) is half the width of the pinch. Causes
+    are bolts that slip in their holes and cracks that must close. Neutral: d = 0. No state.
     Source: the Gaussian slip zone of Baber and Noori (1985), J. Eng. Mech. 111, 1010-1026, without its dissipation.
-    Fails first where the slip grows with the largest drift so far.
+    Not valid where the slip grows with the largest drift so far.
     """
 
     kind: Literal["pinching"] = "pinching"

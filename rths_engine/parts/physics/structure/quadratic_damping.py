@@ -19,9 +19,9 @@ class QuadraticDamping(OfStorey):
 
     f = c_2 |v| v
 
-    v velocity of the storey's drift, c_2 (N s^2/m^2). Neutral: c_2 = 0. No state. A cycle of a sine of amplitude X dissipates
-    8/3 c_2 omega^2 X^3. Source: Chopra, Dynamics of Structures, chapter 3, equivalent viscous damping.
-    Fails first where the damping does not come from a turbulent flow.
+    v is the velocity of the storey's drift, c_2 (N s^2/m^2) the coefficient. Neutral: c_2 = 0. No state. A cycle of a sine of
+    amplitude X dissipates 8/3 c_2 omega^2 X^3. Source: Chopra, Dynamics of Structures, chapter 3, equivalent viscous damping.
+    Not valid where the damping does not come from a turbulent flow.
     """
 
     kind: Literal["quadratic_damping"] = "quadratic_damping"
@@ -46,4 +46,4 @@ class QuadraticDampingSearch(StoreySearch[QuadraticDamping]):
         yield self.sized(coefficient=coefficient).model_copy(update={"storey": seen.storey})
 
     def says(self, effect: QuadraticDamping) -> str:
-        return f"is damped by {said(effect.coefficient, 'kN*(s/m)^2')} with the square of its velocity"
+        return f"has a damping force of {said(effect.coefficient, 'kN*(s/m)^2')} times the square of its velocity"

@@ -20,8 +20,8 @@ class StiffnessDrop(OfStorey):
 
     f = -d w [t > t_d]
 
-    From the moment t_d (s) the share d of the storey's elastic force w is missing: a brace or a weld failed. Neutral: d = 0.
-    No state. Fails first where the failure leaves the storey askew.
+    From t_d (s) on, the share d of the storey's elastic force w is missing, because a brace or a weld failed. Neutral: d = 0.
+    No state. Not valid where the failure leaves a permanent drift.
     """
 
     kind: Literal["stiffness_drop"] = "stiffness_drop"
@@ -40,7 +40,7 @@ class StiffnessDrop(OfStorey):
 
 class StiffnessDropSearch(StoreySearch[StiffnessDrop]):
     relatives = ("stiffness_error", "yielding")
-    noun = "a drop of the stiffness"
+    noun = "a stiffness drop"
 
     def guesses(self, seen: Seen) -> Iterator[StiffnessDrop]:
         for part in (0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85):

@@ -21,10 +21,10 @@ class StiffnessError(OfStorey):
 
     K + e k l^T l,  k = 1 / (l K^-1 l^T)
 
-    l takes x to the drift of the storey, and k is its stiffness against a pair of forces along the drift: of a shear building
-    the storey's own. K stays positive definite for every e > -1. Damping stays. Neutral: e = 0.
+    The row l maps x to the drift of the storey. k is the stiffness against a pair of forces along the drift; in a shear
+    building it is the storey stiffness. K stays positive definite for e > -1. The damping does not change. Neutral: e = 0.
     Source: Chopra, Dynamics of Structures, chapter 9, and the Sherman-Morrison formula.
-    Fails first where columns below and above share the error.
+    Not valid where the columns of adjacent storeys have the same error.
     """
 
     kind: Literal["stiffness_error"] = "stiffness_error"

@@ -16,23 +16,24 @@ from rths_engine.parts.structures.assembled import Assembled
 
 
 class OfStorey(Effect):
-    """y = f(drift of storey s), against the drift."""
+    """An effect of one storey: the force y depends on the drift of storey s and acts against the drift."""
 
     storey: int = quantity("Storey", ge=1, le=100, default=1, help="storey 1 is the lowest")
     hook: ClassVar[int] = STOREY
 
     def check(self, built: Assembled) -> None:
-        """Raises PlanError where the structure has no such storey."""
+        """Raises PlanError where the structure does not have this storey."""
         count = len(built.floors)
         if self.storey > count:
-            raise PlanError(Issue("storey", f"the structure has {count} storeys", self.storey, "give one of them"))
+            fix = f"give a storey from 1 to {count}"
+            raise PlanError(Issue("storey", f"the structure has {count} storeys", self.storey, fix))
 
 
 S = TypeVar("S", bound=OfStorey)
 
 
 class StoreySearch(Search[S]):
-    """In each storey on its own."""
+    """Search for an effect in each storey separately."""
 
     needs: tuple[str, ...] = ("x_floor",)
 
@@ -42,7 +43,7 @@ class StoreySearch(Search[S]):
 
 
 def drift(built: Assembled, storey: int) -> Array:
-    """Row (n) that takes x to the drift of a storey from 1."""
+    """The row (n) that maps x to the drift of a storey; storeys count from 1."""
     row: Array = np.zeros(len(built.mass))
     row[built.floors[storey - 1]] = 1.0
     below = built.floors[storey - 2] if storey > 1 else built.base
@@ -52,10 +53,10 @@ def drift(built: Assembled, storey: int) -> Array:
 
 
 def stiffness(built: Assembled, row: Array) -> float:
-    """1 / (l K^-1 l^T), N/m: a pair of forces along the drift over the drift; of a shear building the storey's stiffness."""
+    """1 / (l K^-1 l^T), N/m: a pair of forces along the drift over the drift; in a shear building the storey stiffness."""
     return float(1.0 / (row @ np.linalg.solve(built.stiffness, row)))
 
 
 def stiffened(built: Assembled, added: Array) -> Assembled:
-    """With `added` (n, n) beside the members."""
+    """The structure with the elastic stiffness `added` (n, n; N/m) beside its members."""
     return built._replace(stiffness=built.stiffness + added, elastic=built.elastic + added)

@@ -19,10 +19,10 @@ class Yielding(OfStorey):
 
     f = (1 - r) (q - w),  q' = w' while |q| < F_y or w turns it back
 
-    w elastic force of the storey, in all r w + (1 - r) q: bilinear with kinematic hardening, yield force F_y (N) and post-yield
-    stiffness r times the initial. Exact for a drift that turns at substeps. Neutral: r = 1.
-    State: s[0] q, s[1] w of the last substep, s[2] whether it has begun.
-    Source: Chopra, Dynamics of Structures, chapter 7. Fails first where strength or stiffness degrades.
+    w is the elastic force of the storey. The total force is r w + (1 - r) q: bilinear with kinematic hardening, yield force
+    F_y (N) and post-yield stiffness r times the initial stiffness. Exact for a drift that reverses at substeps. Neutral: r = 1.
+    State: s[0] q, s[1] w of the last substep, s[2] 1 after the first substep.
+    Source: Chopra, Dynamics of Structures, chapter 7. Not valid where strength or stiffness degrades.
     """
 
     kind: Literal["yielding"] = "yielding"
