@@ -1,1 +1,1 @@
-"""Files of recordings: those of runs, and measurements that were imported."""
+"""Files of recordings: recordings of runs, and imported measurements."""

@@ -1,7 +1,7 @@
-"""Recordings of runs in their first form, `rths-recording/1`, whose channels had keys of their own.
+"""Recordings of runs in the first format, `rths-recording/1`, which used other keys for its channels.
 
-`s1.x_cmd` is `x_cmd.1` today, `floor2.x` is `x_floor.2`, and `force1`, the first force of the plan, is `force_ext.N` on its
-floor N. Forces on one floor had a column each; today one column records their sum.
+`s1.x_cmd` is now `x_cmd.1`, `floor2.x` is `x_floor.2`, and `force1`, the first force of the plan, is `force_ext.N` for its
+floor N. Each force had its own column; now one column records the sum of the forces on a floor.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ _FORCE = re.compile(r"force(\d+)")
 
 
 def translated(items: list[dict[str, Any]], signals: Array, plan: Plan) -> tuple[tuple[Channel, ...], Array]:
-    """Channels and signals (substeps, channels) in today's form. Raises ValueError for other channels than the plan's."""
+    """Channels and signals (substeps, channels) in today's format. Raises ValueError if the channels do not match the plan."""
     found: dict[str, Array] = {}
     for column, item in enumerate(items):
         key, values = _key(item["key"], plan), signals[:, column]
         found[key] = found[key] + values if key in found else values
     today = channels(plan)
     if list(found) != [channel.key for channel in today]:
-        raise ValueError(f"its channels are not those of its plan: {', '.join(found)}")
+        raise ValueError(f"its channels do not match its plan: {', '.join(found)}")
     return today, np.column_stack(list(found.values()))
 
 

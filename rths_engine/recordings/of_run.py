@@ -1,4 +1,4 @@
-"""A run's recording as a measured one."""
+"""The recording of a run as a measured recording."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rths_engine.recordings.run_file import Recording
 
 
 def of_run(recording: Recording, name: str) -> Measured:
-    """The channels that a laboratory measures; channels derived from them, such as the tracking error, are left out."""
+    """The channels that a laboratory measures, without derived channels such as the tracking error."""
     found = tuple(
         MeasuredChannel(one.role, one.number, recording.signal(one.key), one.unit, one.label, one.key)
         for one in recording.channels

@@ -1,4 +1,4 @@
-"""Open a file of either kind, a measured recording or a run's, as measurements."""
+"""Open a recording, measured or of a run, as measurements."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rths_engine.recordings.of_run import of_run
 
 
 def load(path: Path) -> Measured:
-    """The recording in `path`. Raises RecordingError where the file is missing, damaged or holds no recording."""
+    """The recording in `path`. Raises RecordingError where the file is missing, damaged or not a recording."""
     schema = _schema(path)
     if schema == store.SCHEMA:
         return store.load(path)
@@ -29,7 +29,7 @@ def _schema(path: Path) -> object:
         with h5py.File(path, "r") as file:
             return file.attrs.get("schema")
     except FileNotFoundError:
-        raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
+        raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
     except OSError as error:
         fix = "import the measurements again, or run the plan again"
         raise RecordingError(Issue("", f"{path.name} is not a complete recording: {error}", fix=fix)) from None

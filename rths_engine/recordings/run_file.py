@@ -1,9 +1,9 @@
-"""The recording, `rths-recording/2`: one HDF5 file a run, complete or absent.
+"""The recording of a run, `rths-recording/2`: one HDF5 file for each run, complete or absent.
 
-`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column a channel; its attributes `keys` and `units` name
-the columns. `/history` (steps + 1, 2, floors) with x and v at the integration steps. `/plan` JSON text. Attributes of the file:
-`schema`, `summary`, `measures` (declarations of the measures in `summary`), `channels`, `motion` (JSON), `dt` (s), `total`
-(substeps of the whole test), `code_version`, `digest`.
+`/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column for each channel; its attributes `keys` and
+`units` describe the columns. `/history` (steps + 1, 2, floors) with x and v at the integration steps. `/plan` JSON text.
+Attributes of the file: `schema`, `summary`, `measures` (declarations of the measures in `summary`), `channels`, `motion`
+(JSON), `dt` (s), `total` (substeps of the whole test), `code_version`, `digest`.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ SCHEMAS = (SCHEMA, first_form.SCHEMA)  # that `load` reads
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """Checksum (hex SHA-256) and size (bytes) of a recording file: what a database row commits to."""
+    """Checksum (hex SHA-256) and size (bytes) of a recording file, as the row in the database stores them."""
 
     sha256: str
     size: int
@@ -43,7 +43,7 @@ class Saved:
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A recording read back. `signals` and `history` are SI; `summary` is the JSON object of the run."""
+    """A recording read from its file. `signals` and `history` are SI; `summary` is the JSON object of the run."""
 
     plan: Plan
     status: str
@@ -66,7 +66,7 @@ class Recording:
 
 
 def save(path: Path, result: Result) -> Saved:
-    """Write `result` to `path`: temporary name in the same folder, fsync, rename. Nothing is left behind on failure."""
+    """Write `result` to `path`: temporary file in the same folder, fsync, rename. A failure leaves no file."""
     with files.temporary(path) as written:
         with h5py.File(written, "w") as file:
             _write(file, result)
@@ -78,7 +78,7 @@ def save(path: Path, result: Result) -> Saved:
 
 
 def load(path: Path) -> Recording:
-    """Read a recording. Raises RecordingError where the file is missing, damaged or of another form."""
+    """Read a recording. Raises RecordingError where the file is missing, damaged or in another format."""
     with _opened(path) as file:
         return _read(file)
 
@@ -106,7 +106,7 @@ def _opened(path: Path) -> Iterator[h5py.File]:
                 raise ValueError(f"its schema is {file.attrs.get('schema')!r}")
             yield file
     except FileNotFoundError:
-        raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
+        raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
     except (OSError, LookupError, TypeError, ValueError) as error:
         raise RecordingError(
             Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix="run the plan again")
@@ -154,7 +154,7 @@ def _plan(file: h5py.File) -> Plan:
 
 
 def _columns(file: h5py.File, items: list[dict[str, Any]], signals: Array, plan: Plan) -> tuple[tuple[Channel, ...], Array]:
-    """Channels, and rows of the file's signals in their columns."""
+    """Channels, and the rows of `signals` in the order of the channels."""
     if file.attrs["schema"] == first_form.SCHEMA:
         return first_form.translated(items, signals, plan)
     return tuple(_channel(item) for item in items), signals
@@ -163,5 +163,5 @@ def _columns(file: h5py.File, items: list[dict[str, Any]], signals: Array, plan:
 def _channel(item: dict[str, Any]) -> Channel:
     channel = Channel(item["role"], item["number"], item["label"])
     if channel.role not in CHANNELS or channel.unit != item["unit"]:
-        raise ValueError(f"its channel {item['key']!r} in {item['unit']} is unknown")
+        raise ValueError(f"its channel {item['key']!r} in {item['unit']} is not a known channel")
     return channel

@@ -1,1 +1,1 @@
-"""What a run leaves: channels, signals and the measures of them."""
+"""The results of a run: its channels, its signals and its measures."""

@@ -17,11 +17,11 @@ from rths_engine.planning.plan import Plan
 
 @dataclass(frozen=True, slots=True)
 class Role:
-    """What a channel can be.
+    """The role of a channel: its label, symbol and units.
 
-    `unit` is SI; people read it in `shown`. `counts` says whether a channel's number is that of a station or of a floor; it is
-    empty where a recording has one channel of the role. `also` names further SI units in which a laboratory may give it.
-    `derived` channels are computed by a run from the others and are never imported.
+    `unit` is SI; people read the channel in `shown`. `counts` says whether the number of a channel is that of a station or of a
+    floor; it is empty where a recording has one channel of the role. `also` lists further SI units of files. A run computes
+    `derived` channels from the others; they are never imported.
     """
 
     label: str

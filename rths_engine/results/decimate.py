@@ -1,4 +1,4 @@
-"""Fewer points with the same picture: every bucket keeps the smallest and the largest sample."""
+"""Decimation that keeps the shape of a plot: each bucket keeps its smallest and its largest sample."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ from rths_engine.foundation.arrays import Array
 
 
 def extremes(signals: Array, buckets: int) -> NDArray[np.int64]:
-    """Rows, in order, where a column of `signals` (samples, columns) is extreme in its bucket; all rows of a short signal."""
+    """Indices, in order, of the rows in which a column of `signals` (samples, columns) is extreme in its bucket.
+
+    A short signal keeps all rows.
+    """
     count, columns = signals.shape
     size = -(-count // max(1, buckets))
     if size <= 2 * columns:

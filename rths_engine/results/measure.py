@@ -1,4 +1,4 @@
-"""How a measure is declared: one entry says what it is, how people read it and how it is computed."""
+"""The declaration of a measure: its meaning, its label and unit for people, and its computation."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from rths_engine.results.sums import RunSums, StationSums
 
 @dataclass(frozen=True, kw_only=True)
 class Measure:
-    """A number that says something of a test. Subclasses say of what and compute it.
+    """A number computed from the record of a test. Subclasses define its scope and compute it.
 
     `key` names it in results, the database, REST and files, and ends with its shown unit. `unit` is SI and `shown` the unit in
-    which people read it, with `decimals`. `tests` are the kinds of test in which it says something. `formula` uses the symbols
+    which people read it, with `decimals`. `tests` are the kinds of test in which it applies. `formula` uses the symbols
     of the channels (docs/glossary.md). `further` measures stand in a second table; `listed` ones stand in lists of runs too.
     """
 

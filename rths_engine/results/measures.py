@@ -233,7 +233,7 @@ MEASURES: tuple[Measure, ...] = (
 
 
 def of(kind: type[M], test: str | None = None) -> tuple[M, ...]:
-    """The measures of a scope, by its class, in their order; with `test`, those that say something in that kind of test."""
+    """The measures of a scope, by its class, in their order; with `test`, those that apply in that kind of test."""
     return tuple(one for one in MEASURES if isinstance(one, kind) and (test is None or test in one.tests))
 
 

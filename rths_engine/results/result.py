@@ -1,4 +1,4 @@
-"""What a run leaves: its signals and the measures of them."""
+"""The result of a run: its signals and their measures."""
 
 from __future__ import annotations
 

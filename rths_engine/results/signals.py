@@ -1,4 +1,4 @@
-"""What measures are computed from: the whole record of a test, and of one station, in SI."""
+"""The data that measures are computed from: the whole record of a test and of each station, in SI."""
 
 from __future__ import annotations
 
@@ -89,6 +89,6 @@ class RunSignals:
         return float(np.max(metrics.input_energy(loads, self.inputs, self.floors, self.start), initial=0.0))
 
     def station(self, number: int) -> StationSignals:
-        """What was recorded of station `number`, counted from 1."""
+        """The record of station `number`, which counts from 1."""
         own = {role: self.signal(key(role, number)) for role in RECORDED}
         return StationSignals(own, self.dt, self.plan.stations[number - 1].dampers, self.largest_input)

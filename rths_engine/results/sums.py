@@ -1,8 +1,8 @@
-"""What measures of a running test are computed from: sums and extremes over the samples so far, in SI.
+"""The data that measures of a running test are computed from: sums and extremes over the samples so far, in SI.
 
-The cost follows the new samples, not the length of the record. At the end the measures are those of the whole record but for
-rounding; the frequency evaluation index agrees to 1 % of amplitude and 0.3 ms where the command has several cycles in a segment
-(`metrics.frequency.RunningFrequency`).
+The time of an update depends on the number of new samples, not on the length of the record. At the end the measures equal those
+of the whole record except for rounding. The frequency evaluation index agrees within 1 % of amplitude and 0.3 ms where the
+command has several cycles in a segment (`metrics.frequency.RunningFrequency`).
 """
 
 from __future__ import annotations

@@ -17,13 +17,13 @@ from rths_engine.stability import structure
 from rths_engine.stability.station import Lifted
 
 # chosen; see docs/decisions/0023
-ROUNDING = 1e-9  # a radius above 1 by no more is 1
-GONE = 1e-3  # a root so small is over within a step, and no mode
+ROUNDING = 1e-9  # a radius that exceeds 1 by less counts as 1
+GONE = 1e-3  # a root this small decays within one step and is not listed as a mode
 
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A root z of the loop: z = exp(s dt); frequency |Im s| / 2 pi (Hz), damping ratio -Re s / |s|, radius |z|."""
+    """A mode of the loop, with the root z = exp(s dt): frequency |Im s| / 2 pi (Hz), damping ratio -Re s / |s|, radius |z|."""
 
     frequency: float
     damping: float
@@ -31,7 +31,9 @@ class Mode:
 
 
 class ClosedLoop:
-    """X[i+1] = A X[i],  X = (q, s_1 ... s_S): structure and integrator, then the linear state of each station.
+    """The linear closed loop, X[i+1] = A X[i] with X = (q, s_1 ... s_S).
+
+    q is the state of structure and integrator, s_j the state of station j.
 
     q[i+1] = a q[i] - b n f[i];  s_j[i+1] = power_j s_j[i] + start_j d_j q[i] + end_j d_j q[i+1];  f_j = c_j s_j, with n_j equal
     specimens in a station. Stable while every root |z| <= 1. Exact for a linear plan; see `structure` and `station` for what
@@ -46,11 +48,11 @@ class ClosedLoop:
         self._own = [self.station(j) for j in range(len(plan.stations))]
 
     def station(self, j: int, added: float = 0.0) -> Lifted:
-        """Station j with `added` controller steps of delay, over an integration step."""
+        """Station j over an integration step, with `added` controller steps of delay."""
         return stations.linear(self.plan.stations[j], self.plan.substep, added).over(self.plan.substeps)
 
     def matrix(self, changed: Mapping[int, Lifted] | None = None) -> Array:
-        """A, with some stations changed."""
+        """The matrix A, with some stations replaced by those in `changed`."""
         used = [(changed or {}).get(j, own) for j, own in enumerate(self._own)]
         a, b, d = self._structure.a, self._structure.b, self._structure.d
         forces = np.zeros((len(used), len(a) + sum(len(one.c) for one in used)))
@@ -70,40 +72,40 @@ class ClosedLoop:
         return float(np.max(np.abs(np.linalg.eigvals(self.matrix(changed)))))
 
     def radii(self, matrices: Sequence[Array]) -> Array:
-        """Spectral radii of many matrices; rows and columns of zeros make them equally large."""
+        """Spectral radii of many matrices, which are padded with zeros to equal size."""
         size = max(len(one) for one in matrices)
         equal = np.array([np.pad(one, (0, size - len(one))) for one in matrices])
         radii: Array = np.abs(np.linalg.eigvals(equal)).max(axis=-1)
         return radii
 
     def modes(self) -> list[Mode]:
-        """The oscillating modes, the least damped first; z < 0 oscillates at the Nyquist frequency."""
+        """The oscillating modes, in ascending order of damping; z < 0 oscillates at the Nyquist frequency."""
         roots = np.linalg.eigvals(self.matrix())
         lasting = roots[np.abs(roots) > GONE]
         found = [_mode(complex(z), self.dt) for z in lasting if z.imag > 0 or (z.imag == 0 and z.real < 0)]
         return sorted(found, key=lambda mode: mode.damping)
 
     def notes(self) -> list[str]:
-        """What the prediction takes for granted, in sentences."""
+        """The assumptions of the prediction, one sentence each."""
         found = []
         curved = [station.name for station in self.plan.stations if not isinstance(station.specimen, LinearSpecimen)]
         if curved:
             names = ", ".join(curved)
             found.append(
-                f"For small amplitudes: {names} by the specimen's initial tangent; once it slides or yields, growth is limited."
+                f"Valid for small amplitudes: {names} by its initial tangent. Once it slides or yields, growth is limited."
             )
         adaptive = [station.name for station in self.plan.stations if station.compensator.kind == "aic"]
         if adaptive:
             found.append(f"The adaptive compensation of {', '.join(adaptive)} is held at its start value.")
         if len(self.model.built.members.dofs):
-            found.append("The frame's members are taken before yielding.")
+            found.append("The members of the frame are assumed not to yield.")
         if any(station.physics for station in self.plan.stations) or self.plan.structure_physics:
-            found.append("Left-out physics that the plan adds to its models is not in the prediction.")
+            found.append("The prediction does not include the left-out physics that the plan adds to its models.")
         return found
 
 
 def stable(radius: float) -> bool:
-    """Whether a spectral radius is at most 1, to rounding."""
+    """Whether a spectral radius is at most 1, except for rounding."""
     return radius <= 1.0 + ROUNDING
 
 

@@ -1,4 +1,4 @@
-"""How much more delay a station bears, and the radius over two stations' delays."""
+"""The delay margin of a station, and the spectral radius over the delays of two stations."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rths_engine.stability.closed_loop import ClosedLoop, stable
 from rths_engine.stability.station import delay
 
 # chosen; see docs/decisions/0023
-MOST = 1000.0  # controller steps of added delay looked at
+MOST = 1000.0  # largest added delay searched, in controller steps
 STEPS = np.concatenate([np.arange(1.0, 10.0), np.geomspace(10.0, MOST, 60)])
 POINTS = 41
 
@@ -37,10 +37,10 @@ class Map:
 
 
 def margin(loop: ClosedLoop, j: int) -> float | None:
-    """Controller steps of delay that station j bears beyond its own (s of delay times the controller rate) before rho > 1.
+    """Delay margin of station j in controller steps: the added delay at which the spectral radius rho first exceeds 1.
 
-    The first crossing, to 1e-4 steps, found on a grid that is finer at small delays. 0 when the loop is unstable as it is;
-    None when MOST steps do not suffice.
+    The first crossing, to 1e-4 steps, on a grid that is finer at small delays. 0 when the loop is unstable without added delay;
+    None when it is stable up to MOST steps.
     """
 
     def holds(added: float) -> bool:
@@ -52,7 +52,7 @@ def margin(loop: ClosedLoop, j: int) -> float | None:
 
 
 def crossing(holds: Callable[[float], bool], grid: Array) -> float | None:
-    """The value up to which `holds` is true, between the first two values of the grid where it changes; None if nowhere."""
+    """The value at which `holds` changes, between the first pair of grid values with a change; None without a change."""
     low = float(grid[0])
     for high in map(float, grid[1:]):
         if not holds(high):
@@ -65,7 +65,7 @@ def crossing(holds: Callable[[float], bool], grid: Array) -> float | None:
 
 
 def delay_map(loop: ClosedLoop, first: int = 0, second: int = 1, points: int = POINTS) -> Map:
-    """The radius over the delays of two stations, far enough to show the limit where there is one."""
+    """The radius over the delays of two stations, over a range that includes the stability limit where there is one."""
     axes = [_axis(loop, j, points) for j in (first, second)]
     lifted = [[loop.station(axis.station, value - axis.present) for value in axis.values] for axis in axes]
     radius = np.array([loop.radii([loop.matrix({first: one, second: two}) for one in lifted[0]]) for two in lifted[1]])

@@ -28,7 +28,7 @@ DT = 0.01  # s, without substeps
 
 
 def characteristic(alpha: tuple[float, float], ratio: float = DAMPING_RATIO) -> Array:
-    """Coefficients a0 ... a6 of equation (6c), half of each storey's stiffness being experimental.
+    """Coefficients a0 ... a6 of equation (6c), with half of each storey's stiffness experimental.
 
     With (3), (4) and G_j(z) = z / l_j, l_j = alpha_j z - (alpha_j - 1) (5b), the determinant of
     P + 4 dt^2 z (k_1e G_1 e e^T + k_2e G_2 u u^T),  P = (4 M + 2 dt C + dt^2 K) (z - 1)^2 + 4 dt C (z - 1) + 4 dt^2 z K_a,
@@ -56,7 +56,7 @@ def radius(alpha: tuple[float, float], ratio: float = DAMPING_RATIO) -> float:
 
 
 def limit(alpha1: float) -> float | None:
-    """The alpha2 of the stability limit of Figure 3 at an alpha1; None where no alpha2 is stable."""
+    """alpha2 at the stability limit of Figure 3 for a given alpha1; None where no alpha2 is stable."""
 
     def holds(alpha2: float) -> bool:
         return stable(radius((alpha1, alpha2)))
@@ -65,13 +65,13 @@ def limit(alpha1: float) -> float | None:
 
 
 def largest_alpha1() -> float:
-    """The alpha1 of the limit while the second actuator does not delay."""
+    """alpha1 at the stability limit when the second actuator has no delay."""
     found = crossing(lambda alpha1: stable(radius((alpha1, 1.0))), np.linspace(1.0, MOST, 1000))
     return MOST if found is None else found
 
 
 def section2(alpha: tuple[float, float]) -> Plan:
-    """The structure as a plan. Its damping ratio is that of half the stiffness with the same C = a0 M + a1 K."""
+    """The structure as a plan. Its damping ratio is that of half of the stiffness with the same C = a0 M + a1 K."""
     storey = Storey(mass=MASS, stiffness=STIFFNESS / 2)
     return Plan(
         name="Section 2 of Chen and Ricles (2012)",

@@ -1,4 +1,4 @@
-"""What is told of a plan's stability."""
+"""Summary, map and warning about the stability of a plan."""
 
 from __future__ import annotations
 
@@ -12,17 +12,19 @@ from rths_engine.stability.margins import Map, delay_map, margin
 
 ARTICLE = {"specimen": "a", "actuator": "an"}
 NO_LOOP: dict[str, Any] = {"radius": None, "stable": None, "least_damped": None, "modes": [], "stations": []}
-ALONE = "No station: these are the modes of the structure under its integrator, with the damping that the integrator adds."
+ALONE = "The plan has no station. These are the modes of the structure, with the damping that its integrator adds."
 
 
 def summary(planned: Plan | Model) -> dict[str, Any]:
-    """Radius, verdict, modes and delay margins as one JSON object (SI); without radius and verdict where there is no loop."""
+    """Radius, verdict, modes and delay margins as one JSON object (SI); no radius and verdict for a plan without a loop."""
     model = Model.of(planned)
     plan = model.plan
     if plan.driven:
         return {
             **NO_LOOP,
-            "notes": [f"A test of {ARTICLE[plan.test]} {plan.test} follows its drive: no loop that could be unstable."],
+            "notes": [
+                f"A test of {ARTICLE[plan.test]} {plan.test} follows its drive. It has no closed loop that can become unstable."
+            ],
         }
     loop = ClosedLoop(model)
     radius, modes = loop.radius(), loop.modes()
@@ -37,7 +39,7 @@ def summary(planned: Plan | Model) -> dict[str, Any]:
 
 
 def mapped(planned: Plan | Model, points: int) -> dict[str, Any] | None:
-    """The radius over the delays of the first two stations; None for fewer."""
+    """The radius over the delays of the first two stations; None for a plan with fewer stations."""
     model = Model.of(planned)
     if model.plan.driven or len(model.plan.stations) < 2:
         return None
@@ -50,7 +52,7 @@ def mapped(planned: Plan | Model, points: int) -> dict[str, Any] | None:
 
 
 def warning(planned: Plan | Model) -> str | None:
-    """Sentences for a plan whose closed loop is predicted unstable about rest or can't be; None for any other."""
+    """Warning for a plan whose closed loop is predicted unstable about rest or cannot be predicted; None for all others."""
     model = Model.of(planned)
     if not model.plan.stations or model.plan.driven:
         return None

@@ -1,4 +1,4 @@
-"""A station about rest as a linear system of one controller step, from the steps its parts run in a test."""
+"""A station about rest as a linear system of one controller step, derived from the steps that its parts run in a test."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.planning.plan import Station
 
 # chosen; see docs/decisions/0023
-AMPLITUDE = 1e-9  # m, below any yield, slack or limit; about rest rounding is relative, so nothing is lost
+AMPLITUDE = 1e-9  # m, below any yield, slack or limit; about rest rounding is relative, so no precision is lost
 EXCITED = 24  # controller steps of random command that show which states move
-NEGLIGIBLE = 1e-10  # of the largest
-FEWEST = 16  # states that a realisation begins with
+NEGLIGIBLE = 1e-10  # of the largest value
+FEWEST = 16  # number of states at which a realisation begins
 
 
 class Lifted(NamedTuple):
@@ -31,11 +31,11 @@ class Lifted(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class LinearStation:
-    """s[q] = a s[q-1] + b x_cmd[q];  f[q] = c s[q] is the force (N) of one specimen at controller step q.
+    """A station about rest as a linear system: s[q] = a s[q-1] + b x_cmd[q], f[q] = c s[q].
 
-    a (m, m), b (m), c (m).
-    Linearised about rest by unit perturbations of the parts' own steps: a nonlinear specimen by its initial tangent, an
-    adaptive compensator by its start value (the tracking indicator is of second order). Fails first at yielding or a limit.
+    f[q] is the force (N) of one specimen at controller step q. a (m, m), b (m), c (m).
+    Unit perturbations of the parts' own steps give the matrices. A nonlinear specimen has its initial tangent, an adaptive
+    compensator its start value (the tracking indicator is of second order). Not valid beyond yielding or a limit.
     """
 
     a: Array
@@ -57,12 +57,14 @@ def linear(station: Station, dt: float, added: float = 0.0) -> LinearStation:
     still = np.array_equal(chain.step(chain.rest, 0.0), chain.rest)
     found = _perturbed(chain) if still else _realised(chain)
     if not all(np.isfinite(one).all() for one in (found.a, found.b, found.c)):
-        raise PlanError(Issue("", f"station '{station.name}' can't be linearised about rest", fix="check its parts' values"))
+        raise PlanError(
+            Issue("", f"station '{station.name}' cannot be linearised about rest", fix="check the values of its parts")
+        )
     return found
 
 
 def delay(station: Station) -> float | None:
-    """The station's own delay constant alpha, of which added delay is more; None where delay is added as a lag of its own."""
+    """The delay constant alpha of the station, which added delay increases; None where added delay is a separate lag."""
     return station.actuator.alpha if isinstance(station.actuator, FirstOrderDelay) else None
 
 
@@ -70,8 +72,8 @@ class _Chain:
     """One controller step of a station: compensator, actuator, lag and specimen, as the loop runs them without noise.
 
     Flat state: compensator, actuator, specimen, lagging displacement (m), last command (m), last measured displacement (m),
-    last force (N). `added` delay raises the alpha of a first-order actuator (5a); behind any other actuator it is one more
-    first-order lag of alpha = 1 + added.
+    last force (N). `added` delay raises the alpha of a first-order actuator (5a). For any other actuator it is a further
+    first-order lag with alpha = 1 + added, behind the actuator.
     """
 
     def __init__(self, station: Station, dt: float, added: float):
@@ -97,7 +99,7 @@ class _Chain:
 
 
 def _perturbed(chain: _Chain) -> LinearStation:
-    """By central differences; each state is moved by about as much as a random command of AMPLITUDE moves it."""
+    """The linear system by central differences; each state moves about as far as under a random command of AMPLITUDE."""
     random = np.random.default_rng(0)
     state, reached = chain.rest, np.zeros(len(chain.rest))
     for command in random.normal(scale=AMPLITUDE, size=EXCITED):
@@ -121,7 +123,7 @@ def _perturbed(chain: _Chain) -> LinearStation:
 
 
 def _joined(links: Array, entered: Array, seen: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Indices of the states that the command reaches and that the force shows."""
+    """Indices of the states that the command changes and that change the force."""
     linked = links > NEGLIGIBLE
     after, before = entered > NEGLIGIBLE, seen
     for _ in range(len(after)):
@@ -130,14 +132,14 @@ def _joined(links: Array, entered: Array, seen: NDArray[np.bool_]) -> NDArray[np
 
 
 def _realised(chain: _Chain) -> LinearStation:
-    """For parts that count steps (ring buffers): the smallest system with the same response to a unit command (Ho-Kalman).
+    """The smallest system with the same response to a unit command (Ho-Kalman), for parts that count steps (ring buffers).
 
     Source: Ho and Kalman (1966), Regelungstechnik 14, 545-548.
     """
     response: list[float] = []
     state = chain.step(chain.rest, AMPLITUDE)
     order, size = FEWEST, 0
-    while order > size - FEWEST // 2:  # as many again while nearly all of them count
+    while order > size - FEWEST // 2:  # double the order while nearly all states count
         size = 2 * max(order, FEWEST)
         while len(response) < 2 * size:
             response.append(state[-1] / AMPLITUDE)

@@ -1,4 +1,4 @@
-"""The structure and its integrator about rest, reduced to what the stations and the ground reach."""
+"""The structure and its integrator about rest, reduced to the coordinates that stations and ground excite."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning.model import Model
 
 # chosen; see docs/decisions/0023
-MOST = 300  # numbers that the structure may be reduced to: the eigenvalues of the loop are computed some hundred times
-REACHED = 1e-9  # a direction shorter than this beside its own length is rounding
+MOST = 300  # coordinates of the reduced structure: the eigenvalues of the loop are computed some hundred times
+REACHED = 1e-9  # a remaining direction with a smaller share of its length is rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,9 +23,10 @@ class LinearStructure:
     """q[i+1] = a q[i] - b f[i] with the stations' forces f (N) and their strokes x_cmd[i] = d q[i].
 
     From `integrators.scheme` with the initial K and R[i] = -C v[i] - K x[i] - L^T f[i]. (x, dt v, dt^2 inv(D) c) = basis q,
-    without c where the scheme keeps nothing; the basis spans what the columns of L^T and of M iota reach in any number of
-    steps, so that the motion of the stations in it is exact. a (r, r), b (r, S), d (S, r). Degrees of freedom that nothing
-    reaches drop out: massless rotations and vertical displacements follow the others. Fails first when members yield.
+    without c for a scheme that does not use the last step. The basis spans everything that the columns of L^T and of M iota
+    excite in any number of steps, so that the motion of the stations is exact. a (r, r), b (r, S), d (S, r). Degrees of freedom
+    that are not excited drop out; massless rotations and vertical displacements follow the others.
+    Not valid when members yield.
     """
 
     a: Array
@@ -34,13 +35,13 @@ class LinearStructure:
 
 
 def linear(model: Model) -> LinearStructure:
-    """A plan's structure under its integrator. Raises PlanError when it is a mechanism or has too many motions."""
+    """The structure of a plan with its integrator. Raises PlanError for a mechanism or too many independent motions."""
     built, drifts, dt, scheme = model.built, model.drifts, model.plan.step, model.scheme
     factor = lu_factor(scheme.effective)
     dof, weight = len(built.mass), scheme.weight
 
     def moved(state: Array, force: Array) -> Array:
-        """The state after a step under the force R beyond what it holds itself."""
+        """The state after a step under a force R in addition to its own forces."""
         x, move = state[:dof], state[dof : 2 * dof]
         pushed = dt**2 * lu_solve(factor, force - built.stiffness @ x - built.damping @ move / dt)
         change = pushed if scheme.held is None else (1 - weight) * pushed + state[2 * dof :]
@@ -63,7 +64,7 @@ def linear(model: Model) -> LinearStructure:
 
 
 def _reached(step: Callable[[Array], Array], starts: Array) -> tuple[Array, Array]:
-    """Orthonormal basis (N, r) of what repeated steps reach from the columns of `starts`, and the basis after one step."""
+    """Orthonormal basis (N, r) of the states that repeated steps reach from `starts`, and the basis after one step."""
     basis: Array = np.zeros((len(starts), 0))
     images: Array = np.zeros((len(starts), 0))
     waiting = deque(starts.T)
@@ -73,7 +74,7 @@ def _reached(step: Callable[[Array], Array], starts: Array) -> tuple[Array, Arra
             problem = f"has more than {MOST} independent motions, for which stability is not predicted"
             raise PlanError(Issue("structure", problem, fix="reduce it to fewer degrees of freedom"))
         length = np.linalg.norm(one)
-        for _ in range(2):  # once more: a single projection leaves rounding
+        for _ in range(2):  # twice: a single projection leaves rounding errors
             one = one - basis @ (basis.T @ one)
         rest = np.linalg.norm(one)
         if length == 0 or rest <= REACHED * length:

@@ -1,4 +1,4 @@
-"""Our table beside the published one: outcomes, signs and ratios."""
+"""Comparison of our table with the published table: outcomes, signs and ratios."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PAPER = {row.simulation: row for row in templates.PAPER.values()}
 # Chen and Ricles (2012); the simulations that numbers were calibrated on: docs/table4.md
 FLOORS_PEAK_MM = (49.6, 94.6)  # of simulation 2
 DRIFTS_PERCENT = (1.1, 1.2)  # of simulation 2
-CALIBRATED = (3, 4)  # simulations that parameters were chosen on
+CALIBRATED = (3, 4)  # simulations used to choose parameters
 FLOORS_PEAK = "floors_peak_mm"
 MEASURES = ("mte_mm", "rms_percent", "mti_mm2", "mee_kNm")
 RATIOS = ("mte_mm", "rms_percent", "mti_mm2")
@@ -74,7 +74,7 @@ def comparison(rows: Iterable[Row]) -> Comparison:
 
 
 def stable(paper: PaperRow) -> bool:
-    """Whether the paper's simulation was stable: only then it gives measures."""
+    """Whether the paper's simulation was stable. The paper gives measures of stable simulations only."""
     return paper.mte_mm is not None
 
 

@@ -37,15 +37,15 @@ VALVE_TIME = 4e-3  # s
 COMMON_VELOCITY = 0.1  # m/s, whose secant is a damper's equivalent damping
 EQUIVALENT_DAMPING = (DAMPER.yield_force + DAMPER.rate_coefficient * COMMON_VELOCITY**DAMPER.rate_exponent) / COMMON_VELOCITY
 GROWTH_MEMORY = 0.5  # s, how long an actuator's delay stays after a large motion
-WATCH = Limits(oscillation=10)  # for whoever stopped simulations 7 and 10
+WATCH = Limits(oscillation=10)  # in place of the operator who stopped simulations 7 and 10
 
 
 @dataclass(frozen=True, slots=True)
 class Laboratory:
-    """What was calibrated of the laboratory (SI), one value a station where there are two. See docs/table4.md."""
+    """The calibrated numbers of the laboratory (SI); a pair has one value for each station. See docs/table4.md."""
 
-    time_constant: tuple[float, float]  # s, of the actuators' position loops
-    delay_growth: float  # s/m, of the actuators' delay by the command's amplitude
+    time_constant: tuple[float, float]  # s, time constants of the actuators' position loops
+    delay_growth: float  # s/m, growth of the actuators' delay with the command's amplitude
     displacement_noise: float  # m, standard deviation
     force_noise: float = 200.0  # N, standard deviation, assumed
 
@@ -55,7 +55,7 @@ LABORATORY = Laboratory(time_constant=(26.562e-3, 35.396e-3), delay_growth=0.069
 
 
 def name(simulation: int) -> str:
-    """The template's name of a simulation."""
+    """The name of the template of a simulation."""
     return f"table4-{simulation:02d}"
 
 
@@ -89,7 +89,7 @@ def _frame() -> MomentFrame:
 
 
 def _brace_stiffness(height: float) -> float:
-    """Lateral stiffness of a diagonal of the columns' section across one bay, which each damper has: E A cos^2 / l."""
+    """Lateral stiffness E A cos^2 / l of each damper's brace: a diagonal across one bay with the section of the columns."""
     length = math.hypot(BAYS[0], height)
     return STEEL * SECTIONS[COLUMN].area * BAYS[0] ** 2 / length**3
 

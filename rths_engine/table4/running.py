@@ -1,4 +1,4 @@
-"""The twelve simulations run, and what the table tells of each."""
+"""Run the twelve simulations and make their rows of the table."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CORES = 2
 
 
 def run_all(plans: Mapping[int, Plan], motions: MotionLibrary) -> dict[int, Result]:
-    """Each simulation's result, run on two cores: the compiled loop lets go of Python's lock."""
+    """The result of each simulation. They run on two cores, because the compiled loop releases Python's global lock."""
     with ThreadPoolExecutor(CORES) as threads:
         return dict(zip(plans, threads.map(lambda plan: simulate(plan, motions), plans.values()), strict=True))
 

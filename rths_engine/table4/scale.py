@@ -1,4 +1,4 @@
-"""The ground motion's factor, from the published floors of simulation 2."""
+"""The scale factor of the ground motion, from the published floor peaks of simulation 2."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from rths_engine.table4.laboratory import LABORATORY, Laboratory, PlannedRecord,
 
 # chosen; see docs/decisions/0023
 LEAST, MOST = 0.01, 50.0
-CLOSE = 1e-3  # of a factor
-FAR = Limits(displacement=10.0, velocity=min(VELOCITY_CAPACITY))  # so that too strong a motion goes on
+CLOSE = 1e-3  # tolerance of a factor
+FAR = Limits(displacement=10.0, velocity=min(VELOCITY_CAPACITY))  # so that a run does not trip under too strong a motion
 
 
 def design_basis(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory = LABORATORY) -> PlannedRecord:
-    """`motion` with the factor at which the floors of simulation 2 peak, in the geometric mean, where the paper's did.
+    """`motion` with the factor that gives the paper's floor peaks of simulation 2, in the geometric mean.
 
-    The paper's record was scaled to the design basis earthquake by a factor it does not give; its floors of simulation 2, 49.6
-    and 94.6 mm, are published. Raises MotionError where no factor does.
+    The paper scaled its record to the design basis earthquake by a factor that it does not state. It states the floor peaks of
+    simulation 2, 49.6 and 94.6 mm. Raises MotionError where no factor gives these peaks.
     """
 
     def excess(logarithm: float) -> float:
@@ -33,8 +33,8 @@ def design_basis(motion: PlannedRecord, motions: MotionLibrary, laboratory: Labo
 
     low, high = math.log(LEAST), math.log(MOST)
     if excess(low) > 0 or excess(high) < 0:
-        problem = f"no factor from {LEAST:g} to {MOST:g} lets the floors of simulation 2 peak at 49.6 and 94.6 mm"
-        raise MotionError(Issue("record", problem, motion.scale.kind, "give the factor, or another record or unit"))
+        problem = f"no factor from {LEAST:g} to {MOST:g} gives the floors of simulation 2 peaks of 49.6 and 94.6 mm"
+        raise MotionError(Issue("record", problem, motion.scale.kind, "give the factor, or choose another record or unit"))
     return _times(motion, math.exp(float(brentq(excess, low, high, xtol=CLOSE))))
 
 
@@ -43,7 +43,7 @@ def _times(motion: PlannedRecord, factor: float) -> PlannedRecord:
 
 
 def floors_excess(motion: PlannedRecord, motions: MotionLibrary, laboratory: Laboratory) -> float:
-    """Logarithm of the floors' peaks over the paper's; 1 where even these limits are exceeded."""
+    """Logarithm of the floor peaks over those of the paper; 1 where the run exceeds the limits FAR."""
     plan = plans(motion, laboratory)[2]
     stations = tuple(station.model_copy(update={"limits": FAR}) for station in plan.stations)
     result = simulate(plan.model_copy(update={"stations": stations}), motions)

@@ -73,7 +73,7 @@ def test_a_clean_recording_is_not_accused(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["plan.yaml", "none.h5"], "there is no recording none.h5"),
+        (["plan.yaml", "none.h5"], "the recording none.h5 does not exist"),
         (["plan.yaml", "plan.yaml"], "plan.yaml is not a complete recording"),
         (["two.yaml", "clean.h5"], "is of a 'specimen' test; the plan describes a 'hybrid' test"),
         (["slow.yaml", "clean.h5"], "clean.h5: has a sampling rate of 512 Hz; the controller rate of the plan is 256 Hz"),

@@ -55,7 +55,7 @@ def test_warnings_are_told_and_kept(folder: Path, capsys: pytest.CaptureFixture[
         (["sine.csv", "--map", "map.yaml", "--out", "missing/rec.h5"], "there is no folder missing"),
         (["sine.csv", "--map", "map.yaml", "--out", "sine.csv"], "is the file of measurements itself"),
         (["backwards.csv", "--map", "map.yaml", "--out", "rec.h5"], "time does not increase at sample 11"),
-        (["other.csv", "--map", "map.yaml", "--out", "rec.h5"], "the file has no such column (it has Force)"),
+        (["other.csv", "--map", "map.yaml", "--out", "rec.h5"], "the file does not have this column (it has Force)"),
     ],
 )
 def test_what_cant_be_used_exits_2_with_the_reason_and_leaves_nothing(

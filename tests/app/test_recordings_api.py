@@ -121,9 +121,9 @@ def test_a_finding_names_its_column_and_an_error_refuses_the_import(client: Test
 
 def test_a_warning_is_kept_with_the_recording(client: TestClient) -> None:
     mapping = made.mapping()
-    mapping["channels"][3]["reverse"] = True  # the force gives energy away
+    mapping["channels"][3]["reverse"] = True  # the force supplies energy
     recording = post(client, "", upload(client)["sha256"], mapping).json()
-    assert "gives energy away" in recording["warnings"][0]["problem"]
+    assert "supplies energy" in recording["warnings"][0]["problem"]
 
 
 def test_an_import_by_yaml_is_the_import_by_json(client: TestClient) -> None:

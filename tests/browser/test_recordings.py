@@ -36,7 +36,7 @@ def test_a_wrong_unit_is_seen_corrected_and_the_recording_imported_and_listed(op
     chosen(page, csv(tmp_path, "Disp (m)"))
     expect(page.get_by_label("Role of Vel (mm/s)")).to_have_value("v_meas")
     velocity = page.locator("tr", has=page.get_by_label("Role of Vel (mm/s)"))
-    expect(velocity).to_contain_text("Error: is of another size than the derivative of x_meas.1")
+    expect(velocity).to_contain_text("Error: does not have the magnitude of the derivative of x_meas.1")
     page.get_by_label("Unit of Disp (m)").select_option("mm")
     expect(page.get_by_text("400 samples at 100 Hz, 3.99 s: no errors or warnings")).to_be_visible()
     expect(velocity).not_to_contain_text("Error")
@@ -120,7 +120,7 @@ def test_a_file_that_cannot_be_read_says_why(opened: Opener, tmp_path: Path) -> 
     path = tmp_path / "letter.txt"
     path.write_text("Dear colleague,\nthe measurements are on their way.\n")
     page.get_by_label("File of measurements").set_input_files(path)
-    expect(page.get_by_role("alert")).to_contain_text("is no row of numbers")
+    expect(page.get_by_role("alert")).to_contain_text("is not a row of numbers")
     expect(page.get_by_role("form")).to_have_count(0)
 
 

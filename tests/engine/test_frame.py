@@ -117,9 +117,12 @@ def test_a_yielding_frame_dissipates_and_drifts_less_than_its_stiffness_says() -
             {"storeys": [{"height": 4, "mass": -1, "column": "W14x120", "beam": "W24x55"}]},
             "storeys.0.mass = -1: needs a value > 0",
         ),
-        ({"storeys": [{"height": 4, "mass": 1e5, "column": "W99x1", "beam": "W24x55"}]}, "storey 1 has the unknown section 'W99x1'"),
+        (
+            {"storeys": [{"height": 4, "mass": 1e5, "column": "W99x1", "beam": "W24x55"}]},
+            "storey 1 has the unknown section 'W99x1'",
+        ),
         ({"storeys": [{"height": 4, "column": "W14x120", "beam": "W24x55"}]}, "storeys.0.mass: is required"),
-        ({"bays": [9.0] * 20, "storeys": paper_frame()["storeys"] * 20}, "degrees of freedom; 3000 is the most"),
+        ({"bays": [9.0] * 20, "storeys": paper_frame()["storeys"] * 20}, "degrees of freedom; the maximum is 3000"),
     ],
 )
 def test_a_frame_that_cannot_stand_is_named(change: dict[str, Any], message: str) -> None:

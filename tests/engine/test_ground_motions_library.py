@@ -98,7 +98,7 @@ def test_a_name_that_is_no_record_name_is_neither_stored_nor_found(tmp_path: Pat
     with pytest.raises(MotionError, match="lower-case"):
         library.add(Motion(name, "a", 0.01, np.ones(100)))
     for use in (library.get, library.remove):
-        with pytest.raises(MotionError, match="no record of this name"):
+        with pytest.raises(MotionError, match="no record has this name"):
             use(name)
     assert not list(tmp_path.iterdir())
 
@@ -111,7 +111,7 @@ def test_an_unknown_record_names_the_nearest_ones() -> None:
 def test_a_bundled_record_cant_be_removed_and_a_stored_one_can(tmp_path: Path) -> None:
     library = MotionLibrary(tmp_path)
     library.add(SINE)
-    with pytest.raises(MotionError, match="can't be removed"):
+    with pytest.raises(MotionError, match="cannot be removed"):
         library.remove("kobe-1995-nishi-akashi-000")
     library.remove("my-sine")
     assert "my-sine" not in library.names()

@@ -196,9 +196,14 @@ def test_a_given_unit_overrides_the_header_and_another_step_than_the_files_is_re
 
 def test_text_that_calls_itself_at2_is_refused_with_line_and_remedy() -> None:
     raises(
-        "Dear colleague,\nhere is the record.\n", "line 1", "Dear colleague", "no AT2 record", "NPTS= 4000", name="letter.AT2"
+        "Dear colleague,\nhere is the record.\n",
+        "line 1",
+        "Dear colleague",
+        "not an AT2 record",
+        "NPTS= 4000",
+        name="letter.AT2",
     )
-    raises("<html><body>Login</body></html>", "no AT2 record", name="RSN1.AT2")
+    raises("<html><body>Login</body></html>", "not an AT2 record", name="RSN1.AT2")
 
 
 def test_prose_is_refused_as_no_numbers() -> None:
@@ -219,8 +224,8 @@ def test_at2_with_another_count_than_npts_is_refused(count: int) -> None:
 
 def test_at2_of_velocity_or_without_a_uniform_step_is_refused() -> None:
     raises(at2().replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"), "velocity")
-    raises(at2("NPTS= 123, DT= UNEVEN"), "line 4", "UNEVEN", "equal step")
-    raises(at2("NPTS 123 DT .01"), "line 4", "known way")
+    raises(at2("NPTS= 123, DT= UNEVEN"), "line 4", "UNEVEN", "uniform step")
+    raises(at2("NPTS 123 DT .01"), "line 4", "known format")
 
 
 def test_uncorrected_records_and_cut_blocks_are_refused() -> None:

@@ -58,10 +58,10 @@ def _missing_stamp(columns: np.ndarray) -> None:
     ("change", "channel", "problem", "time_s"),
     [
         (_backwards, "t (Time (s))", "time does not increase at sample 501", T[499]),
-        (_of_another_age, "t (Time (s))", "out of all measure", None),
+        (_of_another_age, "t (Time (s))", "out of range", None),
         (_missing_stamp, "t (Time (s))", "time stamp 501 is missing", None),
         (lambda c: c.__setitem__((slice(400, 450), 1), np.nan), "x_meas.1", "missing values", T[400]),
-        (lambda c: c.__setitem__((slice(None), 3), np.nan), "f_meas.1", "holds no value", None),
+        (lambda c: c.__setitem__((slice(None), 3), np.nan), "f_meas.1", "contains no values", None),
         (lambda c: c.__setitem__((slice(None), 2), -c[:, 2]), "v_meas.1", "sign opposite to the derivative of x_meas.1", None),
         (lambda c: c.__setitem__((slice(None), 2), c[:, 2] / 1000), "v_meas.1", "a unit is wrong", None),
     ],
@@ -81,7 +81,7 @@ def test_what_makes_a_file_unusable_refuses_it(
         (lambda c: c.__setitem__((slice(400, 405), 1), np.nan), "x_meas.1", "missing values", "5 of 1001 samples, 5 in a row"),
         (lambda c: c.__setitem__((slice(None), 3), 2.0), "f_meas.1", "is constant", "2 kN throughout"),
         (lambda c: c.__setitem__((slice(None), 3), np.minimum(c[:, 3], 8.0)), "f_meas.1", "largest value", "at exactly 8 kN"),
-        (lambda c: c.__setitem__((slice(None), 3), -c[:, 3]), "f_meas.1", "gives energy away", "%"),
+        (lambda c: c.__setitem__((slice(None), 3), -c[:, 3]), "f_meas.1", "supplies energy", "%"),
     ],
     ids=["short NaN", "constant", "clipped", "reversed force"],
 )
@@ -138,10 +138,10 @@ def test_every_error_is_told_at_once() -> None:
         ({"channels": []}, "mapping.channels: needs at least 1 item"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "kN"}]}, "needs a unit of length as x_meas, not kN"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "V"}]}, "give a gain such as '2.5 mm/V'"),
-        ({"channels": [{"column": "x", "role": "x_meas", "unit": "V", "gain": "2 mm/A"}]}, "the column being in V"),
-        ({"channels": [{"column": "x", "role": "x_meas", "unit": "furlong"}]}, "unknown unit"),
+        ({"channels": [{"column": "x", "role": "x_meas", "unit": "V", "gain": "2 mm/A"}]}, "because the column is in V"),
+        ({"channels": [{"column": "x", "role": "x_meas", "unit": "furlong"}]}, "not a known unit"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "m", "gain": 0}]}, "other than 0"),
-        ({"channels": [{"column": "x", "role": "ag", "unit": "g", "number": 1}]}, "ag has no number"),
+        ({"channels": [{"column": "x", "role": "ag", "unit": "g", "number": 1}]}, "ag takes no number"),
         ({"channels": [{"column": "t", "role": "t", "unit": "s"}]}, "maps no measurement"),
         ({"channels": [{"column": "x", "role": "x_meas", "unit": "m"}] * 2}, "x_meas.1 is mapped twice"),
         ({"channels": [{"column": "x", "role": "position", "unit": "m"}]}, "mapping.channels.0.role"),
@@ -159,7 +159,7 @@ def test_a_mapping_of_other_columns_names_the_nearest() -> None:
     table = Table("test", (Column("Disp (mm)", T), Column("Force", T)))
     with pytest.raises(MeasuredError) as refusal:
         examine(table, Mapping.read({"channels": [{"column": "Disp", "role": "x_meas", "unit": "mm"}]}))
-    assert "mapping.channels.0 = Disp: the file has no such column (it has Disp (mm))" in str(refusal.value)
+    assert "mapping.channels.0 = Disp: the file does not have this column (it has Disp (mm))" in str(refusal.value)
 
 
 def test_values_that_only_a_mistaken_gain_explains_refuse_the_file() -> None:

@@ -81,13 +81,13 @@ def test_unnamed_columns_are_told_by_what_ties_them_together() -> None:
     assert [(one.role, one.unit) for one in found.mapping.channels] == [
         ("t", "s"), ("x_meas", "mm"), ("v_meas", "mm/s"), ("f_meas", "kN"),
     ]  # fmt: skip
-    assert "magnitude alone" in found.reasons["column 2"] and "magnitude alone" in found.reasons["column 4"]
+    assert "only from its magnitude" in found.reasons["column 2"] and "only from its magnitude" in found.reasons["column 4"]
     assert "derivative" in found.reasons["column 3"]
 
 
 def test_a_lone_unnamed_column_is_a_guess_that_says_so() -> None:
     found = guess(read(made.text(columns=np.column_stack([T, X])), "decay.txt"))
-    assert "nothing says what it is" in found.reasons["column 2"] and "check it" in found.reasons["column 2"]
+    assert "its meaning is unknown" in found.reasons["column 2"] and "check it" in found.reasons["column 2"]
 
 
 def test_volts_of_a_quantity_get_a_gain_to_be_corrected() -> None:
@@ -109,7 +109,7 @@ def test_a_reference_that_the_drive_follows_up_to_its_limits_is_the_drive() -> N
     cut = np.clip(X, -10.0, 10.0)
     found = guess(Table("test", (Column("t_s", T), Column("reference", X), Column("control", cut), Column("position", V))))
     assert [(one.column, one.role, one.unit) for one in found.mapping.measurements[:1]] == [("reference", "drive", "V")]
-    assert found.left_out == {"control": "column reference after its limits"}
+    assert found.left_out == {"control": "equals column reference after its limits"}
     assert "within its limits" in found.reasons["reference"]
 
 
@@ -127,12 +127,12 @@ def test_more_columns_than_a_mapping_holds_are_left_out_and_said_so() -> None:
     found = guess(Table("test", tuple(Column(f"disp {k} (mm)", X) for k in range(990, 1190))))
     assert found.mapping.channels[9].number == 999 and found.mapping.channels[10].number == 1
     found = guess(Table("test", tuple(Column(f"disp {k} (mm)", X) for k in range(201))))
-    assert len(found.mapping.channels) == 200 and "are the most" in found.left_out["disp 200 (mm)"]
+    assert len(found.mapping.channels) == 200 and "has at most 200 channels" in found.left_out["disp 200 (mm)"]
 
 
 def test_a_file_without_any_time_says_what_is_missing() -> None:
     found = guess(Table("test", (Column("disp (mm)", X),)))
-    assert found.notes == ("the file does not say its step: give dt or rate",)
+    assert found.notes == ("the file does not state its time step: give dt or rate",)
 
 
 @pytest.mark.parametrize(

@@ -96,24 +96,24 @@ def test_parquet_tells_what_is_missing() -> None:
     columns[7, 1] = np.nan
     table = read(made.parquet(columns), "test.parquet")
     assert np.flatnonzero(np.isnan(table.names["Disp (mm)"].values)).tolist() == [7]
-    assert table.notes == ("column operator holds no numbers",)
+    assert table.notes == ("column operator contains no numbers",)
 
 
 @pytest.mark.parametrize(
     ("raw", "filename", "told"),
     [
         (b"", "a.csv", "is empty"),
-        (b"operator,note\nAna,fine\nBo,good\n", "a.csv", "is no row of numbers"),
+        (b"operator,note\nAna,fine\nBo,good\n", "a.csv", "is not a row of numbers"),
         (b"t,x\n0,1\n1,2,3\n2,4\n3,5\n", "a.csv", "line 3 = 1,2,3: has 3 fields; the others have 2"),
-        (b"t,x\n0,1\n1,2\n2,4\n3,oops\n4,1\n5,1\n6,1\n7,1\n", "a.csv", "line 5 = oops: column 2 is no number"),
-        (b"0,1\n0,2\n0,3\n", "a.csv", "the comma may be a decimal sign or a separator"),
-        (b'{"x": [1, 2', "a.json", "is no JSON"),
-        (b'{"x": "nothing"}', "a.json", "holds no column of numbers"),
+        (b"t,x\n0,1\n1,2\n2,4\n3,oops\n4,1\n5,1\n6,1\n7,1\n", "a.csv", "line 5 = oops: column 2 is not a number"),
+        (b"0,1\n0,2\n0,3\n", "a.csv", "the comma can be a decimal sign or a separator"),
+        (b'{"x": [1, 2', "a.json", "is not valid JSON"),
+        (b'{"x": "nothing"}', "a.json", "contains no column of numbers"),
         (b"[" * 100_000, "a.json", "nested too deeply"),
-        (b"MATLAB 5.0 MAT-file".ljust(200, b"x"), "a.mat", "can't be read as a MATLAB file"),
-        (b"\x89HDF\r\n\x1a\n" + b"x" * 100, "a.h5", "can't be read as HDF5"),
-        (b"PAR1" + b"x" * 50 + b"PAR1", "a.parquet", "can't be read as Parquet"),
-        (b"\x00\x01\x02\x03" * 9, "a.bin", "is binary content"),
+        (b"MATLAB 5.0 MAT-file".ljust(200, b"x"), "a.mat", "cannot be read as a MATLAB file"),
+        (b"\x89HDF\r\n\x1a\n" + b"x" * 100, "a.h5", "cannot be read as HDF5"),
+        (b"PAR1" + b"x" * 50 + b"PAR1", "a.parquet", "cannot be read as Parquet"),
+        (b"\x00\x01\x02\x03" * 9, "a.bin", "is binary, not text"),
     ],
 )
 def test_what_cant_be_read_is_refused_with_the_reason(raw: bytes, filename: str, told: str) -> None:
@@ -185,5 +185,5 @@ def test_a_small_file_that_claims_to_be_huge_is_refused_unread() -> None:
     file = io.BytesIO()
     with h5py.File(file, "w") as written:
         written.create_dataset("x", (MOST_SAMPLES + 1,), "f8", chunks=(1024,))
-    with pytest.raises(MeasuredError, match="is the most"):
+    with pytest.raises(MeasuredError, match="the maximum is"):
         read(file.getvalue(), "a.h5")

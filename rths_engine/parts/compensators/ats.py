@@ -13,7 +13,7 @@ from rths_engine.foundation.part import Part, quantity
 
 # chosen; see docs/decisions/0023
 MOST_SAMPLES = 2048  # of the moving window; a longer window skips substeps
-FILTERS, COEFFICIENTS, SUMS, FRESH, WINDOW = 5, 9, 12, 21, 30  # indices in the state
+FILTERS, COEFFICIENTS, SUMS, FRESH, WINDOW = 5, 9, 12, 21, 30  # places in the state
 
 
 @compiled

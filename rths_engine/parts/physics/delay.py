@@ -9,7 +9,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled
 
-HEAD = 2  # entries of the state before the ring: index of the newest sample, and 1 after the first substep
+HEAD = 2  # places in the state before the ring: index of the newest sample, and 1 after the first substep
 
 
 def ring(longest: float, dt: float) -> Array:

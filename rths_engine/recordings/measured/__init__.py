@@ -1,4 +1,4 @@
-"""Measured recordings: files of measurements, their mapping to channels in SI, checks, and the form they are kept in."""
+"""Measured recordings: files of measurements, their mapping to channels in SI, checks, and the stored format."""
 
 from __future__ import annotations
 

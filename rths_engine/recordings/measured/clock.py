@@ -1,4 +1,4 @@
-"""t_i = t_0 + k_i h: the step of a column's time stamps, with gaps, jitter and stamps that do not increase."""
+"""The clock of a time column, t_i = t_0 + k_i h: its step, and gaps, jitter and stamps that do not increase."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.finding import Finding
 
 # chosen; see docs/decisions/0023
-LONGEST_GAP = 10  # steps that are bridged by interpolation; longer ones refuse the file
-LATEST = 1e12  # s: 30 000 years; dates in seconds are below, in milliseconds taken for seconds beyond
-JITTER = 0.02  # of a step: rounding of time stamps stays below
-DRIFT = 0.05  # of a step, over the whole record, by which the step is rounded
-UNEVEN = 0.25  # of a step: what a step may be late before a sample counts as missing, beyond one half
-IRREGULAR = 0.1  # share of steps beyond that from which samples count as irregular, not as missing
+LONGEST_GAP = 10  # steps that are interpolated; a longer gap is an error
+LATEST = 1e12  # s: 30 000 years; dates in seconds are smaller, dates in milliseconds read as seconds are larger
+JITTER = 0.02  # of a step: rounding of time stamps is smaller
+DRIFT = 0.05  # of a step: largest change of the record's end when the step is rounded
+UNEVEN = 0.25  # of a step: a larger deviation is uneven; beyond one half a sample counts as missing
+IRREGULAR = 0.1  # share of uneven steps from which the sampling counts as irregular, not as missing samples
 
 
 @dataclass(frozen=True, eq=False)
 class Clock:
-    """Time stamps (s) and their step; `uniform`: the stamps are start + k * step up to rounding."""
+    """Time stamps (s) and their step. `uniform`: the stamps equal start + k * step except for rounding."""
 
     times: Array
     step: float
@@ -41,7 +41,7 @@ def of_step(step: float, count: int, start: float = 0.0) -> Clock:
 
 
 def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
-    """The clock of a column of time (s), and what is wrong with it; no clock where it can't be used."""
+    """The clock of a time column (s), and findings about it; None in place of a clock that cannot be used."""
     if refused := _refused(times, channel):
         return None, [refused]
     differences = np.diff(times)
@@ -59,9 +59,9 @@ def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
     if irregular and steps[longest] > LONGEST_GAP:
         findings.append(_gap(times, steps, longest, channel))
     if irregular or off > JITTER:
-        value = f"steps of {1e3 * differences.min():.4g} to {1e3 * differences.max():.4g} ms, {1e3 * step:.6g} ms in the middle"
+        value = f"steps of {1e3 * differences.min():.4g} to {1e3 * differences.max():.4g} ms, median {1e3 * step:.6g} ms"
         problem = "time steps vary; the channels were interpolated to equal steps"
-        findings.append(Finding("warning", channel, problem, value, fix="give the rate instead where the stamps are at fault"))
+        findings.append(Finding("warning", channel, problem, value, fix="if the time stamps are wrong, give the rate instead"))
     return Clock(times, step, uniform=not irregular and off <= JITTER and not len(missing)), findings
 
 
@@ -70,16 +70,16 @@ def _refused(times: Array, channel: str) -> Finding | None:
         return Finding("error", channel, "needs at least two time stamps", str(len(times)))
     bad = np.flatnonzero(~np.isfinite(times))
     if len(bad):
-        fix = "mend the stamps, or leave the column out and give dt or rate"
-        return Finding("error", channel, f"time stamp {bad[0] + 1} is missing or no number", fix=fix)
+        fix = "correct the stamps, or leave the column out and give dt or rate"
+        return Finding("error", channel, f"time stamp {bad[0] + 1} is missing or not a number", fix=fix)
     if np.max(np.abs(times)) > LATEST:
-        return Finding("error", channel, "holds time stamps out of all measure", f"beyond {LATEST:g} s", fix="check its unit")
+        return Finding("error", channel, "has time stamps out of range", f"beyond {LATEST:g} s", fix="check its unit")
     back = np.flatnonzero(np.diff(times) <= 0)
     if len(back):
         k = int(back[0])
         value = f"{times[k]:.10g} s, then {times[k + 1]:.10g} s"
         problem = f"time does not increase at sample {k + 2} ({len(back)} such step{'s' if len(back) > 1 else ''})"
-        fix = "sort or mend the file; where stamps are rounded, leave the column out and give dt or rate"
+        fix = "sort or correct the file; if the stamps are rounded, leave the column out and give dt or rate"
         return Finding("error", channel, problem, value, float(times[k]), fix)
     return None
 
@@ -87,13 +87,13 @@ def _refused(times: Array, channel: str) -> Finding | None:
 def _gap(times: Array, steps: Array, k: int, channel: str) -> Finding:
     value = f"{times[k + 1] - times[k]:.4g} s, {int(steps[k]) - 1} samples missing"
     if steps[k] > LONGEST_GAP:
-        fix = f"cut the file with start or stop; gaps up to {LONGEST_GAP} steps are bridged"
-        return Finding("error", channel, "has a gap too long to bridge", value, float(times[k]), fix)
-    return Finding("warning", channel, "has a gap; it was bridged by interpolation", value, float(times[k]))
+        fix = f"cut the file with start or stop; gaps up to {LONGEST_GAP} steps are interpolated"
+        return Finding("error", channel, "has a gap too long to interpolate", value, float(times[k]), fix)
+    return Finding("warning", channel, "has a gap; it was interpolated", value, float(times[k]))
 
 
 def _rounded(step: float, count: float) -> float:
-    """The step, or the round step or rate that can't be told from it over the record."""
+    """The step, or a round step or rate that agrees with it over the whole record."""
     for rounded in (1 / float(f"{1 / step:.4g}"), float(f"{step:.4g}"), 1 / float(f"{1 / step:.7g}"), float(f"{step:.7g}")):
         if abs(rounded / step - 1) * count < DRIFT:
             return rounded

@@ -1,4 +1,4 @@
-"""What a check found in a file of measurements."""
+"""The result of a check of a file of measurements."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rths_engine.foundation.errors import Issue
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """An error refuses the import; a warning is kept in the recording. `time_s` is where it begins, in the file's time."""
+    """A finding of a check. An error prevents the import; the recording stores warnings. `time_s`: start in the file's time."""
 
     severity: Literal["error", "warning"]
     channel: str

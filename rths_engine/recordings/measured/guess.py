@@ -1,4 +1,4 @@
-"""A proposed mapping: from names and units; then from what ties the signals together; from magnitudes last, and said so."""
+"""A proposed mapping: from names and units, then from relations between signals, last from magnitudes, with the reason."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from rths_engine.recordings.measured.roles import ROLES, dimension, key
 from rths_engine.recordings.measured.table import Column, Table
 
 # chosen; see docs/decisions/0023
-_ALIKE = 0.8  # correlation from which an unnamed column counts as another's derivative
-_DISSIPATES = 0.4  # share of the exchanged energy from which one counts as a device's force
+_ALIKE = 0.8  # correlation from which an unnamed column counts as the derivative of another column
+_DISSIPATES = 0.4  # share of dissipated energy from which a column counts as the force of a device
 
 
 @dataclass(frozen=True)
 class Guess:
-    """`reasons` and `left_out` say, by column, why it was taken so or not at all; `notes` what the file leaves open."""
+    """A proposed mapping. `reasons` and `left_out` say why each column is used or not; `notes` lists missing statements."""
 
     mapping: Mapping
     reasons: dict[str, str]
@@ -49,13 +49,13 @@ class _Progress:
         return [one for one in self.table.columns if one.name not in self.taken and one.name not in self.left]
 
 
-@np.errstate(over="ignore", invalid="ignore")  # columns hold anything
+@np.errstate(over="ignore", invalid="ignore")  # columns can contain any number
 def guess(table: Table) -> Guess:
-    """Raises MeasuredError where no column can be a measurement."""
+    """The proposed mapping of a table. Raises MeasuredError where no column can be a measurement."""
     progress = _Progress(table)
     for column in table.columns:
         if not np.isfinite(column.values).any():
-            progress.left[column.name] = "holds no value"
+            progress.left[column.name] = "contains no values"
     for column in progress.unclear():
         said = names.read(column.name if table.named else "", column.unit)
         if said.role:
@@ -66,7 +66,7 @@ def guess(table: Table) -> Guess:
     _related(progress)
     _lone(progress)
     for column in progress.unclear():
-        progress.left[column.name] = "nothing says what it is"
+        progress.left[column.name] = "its meaning is unknown"
     channels = _channels(progress)
     if all(channel.role == "t" for channel in channels):
         problem = "no column is recognised as a measurement"
@@ -74,22 +74,22 @@ def guess(table: Table) -> Guess:
     notes = list(table.notes)
     timed = any(channel.role == "t" for channel in channels)
     if not timed and any(table.column(channel.column, "").dt is None for channel in channels):
-        notes.append("the file does not say its step: give dt or rate")
+        notes.append("the file does not state its time step: give dt or rate")
     reasons = {name: one.why for name, one in progress.taken.items() if name not in progress.left}
     return Guess(Mapping(test=_test(channels), channels=tuple(channels)), reasons, progress.left, tuple(notes))
 
 
 def _one_time(progress: _Progress) -> None:
-    """The column that is time: by name, else the first that grows by equal steps."""
+    """Choose the time column: by name, else the first column that increases by equal steps."""
     called = [name for name, one in progress.taken.items() if one.role == "t"]
     rising = [name for name in called if _rises(progress.table.names[name].values)]
     for name in called:
         if name != (rising or called)[0]:
-            progress.left[name] = "a second column of time"
+            progress.left[name] = "a second time column"
     if not called and len(progress.table.columns) > 1:
         found = next((one for one in progress.unclear() if _rises(one.values, equally=True)), None)
         if found is not None:
-            progress.taken[found.name] = _Taken("t", None, "", "grows by equal steps")
+            progress.taken[found.name] = _Taken("t", None, "", "increases by equal steps")
             called = [found.name]
     if called:
         times = progress.table.names[(rising or called)[0]].values
@@ -110,19 +110,19 @@ def _rises(values: Array, equally: bool = False) -> bool:
 
 
 def _asked(progress: _Progress) -> None:
-    """A command without a unit that the drive follows up to its limits is what was asked of the drive, not a displacement."""
+    """Map a command without unit that equals the drive within its limits to the drive, not to a displacement."""
     drives = [name for name, one in progress.taken.items() if one.role == "drive"]
     commands = [name for name, one in progress.taken.items() if one.role == "x_cmd" and not one.unit]
     for command, drive in ((a, b) for a in commands for b in drives):
         if relations.limited(progress.table.names[command].values, progress.table.names[drive].values):
-            why = f"column {drive} is the same within its limits: both are the drive"
+            why = f"equals column {drive} within its limits: both are the drive"
             progress.taken[command] = _Taken("drive", None, progress.taken[drive].unit, why)
-            progress.left[drive] = f"column {command} after its limits"
+            progress.left[drive] = f"equals column {command} after its limits"
             return
 
 
 def _related(progress: _Progress) -> None:
-    """Unnamed columns of which one is the other's derivative: displacement and velocity; then the force that follows them."""
+    """Map unnamed columns: a column and its derivative to displacement and velocity, then the column that is their force."""
     unclear = [one for one in progress.unclear() if np.ptp(one.values[np.isfinite(one.values)]) > 0][:12]
     if progress.step <= 0 or not all(np.isfinite(one.values).all() for one in unclear):
         return
@@ -138,17 +138,19 @@ def _related(progress: _Progress) -> None:
     shares = [abs(relations.dissipated(x.values, one.values)) for one in others]
     if shares and max(shares) > _DISSIPATES:
         force = others[shares.index(max(shares))]
-        why = f"dissipates over column {x.name} as a device's force does"
+        why = f"dissipates energy with column {x.name}, like the force of a device"
         progress.taken[force.name] = _Taken("f_meas", None, "", why)
 
 
 def _lone(progress: _Progress) -> None:
-    """Where nothing at all is recognised, the first column that moves is taken as a displacement."""
+    """Map the first column that changes to a displacement where no column is recognised."""
     if any(one.role != "t" for name, one in progress.taken.items() if name not in progress.left):
         return
     found = next((one for one in progress.unclear() if np.ptp(one.values[np.isfinite(one.values)]) > 0), None)
     if found is not None:
-        progress.taken[found.name] = _Taken("x_meas", None, "", "nothing says what it is: taken as a displacement, check it")
+        progress.taken[found.name] = _Taken(
+            "x_meas", None, "", "its meaning is unknown: assumed to be a displacement, check it"
+        )
 
 
 def _channels(progress: _Progress) -> list[ColumnMap]:
@@ -159,24 +161,24 @@ def _channels(progress: _Progress) -> list[ColumnMap]:
         if one is None or column.name in progress.left:
             continue
         if len(channels) == MOST_CHANNELS:
-            progress.left[column.name] = f"{MOST_CHANNELS} channels are the most"
+            progress.left[column.name] = f"a recording has at most {MOST_CHANNELS} channels"
             continue
         number = _free(one, keys)
         if number is None and ROLES[one.role].counts == "" and one.role in keys:
-            progress.left[column.name] = f"there is a {one.role} already"
+            progress.left[column.name] = f"another column is {one.role} already"
             continue
         keys.add(key(one.role, number))
         unit = _unit(progress, column, one)
         one.why = "; ".join(part for part in (one.why, unit.why) if part)
         gain = _placeholder(one, unit.name)
         if gain:
-            one.why += f"; in volts: the gain {gain} is a placeholder, give the transducer's"
+            one.why += f"; in volts: the gain {gain} is a placeholder, give the gain of the transducer"
         channels.append(ColumnMap(column=column.name, role=one.role, number=number, unit=unit.name, gain=gain))
     return channels
 
 
 def _free(one: _Taken, keys: set[str]) -> int | None:
-    """The number in the name where it is free, else the next that is."""
+    """The number in the name where it is free, else the next free number."""
     if not ROLES[one.role].counts:
         return None
     first = one.number or 1
@@ -197,7 +199,7 @@ def _unit(progress: _Progress, column: Column, one: _Taken) -> Unit:
             if found is not None:
                 return found
     if one.role == "drive":
-        why = "nothing gives its unit: V as of most drives, check it"
+        why = "its unit is unknown: assumed to be V, as for most drives, check it"
         return by_hint("voltage", progress.table.hints) or Unit("V", why, True)
     return by_hint(kind, progress.table.hints) or by_magnitude(kind, column.values)
 

@@ -1,4 +1,4 @@
-"""The unit of a column that does not say: from what the file says elsewhere, from its partner, from its magnitude last."""
+"""The unit of a column without unit: from other statements in the file, from its related column, last from its magnitude."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from rths_engine.recordings.measured.roles import dimension, to_si
 
 # chosen; see docs/decisions/0023
 _CLOSE = 0.1  # of the factor between displacement and velocity
-_RELATED = 0.7  # correlation from which that factor is believed
+_RELATED = 0.7  # smallest correlation at which this factor is used
 
 # chosen; see docs/decisions/0023
-# dimension -> (largest value up to which the unit is taken, unit), the last without bound
+# dimension -> (largest value for the unit, unit); the last unit has no bound
 _MAGNITUDES: dict[str, tuple[tuple[float, str], ...]] = {
     "time": ((np.inf, "s"),),
     "length": ((0.5, "m"), (np.inf, "mm")),
@@ -40,7 +40,7 @@ class Unit:
 
 
 def by_hint(kind: str, hints: Mapping[str, str]) -> Unit | None:
-    """A unit that the file gives for something of this dimension."""
+    """The unit that the file states for a quantity of this dimension."""
     for what, text in hints.items():
         unit = written_unit(text)
         if unit and dimension(unit) == kind:
@@ -64,5 +64,5 @@ def by_magnitude(kind: str, values: Array) -> Unit:
     peak = float(np.nanmax(np.abs(values[np.isfinite(values)]), initial=0.0))
     unit = next(name for most, name in _MAGNITUDES.get(kind, ((np.inf, "1"),)) if peak <= most)
     if kind == "time":
-        return Unit(unit, "taken as seconds", True)
-    return Unit(unit, f"nothing gives its unit: {unit} from its magnitude alone (largest {peak:.3g}), check it", True)
+        return Unit(unit, "assumed to be seconds", True)
+    return Unit(unit, f"its unit is unknown: {unit} only from its magnitude (largest {peak:.3g}), check it", True)

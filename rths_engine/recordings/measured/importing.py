@@ -1,4 +1,4 @@
-"""A table by its mapping: to SI, checked, on one uniform step."""
+"""Import of a table with its mapping: conversion to SI, checks, and resampling to one uniform step."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from rths_engine.recordings.measured.table import MOST_SAMPLES, Table
 # chosen; see docs/decisions/0023
 LEAST = 8  # samples of a recording
 SHORTEST, LONGEST = 1e-9, 1e9  # step, s
-LOST = 0.01  # share of a channel's time beyond the others' from which it is told
+LOST = 0.01  # share of a channel's time that other channels lack, from which a warning is given
 
 
 @dataclass(frozen=True)
 class Examined:
-    """What an import comes to; `measured` is None where the time can't be used or values are missing."""
+    """The result of an import. `measured` is None where the time cannot be used or values are missing."""
 
     measured: Measured | None
     findings: tuple[Finding, ...]
@@ -36,7 +36,7 @@ class Examined:
 
 
 def imported(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Measured:
-    """Raises MeasuredError with every error found; the warnings are kept in the recording."""
+    """The measured recording, which stores all warnings. Raises MeasuredError with every error."""
     examined = examine(table, mapping, source, sha256)
     if examined.measured is None or examined.errors:
         raise MeasuredError(one.issue for one in examined.errors)
@@ -45,7 +45,7 @@ def imported(table: Table, mapping: Mapping, source: str = "", sha256: str = "")
 
 @np.errstate(over="ignore", invalid="ignore")
 def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Examined:
-    """Everything that can be found out at once. Raises MeasuredError where the mapping does not fit the file."""
+    """The recording with all findings, errors included. Raises MeasuredError where the mapping does not fit the file."""
     _check_columns(table, mapping)
     findings: list[Finding] = []
     clocks: dict[str, Clock | None] = {}
@@ -90,7 +90,7 @@ def _check_columns(table: Table, mapping: Mapping) -> None:
 def _clock(
     table: Table, mapping: Mapping, channel: ColumnMap, index: int, clocks: dict[str, Clock | None], findings: list[Finding]
 ) -> Clock | None:
-    """The channel's own clock, else the file's time column, else the mapping's step, else the file's step."""
+    """The clock of a channel: its own clock, else the file's time column, else the mapping's step, else the file's step."""
     column = table.column(channel.column, "")
     count = len(column.values)
     stamps = _stamps(mapping, channel)
@@ -108,12 +108,12 @@ def _clock(
     step = 1 / channel.rate if channel.rate else mapping.step or column.dt
     if step is None:
         fix = "map a column as t, or give dt (s) or rate (Hz)"
-        raise MeasuredError(Issue("mapping.rate", "neither the file nor the mapping says the time step", fix=fix))
+        raise MeasuredError(Issue("mapping.rate", "neither the file nor the mapping states the time step", fix=fix))
     if not SHORTEST <= step <= LONGEST:
         bound = f"needs a time step of {SHORTEST:g} to {LONGEST:g} s"
         raise MeasuredError(Issue("mapping.rate", bound, f"{step:g} s", "check its unit"))
     if count < 2:
-        raise MeasuredError(Issue(f"mapping.channels.{index}", f"has {count} samples; 2 is the least", column.name))
+        raise MeasuredError(Issue(f"mapping.channels.{index}", f"has {count} samples; it needs at least 2", column.name))
     return clock.of_step(step, count)
 
 
@@ -137,7 +137,7 @@ def _unit(channel: ColumnMap) -> str:
 
 
 def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
-    """Start (s), number of samples and step (s) of the recording: what all channels share, within start and stop."""
+    """Start (s), number of samples and step (s) of the recording: the time that all channels share, within start and stop."""
     dt = 1 / mapping.target_rate if mapping.target_rate else min(one.step for one in clocks)
     begin, end = max(one.start for one in clocks), min(one.end for one in clocks)
     if mapping.start is not None and mapping.start > begin:
@@ -148,15 +148,15 @@ def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
     steps = (end - begin) / dt
     if not np.isfinite(steps):
         given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
-        problem = "time, step, start or stop is out of all measure"
+        problem = "time, step, start or stop is out of range"
         raise MeasuredError(Issue("mapping", problem, given, "check their units"))
     count = int(np.floor(steps + 1e-3)) + 1
     if count < LEAST:
         given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
-        problem = f"leave {max(0, count)} samples; {LEAST} is the least"
+        problem = f"leave {max(0, count)} samples; a recording needs at least {LEAST}"
         raise MeasuredError(Issue("mapping.start, stop and target_rate", problem, given, "give a longer time or a higher rate"))
     if count * len(clocks) > MOST_SAMPLES:
-        problem = f"would make {count * len(clocks):,} samples; {MOST_SAMPLES:,} is the most"
+        problem = f"gives {count * len(clocks):,} samples; the maximum is {MOST_SAMPLES:,}"
         raise MeasuredError(Issue("mapping.target_rate", problem, f"{1 / dt:g} Hz", "choose a lower rate"))
     return float(begin), count, dt
 
@@ -168,7 +168,9 @@ def _lost(signals: list[tuple[ColumnMap, Array, Clock]], begin: float, end: floa
         last = min(own.end, mapping.stop if mapping.stop is not None else np.inf)
         beyond = max(0.0, begin - first) + max(0.0, last - end)
         if beyond > LOST * (last - first) and beyond > 2 * own.step:
-            problem = "was measured at times at which others were not; the recording holds what all share"
+            problem = (
+                "was measured at times at which other channels were not; the recording contains only the time that all share"
+            )
             found.append(Finding("warning", channel.key, problem, f"{beyond:.4g} s left out", float(first)))
     return found
 

@@ -1,7 +1,7 @@
-"""What a file's columns are: value = sign * gain * (column - offset), in `unit`, as role and station or floor.
+"""The mapping of a file's columns to channels: value = sign * gain * (column - offset), with unit, role, station or floor.
 
-Read like plans: a frozen value, in YAML `schema: rths-mapping/1`; kept with a recording, and used again for the next file of
-the same instrument.
+A mapping is a frozen value like a plan, in YAML with `schema: rths-mapping/1`. It is stored with the recording and can be used
+for the next file of the same instrument.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def _gain(value: Any) -> Any:
 
 
 class ColumnMap(Value):
-    """One column, by its name or its number from 1, as a channel."""
+    """The mapping of one column, given by its name or its number from 1, to a channel."""
 
     column: Annotated[str, Field(max_length=300)] | int = Field(title="Column")
     role: RoleName = Field(title="Role")
@@ -57,14 +57,14 @@ class ColumnMap(Value):
     def _known(cls, unit: str) -> str:
         found = written_unit(unit)
         if not found:
-            raise ValueError(f"unknown unit; known are {', '.join(UNITS)}")
+            raise ValueError(f"is not a known unit; the known units are {', '.join(UNITS)}")
         return found
 
     @model_validator(mode="after")
     def _fits(self) -> ColumnMap:
         role, counts = ROLES[self.role], ROLES[self.role].counts
         if self.number is not None and not counts:
-            raise ValueError(f"{self.role} has no number: a recording has one")
+            raise ValueError(f"{self.role} takes no number: a recording has only one {self.role}")
         factor, result = self.scale
         if factor == 0 or not math.isfinite(factor):
             raise ValueError(f"gain {self.gain} needs a finite factor other than 0")
@@ -74,12 +74,12 @@ class ColumnMap(Value):
             )
             raise ValueError(f"needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {result}{hint}")
         if self.time is not None and self.rate is not None:
-            raise ValueError("gives both a time column and a rate; give one")
+            raise ValueError("has both a time column and a rate; give only one of them")
         return self
 
     @property
     def scale(self) -> tuple[float, str]:
-        """Factor of the gain and the unit it leads to. Raises ValueError for a gain that is none."""
+        """Factor of the gain and the resulting unit. Raises ValueError for a gain that is not valid."""
         if self.gain is None:
             return 1.0, self.unit
         found = _GAIN.fullmatch(self.gain)
@@ -90,7 +90,9 @@ class ColumnMap(Value):
         above, _, below = found[2].rpartition("/")
         result, own = written_unit(above), written_unit(below)
         if not result or own != self.unit:
-            raise ValueError(f"gain {self.gain!r} needs units such as '35.15 N/{self.unit}', the column being in {self.unit}")
+            raise ValueError(
+                f"gain {self.gain!r} needs units such as '35.15 N/{self.unit}', because the column is in {self.unit}"
+            )
         return float(found[1]), result
 
     @property
@@ -99,7 +101,7 @@ class ColumnMap(Value):
 
 
 class Mapping(Value):
-    """The columns of a file that are measurements, and how their time runs."""
+    """The mapping of a file: its columns of measurements and their time."""
 
     schema_: Literal["rths-mapping/1"] = Field(SCHEMA, alias="schema")
     title: str = Field("", max_length=200)
@@ -118,9 +120,9 @@ class Mapping(Value):
         if twice:
             raise ValueError(f"{', '.join(twice)} is mapped twice; give each station or floor its own number")
         if not keys:
-            raise ValueError("maps no measurement: give at least one channel besides time")
+            raise ValueError("maps no measurement: give at least one channel in addition to time")
         if self.dt is not None and self.rate is not None and not math.isclose(self.dt * self.rate, 1, rel_tol=1e-9):
-            raise ValueError(f"dt {self.dt:g} s and rate {self.rate:g} Hz contradict each other; give one")
+            raise ValueError(f"dt {self.dt:g} s and rate {self.rate:g} Hz contradict each other; give only one of them")
         if self.start is not None and self.stop is not None and self.stop <= self.start:
             raise ValueError(f"stop {self.stop:g} s needs to be after start {self.start:g} s")
         return self
@@ -140,7 +142,7 @@ class Mapping(Value):
 
     @classmethod
     def read(cls, data: Any) -> Mapping:
-        """Raises MeasuredError with every issue."""
+        """The mapping in `data`. Raises MeasuredError with every issue."""
         try:
             return validated(cls, data)
         except PlanError as error:
@@ -148,13 +150,13 @@ class Mapping(Value):
 
     @classmethod
     def from_yaml(cls, text: str) -> Mapping:
-        """Raises MeasuredError with every issue."""
+        """The mapping in a YAML text. Raises MeasuredError with every issue."""
         try:
             data = plan_yaml.parse(text)
         except PlanError as error:
             raise MeasuredError(_under(issue) for issue in error.issues) from None
         if not isinstance(data, dict):
-            raise MeasuredError(Issue("mapping", "is no mapping of fields", fix="start from a guessed mapping"))
+            raise MeasuredError(Issue("mapping", "is not a mapping of fields", fix="start from a guessed mapping"))
         return cls.read(data)
 
     def as_dict(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A mapping as YAML for people: only what is set, and beside each column why it was taken so."""
+"""A mapping as YAML for people: only the fields that are set, and the reason beside each column."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rths_engine.recordings.measured.mapping import Mapping
 
 
 def write(mapping: Mapping, reasons: Texts[str, str] | None = None, left_out: Texts[str, str] | None = None) -> str:
-    """`reasons` and `left_out` are told in comments, by the name of the column."""
+    """The mapping as YAML. `reasons` and `left_out`, by the name of the column, become comments."""
     from ruamel.yaml import YAML
     from ruamel.yaml.comments import CommentedMap, CommentedSeq
 
@@ -37,7 +37,7 @@ def _set(value: Any, exclude: set[str] | None = None) -> dict[str, Any]:
 
 
 def _quoted(value: Any) -> Any:
-    """Text with signs that plain YAML can't hold, in quotes."""
+    """Text in quotes where it has characters that plain YAML cannot contain."""
     from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
     return DoubleQuotedScalarString(value) if isinstance(value, str) and not value.isprintable() else value

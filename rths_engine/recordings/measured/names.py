@@ -1,4 +1,4 @@
-"""What the name of a column says: role, number and unit, as laboratories write them."""
+"""Role, number and unit from the name of a column, as laboratories write them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _BY_CASE = {name.lower(): name for name in UNITS if name not in {"g", "MN"}}
 
 _FLOOR = "(floor|storey|story|level|roof|mass|dof)"
 
-# role -> how its columns are named; the first that is found counts
+# role -> pattern of its column names; the first match counts
 _ROLES: tuple[tuple[str, str], ...] = (
     ("t", r"^(t|time|times|timestamp|elapsed|zeit|temps|tiempo|sec|seconds|clock)$|^(time|elapsed)\b|\btime$"),
     ("temperature", r"\btemp(erature)?s?\b|\btherm|\btc\b"),
@@ -55,7 +55,7 @@ _BY_UNIT = {
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """What a name says; empty or None where it does not."""
+    """Role, number and unit in a name; empty or None where the name does not state them."""
 
     role: str = ""
     number: int | None = None
@@ -63,7 +63,7 @@ class Named:
 
 
 def written_unit(text: str) -> str:
-    """The unit of UNITS that is written so; empty where none is."""
+    """The unit of UNITS that the text names; empty where it names no unit."""
     plain = text.strip().strip("()[]{}").strip()
     known = plain if plain in UNITS else units.named(plain)
     if known in UNITS:
@@ -80,7 +80,7 @@ def written_unit(text: str) -> str:
 
 
 def read(name: str, unit: str = "") -> Named:
-    """Role, number and unit of a column called `name`, whose unit the file may give apart."""
+    """Role, number and unit of the column `name`; `unit` is its unit where the file states it separately."""
     found, rest = _split_unit(name)
     unit = written_unit(unit) or found
     words, number = _words(rest if unit else name)
@@ -88,7 +88,9 @@ def read(name: str, unit: str = "") -> Named:
     if unit:
         kind = dimension(unit)
         fitting = [role for role in roles if kind in ROLES[role].dimensions]
-        of_other = [role for role in roles if kind == "voltage" and role != "t"]  # volts of a quantity: a gain is missing
+        of_other = [
+            role for role in roles if kind == "voltage" and role != "t"
+        ]  # a quantity measured in volts: its gain is missing
         if fitting or of_other:
             role = (fitting or of_other)[0]
         else:
@@ -113,7 +115,7 @@ def _split_unit(name: str) -> tuple[str, str]:
 
 
 def _tail(parts: list[str]) -> str:
-    """`[mm, s]` is mm/s, `[m, s2]` m/s^2; letters that are as often a part of a name count by their case."""
+    """The unit at the end of a name: `[mm, s]` is mm/s, `[m, s2]` m/s^2. Letters that are also parts of names count by case."""
     if len(parts) == 1:
         return "" if parts[0] in {"c", "C", "F", "f", "k", "v", "a", "-", "1", "%", "M", "T"} else written_unit(parts[0])
     if parts[-1].lower() in {"s2", "s^2"} or (len(parts) == 3 and parts[1:] == ["s", "2"]):
@@ -122,7 +124,7 @@ def _tail(parts: list[str]) -> str:
 
 
 def _words(name: str) -> tuple[str, int | None]:
-    """The name in small words, and the station or floor in it: `s2.x_cmd`, `Disp 2`, `floor1.x`, `x_meas.1`."""
+    """The name in lower-case words, and its station or floor: `s2.x_cmd`, `Disp 2`, `floor1.x`, `x_meas.1`."""
     spaced = re.sub(r"([a-z])([A-Z])", r"\1 \2", re.sub(r"[(\[{].*?[)\]}]", " ", name))
     spaced = re.sub(r"[^0-9A-Za-z]+", " ", spaced).strip()
     product = re.fullmatch(r"s(\d{1,3}) (.+)", spaced)

@@ -1,4 +1,4 @@
-"""What is wrong between channels: signs that contradict each other, units off by a factor, a device that gives energy away."""
+"""Checks between channels: contradicting signs, wrong units, and devices that supply energy."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.roles import key
 
 # chosen; see docs/decisions/0023
-SURE = 0.5  # correlation from which sign and factor are told; noise and phase lag bring it down
-FAR = 30.0  # factor between two channels that only a wrong unit explains
-NEAR = 1.5  # and from which a gain is doubtful
-GIVES = -0.3  # share of the exchanged energy
+SURE = 0.5  # smallest correlation at which sign and factor are reported; noise and phase lag lower it
+FAR = 30.0  # factor between two channels from which a unit is certainly wrong
+NEAR = 1.5  # factor between two channels from which a gain can be wrong
+GIVES = -0.3  # share of the exchanged energy below which a device supplies energy
 
 _DERIVATIVES = (("x_meas", "v_meas"), ("x_floor", "v_floor"), ("v_floor", "a_floor"))
 _ALIKE = (("x_cmd", "x_meas"), ("x_comp", "x_meas"), ("x_cmd", "x_comp"))
 
 
 def contradictions(signals: Mapping[str, Array], dt: float) -> list[Finding]:
-    """Findings over all stations and floors of channels in SI, `signals` by their keys."""
+    """Findings about all stations and floors; `signals` are the channels in SI by their keys."""
     numbers = sorted({int(name.rpartition(".")[2]) for name in signals if "." in name})
     found: list[Finding] = []
     for number in numbers:
@@ -35,7 +35,7 @@ def contradictions(signals: Mapping[str, Array], dt: float) -> list[Finding]:
                 found += _finding(relations.between(signals[a], signals[b]), b, a, certain=False)
         x, force = key("x_meas", number), key("f_meas", number)
         if x in signals and force in signals and (share := relations.dissipated(signals[x], signals[force])) < GIVES:
-            problem = f"gives energy away over {x}, which a passive device can't: one of the two has its sign reversed"
+            problem = f"supplies energy with {x}, which a passive device cannot do: the sign of one of the two is reversed"
             value = f"{-100 * share:.0f} % of the energy exchanged"
             fix = f"set reverse: true for {force} or {x}, unless the device is driven"
             found.append(Finding("warning", force, problem, value, fix=fix))
@@ -43,7 +43,7 @@ def contradictions(signals: Mapping[str, Array], dt: float) -> list[Finding]:
 
 
 def _finding(relation: relations.Relation, channel: str, other: str, certain: bool) -> list[Finding]:
-    """What a factor other than 1 between two channels says; `certain` where nothing but a mistake explains it."""
+    """Findings about a factor other than 1 between two channels; `certain` where only a mistake explains the factor."""
     if abs(relation.correlation) < SURE:
         return []
     factor = abs(relation.factor)
@@ -51,15 +51,15 @@ def _finding(relation: relations.Relation, channel: str, other: str, certain: bo
     severity = "error" if certain else "warning"
     found = []
     if relation.correlation < 0:
-        fix = "set reverse: true for one of the two"
+        fix = "set reverse: true for one of the two channels"
         found.append(Finding(severity, channel, f"has the sign opposite to {other}", value, fix=fix))  # type: ignore[arg-type]
     if factor > FAR or factor < 1 / FAR:
         fix = f"correct a unit: {_likely(factor)}"
-        problem = f"is of another size than {other}: a unit is wrong"
+        problem = f"does not have the magnitude of {other}: a unit is wrong"
         found.append(Finding("error", channel, problem, value, fix=fix))
     elif certain and (factor > NEAR or factor < 1 / NEAR):
-        problem = f"does not match {other}: a unit or a gain is doubtful"
-        found.append(Finding("warning", channel, problem, value, fix=f"check unit and gain: {_likely(factor)}"))
+        problem = f"does not match {other}: check the unit and the gain"
+        found.append(Finding("warning", channel, problem, value, fix=_likely(factor)))
     return found
 
 

@@ -14,7 +14,7 @@ from rths_engine.recordings.measured.roles import ROLES, key
 
 @dataclass(frozen=True, eq=False)
 class MeasuredChannel:
-    """One signal in SI. `number` is its station or floor, None where its role has one channel."""
+    """One signal in SI. `number` is its station or floor; None for a role with only one channel."""
 
     role: str
     number: int | None
@@ -30,7 +30,7 @@ class MeasuredChannel:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """Sample k of every channel is at start + k dt (s, in the source's time)."""
+    """A measured recording. Sample k of every channel is at start + k dt (s, in the time of the source)."""
 
     dt: float
     channels: tuple[MeasuredChannel, ...]
@@ -41,7 +41,7 @@ class Measured:
     source_sha256: str = ""
     mapping: str = ""
     warnings: tuple[Finding, ...] = ()
-    of_run: bool = False  # of a run of this program, whose first sample is one controller step after the start
+    of_run: bool = False  # whether it is from a run of this program: the first sample is one controller step after the start
 
     @property
     def samples(self) -> int:
@@ -59,13 +59,13 @@ class Measured:
         return key(role, number or 1) in self.keys
 
     def get(self, role: str, number: int | None = None) -> Array:
-        """The signal of a role, of station or floor `number` (default 1). Raises RecordingError where it was not measured."""
+        """The signal of a role for station or floor `number` (default 1). Raises RecordingError where it was not measured."""
         wanted = key(role, number or 1)
         for channel in self.channels:
             if channel.key == wanted:
                 return channel.values
-        raise RecordingError(Issue("channel", "was not measured", wanted, f"the recording holds {', '.join(self.keys)}"))
+        raise RecordingError(Issue("channel", "was not measured", wanted, f"the recording contains {', '.join(self.keys)}"))
 
     def numbers(self, counts: str) -> list[int]:
-        """Stations or floors, as `counts` says, of which something was measured."""
+        """Numbers of the stations or floors (`counts`) that have at least one channel."""
         return sorted({one.number for one in self.channels if one.number is not None and ROLES[one.role].counts == counts})

@@ -1,4 +1,4 @@
-"""What ties two signals together: v = dx/dt up to a factor, and the power f v of a device."""
+"""Relations between two signals: v = dx/dt except for a factor, and the power f v of a device."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
 SAME = 1e-3  # of the range: rounding in the file
-SMOOTHED = 9  # samples: takes the sampling noise off a derivative, not the motion of a test
+SMOOTHED = 9  # samples: smoothing removes the sampling noise of a derivative, not the motion of a test
 
 
 class Relation(NamedTuple):
-    """b = factor * a with this correlation; zero where either does not move."""
+    """The relation b = factor * a and its correlation; both are zero where a or b is constant."""
 
     factor: float
     correlation: float
 
 
 def of_derivative(x: Array, v: Array, dt: float) -> Relation:
-    """How v stands to dx/dt, both smoothed. Fails first for motion faster than a tenth of the sampling rate."""
+    """The relation of v to dx/dt, both smoothed. Not valid for motion faster than a tenth of the sampling rate."""
     if len(x) < 4 * SMOOTHED:
         return Relation(0.0, 0.0)
     return between(uniform_filter1d(np.gradient(x, dt), SMOOTHED), uniform_filter1d(v, SMOOTHED))
 
 
 def between(a: Array, b: Array) -> Relation:
-    """How b stands to a about their means: by least rectangles, which noise on either bends least."""
+    """The relation of b to a about their means, by least rectangles, which are least sensitive to noise on both."""
     a, b = a - a.mean(), b - b.mean()
     power = float(a @ a) * float(b @ b)
     if not (np.isfinite(power) and power > 0):
@@ -39,7 +39,7 @@ def between(a: Array, b: Array) -> Relation:
 
 
 def limited(asked: Array, given: Array) -> bool:
-    """Whether `given` is `asked` cut off at the extremes of `given`, or all of it."""
+    """Whether `given` equals `asked`, clipped at the extremes of `given` or not clipped."""
     if len(asked) != len(given) or not (np.isfinite(asked).all() and np.isfinite(given).all()) or np.ptp(given) == 0:
         return False
     low, high = float(given.min()), float(given.max())

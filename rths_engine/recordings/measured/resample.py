@@ -3,7 +3,7 @@
 Samples at uneven times are interpolated first. The change of rate uses a zero-phase anti-alias filter (polyphase, Kaiser
 window; scipy.signal.resample_poly).
 
-Fails first for content next to half of the lower rate, which the filter takes away.
+Not valid for frequencies near half of the lower rate, which the filter removes.
 """
 
 from __future__ import annotations
@@ -19,18 +19,16 @@ from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured.clock import DRIFT, Clock
 
 # chosen; see docs/decisions/0023
-LARGEST_FACTOR = 1000  # between two rates, and of the fraction that stands for it
+LARGEST_FACTOR = 1000  # between two rates, and in the fraction that approximates their ratio
 ON_GRID = 1e-3  # of a step
 
 
 def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) -> Array:
-    """`values` at start + k dt, k < count, all within the clock's time. Raises MeasuredError for rates too far apart."""
+    """`values` at start + k dt, k < count, all within the time of the clock. Raises MeasuredError for rates too far apart."""
     ratio = clock.step / dt
     if not 1 / LARGEST_FACTOR <= ratio <= LARGEST_FACTOR:
-        bound = (
-            f"is {max(ratio, 1 / ratio):.4g} times away from the file's {1 / clock.step:.6g} Hz; {LARGEST_FACTOR} is the most"
-        )
-        raise MeasuredError(Issue("mapping.target_rate", bound, f"{1 / dt:.6g} Hz", "choose a rate nearer to the file's"))
+        bound = f"is {max(ratio, 1 / ratio):.4g} times away from the file's {1 / clock.step:.6g} Hz; at most {LARGEST_FACTOR}"
+        raise MeasuredError(Issue("mapping.target_rate", bound, f"{1 / dt:.6g} Hz", "choose a rate closer to that of the file"))
     factor = (
         Fraction(ratio).limit_denominator(LARGEST_FACTOR)
         if ratio >= 1
@@ -47,7 +45,7 @@ def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) 
 
 
 def _evenly(values: Array, clock: Clock, start: float, count: int, step: float) -> Array:
-    """`values` at start + k step: the samples themselves where they lie there."""
+    """`values` at start + k step: interpolated, or the samples where their times agree."""
     first = (start - clock.start) / clock.step
     on_grid = abs(first - round(first)) < ON_GRID and abs(step / clock.step - 1) * count < DRIFT
     if clock.uniform and on_grid and round(first) + count <= len(values):

@@ -1,4 +1,4 @@
-"""What a measured channel can be: its role, its dimension and what its number counts."""
+"""Roles of measured channels: their dimension, and whether their number is a station or a floor."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def to_si(unit: str) -> tuple[float, float]:
 
 
 def shown(values: Array, unit: str) -> tuple[Array, str]:
-    """Values in SI as people read them, with the unit they are shown in."""
+    """SI values in the unit that people read, and this unit."""
     name = SHOWN[dimension(unit)]
     factor, zero = to_si(name)
     return (values - zero) / factor, name

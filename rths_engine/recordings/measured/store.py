@@ -25,7 +25,7 @@ SCHEMA = "rths-measured/1"
 
 
 def save(path: Path, measured: Measured) -> None:
-    """Write `measured` to `path`, whole or not at all."""
+    """Write `measured` to `path` completely or not at all."""
     with files.temporary(path) as written:
         with h5py.File(written, "w") as file:
             _write(file, measured)
@@ -35,12 +35,12 @@ def save(path: Path, measured: Measured) -> None:
 
 
 def load(path: Path) -> Measured:
-    """A measured recording. Raises RecordingError where the file is missing, damaged or of another form."""
+    """Read a measured recording. Raises RecordingError where the file is missing, damaged or in another format."""
     try:
         with h5py.File(path, "r") as file:
             return _read(file)
     except FileNotFoundError:
-        raise RecordingError(Issue("", f"there is no recording {path.name}")) from None
+        raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
     except (OSError, KeyError, TypeError, ValueError) as error:
         fix = "import the measurements again"
         raise RecordingError(Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix=fix)) from None
@@ -73,10 +73,10 @@ def _read(file: h5py.File) -> Measured:
     warnings = [Finding(**{name: one[name] for name in fields}) for one in json.loads(attrs["warnings"])]
     channels = tuple(_channel(file[name]) for name in file)
     if not channels or len({len(one.values) for one in channels}) > 1:
-        raise ValueError("its channels are not of one length")
+        raise ValueError("its channels differ in length")
     dt = float(attrs["dt"])
     if not (np.isfinite(dt) and dt > 0) or not all(np.isfinite(one.values).all() for one in channels):
-        raise ValueError("it holds values that are not finite")
+        raise ValueError("it contains values that are not finite")
     texts: dict[str, Any] = {name: str(attrs[name]) for name in ("title", "source", "source_sha256", "mapping")}
     return Measured(dt, channels, float(attrs["start_s"]), test=str(attrs["test"]) or None, warnings=tuple(warnings), **texts)
 
@@ -85,5 +85,5 @@ def _channel(dataset: h5py.Dataset) -> MeasuredChannel:
     role, number = str(dataset.attrs["role"]), int(dataset.attrs["number"]) or None
     unit, label, column = (str(dataset.attrs[name]) for name in ("unit", "label", "column"))
     if key(role, number) != dataset.name.lstrip("/") or unit not in SI.values():
-        raise ValueError(f"{dataset.name} is no channel of a known role in SI")
+        raise ValueError(f"{dataset.name} is not a channel of a known role in SI")
     return MeasuredChannel(role, number, dataset[:], unit, label, column)

@@ -1,4 +1,4 @@
-"""What a reader finds in a file: named columns of numbers, with what the file says of unit and step."""
+"""The table that a reader returns: named columns of numbers, with the units and the step that the file states."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LONGEST_NAME = 200
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """`unit` as the file writes it; `dt` (s) where the file gives a step beside the values."""
+    """A column of numbers. `unit` as the file writes it; `dt` (s) where the file states a step for the values."""
 
     name: str
     values: Array
@@ -30,7 +30,7 @@ class Column:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """`named`: whether the columns' names are the file's. `hints`: units the file gives for something, not for a column."""
+    """The columns of a file. `named`: their names are from the file. `hints`: units for quantities that are not columns."""
 
     format: str
     columns: tuple[Column, ...]
@@ -43,24 +43,24 @@ class Table:
         return {column.name: column for column in self.columns}
 
     def column(self, name: str | int, where: str) -> Column:
-        """By name, or by number from 1. Raises MeasuredError naming the nearest."""
+        """A column by name or by number from 1. Raises MeasuredError with similar names where there is none."""
         if isinstance(name, int) and 1 <= name <= len(self.columns):
             return self.columns[name - 1]
         if (found := self.names.get(str(name))) is not None:
             return found
         near = difflib.get_close_matches(str(name), list(self.names), 3, 0.5)
         offered = ", ".join(near or list(self.names)[:12])
-        raise MeasuredError(Issue(where, "the file has no such column", name, f"it has {offered}"))
+        raise MeasuredError(Issue(where, "the file does not have this column", name, f"it has {offered}"))
 
 
 def checked(table: Table) -> Table:
-    """The table, its names storable. Raises MeasuredError where it holds nothing, or more than can be worked with."""
+    """The table with names that can be stored. Raises MeasuredError where it has no column, or more data than the limits."""
     if not table.columns:
         raise MeasuredError(
-            Issue("file", "holds no column of numbers", table.format, "export the signals as arrays or columns")
+            Issue("file", "contains no column of numbers", table.format, "export the signals as arrays or columns")
         )
     if len(table.columns) > MOST_COLUMNS:
-        problem = f"holds {len(table.columns)} columns; {MOST_COLUMNS} is the most"
+        problem = f"has {len(table.columns)} columns; the maximum is {MOST_COLUMNS}"
         raise MeasuredError(Issue("file", problem, fix="export fewer signals, one signal a column"))
     refuse_many(sum(len(column.values) for column in table.columns))
     return replace(
@@ -69,14 +69,14 @@ def checked(table: Table) -> Table:
 
 
 def _storable(text: str) -> str:
-    """The text without what no file or database holds: NUL and halves of surrogate pairs."""
+    """The text without characters that files and databases cannot store: NUL and halves of surrogate pairs."""
     return text.replace("\0", "").encode("utf-8", "replace").decode()[:LONGEST_NAME]
 
 
 def refuse_many(samples: int) -> None:
-    """Raises MeasuredError where a file holds, or says it holds, more samples than can be worked with."""
+    """Raises MeasuredError where a file has, or states that it has, more samples than the limit."""
     if samples > MOST_SAMPLES:
-        problem = f"holds {samples:,} samples; {MOST_SAMPLES:,} is the most"
+        problem = f"has {samples:,} samples; the maximum is {MOST_SAMPLES:,}"
         raise MeasuredError(Issue("file", problem, fix="export fewer signals, a shorter time or a lower rate"))
 
 

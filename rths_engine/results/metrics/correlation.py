@@ -1,11 +1,12 @@
 """Delay = the lag k dt where r[k] = sum d_c[i] d_m[i+k] / sqrt(sum d_c[i]^2 sum d_m[i+k]^2) is largest, s; positive: lag.
 
-`x_cmd` and `x_meas` (samples), every `dt` (s); each sum runs over the samples that lag k leaves in pairs. Between samples the
-lag is the vertex of the parabola through the largest r and its neighbours, exact to O(dt^2) where the record is smooth. Usual
-in hybrid simulation: Riascos, Ou and Dyke, Hybrid Simulation Current Assessment Measures (2014).
+`x_cmd` and `x_meas` (samples), every `dt` (s). Each sum runs over the samples that form pairs at lag k. Between samples, the
+lag is the vertex of the parabola through the largest r and its neighbours, exact to O(dt^2) for a smooth record. Common in
+hybrid simulation: Riascos, Ou and Dyke, Hybrid Simulation Current Assessment Measures (2014).
 
-None where nothing moved, and where the largest r lies at an end of the lags searched (LONGEST_S, at most a quarter of the
-record). It fails first where one frequency rules and LONGEST_S exceeds half its period: then a cycle more fits as well.
+The delay is None where nothing moved, or where the largest r is at an end of the searched lags (LONGEST_S, at most a quarter of
+the record). Where one frequency dominates and LONGEST_S exceeds half of its period, the
+delay is ambiguous: a lag longer by one cycle fits equally well.
 """
 
 from __future__ import annotations
@@ -26,13 +27,13 @@ def correlation_delay(x_cmd: Array, x_meas: Array, dt: float) -> float | None:
 
 
 class RunningCorrelation:
-    """The sums of every lag, for a record that comes in parts. Its answer is the whole record's but for rounding."""
+    """The sums of every lag, for a record that comes in parts. At its end the delay is that of the whole record."""
 
     def __init__(self, dt: float):
         self.dt = dt
         self.lags = max(1, round(LONGEST_S / dt))
         self.count = 0
-        self._products: Array = np.zeros(2 * self.lags + 1)  # of lags -lags to lags
+        self._products: Array = np.zeros(2 * self.lags + 1)  # for lags from -lags to lags
         self._power: Array = np.zeros((2, 1))
         self._first: Array = np.zeros((2, 0))
         self._last: Array = np.zeros((2, self.lags))
@@ -62,7 +63,7 @@ class RunningCorrelation:
         return float(at - searched + 0.5 * (before - after) / (before - 2 * here + after)) * self.dt
 
     def _paired_power(self, searched: int) -> Array:
-        """(2, lags): power of command and measured in the samples that each lag from -searched to searched pairs."""
+        """Power (2, lags) of command and measured displacement over the pairs of samples at each lag, -searched to searched."""
         start = self._power - np.cumsum(self._first[:, :searched] ** 2, axis=1)  # without the first 1, 2, ... samples
         end = self._power - np.cumsum(self._last[:, ::-1][:, :searched] ** 2, axis=1)
         leading = np.array([start[0], end[1]])[:, ::-1]
@@ -71,7 +72,7 @@ class RunningCorrelation:
 
 
 def _correlated(longer: Array, shorter: Array) -> Array:
-    """sum_i longer[s + i] shorter[i] at every shift s that keeps both in pairs. scipy.signal would cost a second of import."""
+    """sum_i longer[s + i] shorter[i] at every shift s at which both have samples. scipy.signal would take 1 s to import."""
     size = 1 << (len(longer) - 1).bit_length()
     products = np.fft.irfft(np.fft.rfft(longer, size) * np.conj(np.fft.rfft(shorter, size)), size)
     return products[: len(longer) - len(shorter) + 1]

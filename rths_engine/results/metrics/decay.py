@@ -1,8 +1,8 @@
 """Free decay x(t) = X exp(-zeta omega t) cos(omega_d t + phi): the slope of ln X_k over the cycles k is -delta, the decrement.
 
-zeta = delta / sqrt(4 pi^2 + delta^2). The cycles are those between upward crossings of zero, X_k the largest in each; the first
-is left out, in which higher modes still sound. Source: Chopra, Dynamics of Structures, section 2.2. Fails first where the
-frequency or the damping changes with the amplitude: yielding or friction then make it an average.
+zeta = delta / sqrt(4 pi^2 + delta^2). A cycle lies between two upward crossings of zero, and X_k is its
+largest value. The first cycle is not used, because higher modes still vibrate in it. Source: Chopra, Dynamics of Structures,
+section 2.2. Where yielding or friction make frequency or damping depend on the amplitude, the result is only an average.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
 LEAST_CYCLES = 3
-SMALLEST = 0.01  # of the first cycle used; smaller ones are near the rounding or the noise of a record
+SMALLEST = 0.01  # of the first cycle used; smaller cycles are near the rounding or the noise of a record
 
 
 class Decay(NamedTuple):
@@ -28,7 +28,7 @@ class Decay(NamedTuple):
 
 
 def free_decay(x: Array, dt: float) -> Decay | None:
-    """Of a displacement about zero, every `dt` (s); None where it does not swing for LEAST_CYCLES cycles."""
+    """The free decay of a displacement about zero, every `dt` (s); None for less than LEAST_CYCLES cycles."""
     up = np.flatnonzero((x[:-1] < 0) & (x[1:] >= 0))
     crossings = (up + x[up] / (x[up] - x[up + 1])) * dt
     peaks = np.array([x[first:last].max() for first, last in pairwise(up[1:])])

@@ -5,7 +5,8 @@ A = |FEI| (number; 1 is perfect), the generalised delay d = -arg(FEI) / (2 pi f_
 f_eq = sum_j |Y_c|^2 f_j / sum_j |Y_c|^2. Guo, Chen, Xu and Christenson (2014), with their exponent l = 2, and without f = 0,
 where an offset has no phase.
 
-It fails first where the command's frequencies spread widely: a pure delay then lowers A below 1, and d leans to the strong.
+Not valid where the command has a wide range of frequencies: a pure delay then lowers A below 1, and d follows the frequencies
+of the largest power.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
 SEGMENT_S = 16.0  # several cycles of the slowest structure that is usually tested
-FINEST_RATE = 1024.0  # Hz; far above what a structure does
+FINEST_RATE = 1024.0  # Hz; far above the frequencies of a structure
 
 
 class Evaluation(NamedTuple):
@@ -36,8 +37,8 @@ def frequency_evaluation(x_cmd: Array, x_meas: Array, dt: float) -> Evaluation |
 class RunningFrequency:
     """The same sums over segments that overlap by half under w = sin(pi (i + 1/2) / n), so that the w^2 add up to 1.
 
-    What is slow against a segment keeps no phase here; faster than about two cycles in SEGMENT_S the whole record's values come
-    out. Samples finer than FINEST_RATE are averaged in groups. Before its start the record is at rest.
+    Motion with more than about two cycles in SEGMENT_S gives the values of the whole record. Slower motion loses its phase.
+    Samples at more than FINEST_RATE are averaged in groups. Before its start the record is at rest.
     """
 
     def __init__(self, dt: float):
@@ -59,7 +60,7 @@ class RunningFrequency:
             self._open = self._open[:, self.length // 2 :]
 
     def value(self) -> Evaluation | None:
-        """Amplitude and delay so far: complete segments, and the two under way filled up with zeros."""
+        """Amplitude and delay so far, from the complete segments and the two current segments, which are padded with zeros."""
         half = self.length // 2
         rest = np.pad(self._open, ((0, 0), (0, self.length + half - self._open.shape[1])))
         return _evaluated(self._total + self._segment(rest[:, : self.length]) + self._segment(rest[:, half:]))
@@ -69,7 +70,7 @@ class RunningFrequency:
 
 
 def _sums(x_cmd: Array, x_meas: Array, dt: float) -> Array:
-    """Over f > 0: Re and Im of Y_m conj(Y_c), |Y_c|^2, and f |Y_c|^2."""
+    """Sums over f > 0 of Re and Im of Y_m conj(Y_c), |Y_c|^2, and f |Y_c|^2."""
     if not len(x_cmd):
         return np.zeros(4)
     cmd, meas = np.fft.rfft(x_cmd)[1:], np.fft.rfft(x_meas)[1:]

@@ -1,8 +1,8 @@
 """NRMSE = sqrt(mean (d_c - d_m)^2) / (max d_c - min d_c) and PTE = max |d_c - d_m| / max |d_c|, numbers.
 
 `x_cmd` and `x_meas` (samples), m. Both are None where the command never moved. The RMS of equation (10) divides by the
-command's own RMS instead of its range; a long still stretch lowers the NRMSE and leaves the RMS alone. Riascos, Ou and
-Dyke, Hybrid Simulation Current Assessment Measures (2014). They fail first where the command barely moves: noise over nothing.
+RMS of the command instead of its range; a long time at rest lowers the NRMSE and does not change the RMS. Riascos, Ou and
+Dyke, Hybrid Simulation Current Assessment Measures (2014). Not meaningful where the command hardly moves, because of noise.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Measures of one actuator's tracking, equation (10) of Chen and Ricles (2012), EESD 41, 549-569. SI throughout."""
+"""Tracking measures of one actuator, equation (10) of Chen and Ricles (2012), EESD 41, 549-569. SI throughout."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 from rths_engine.parts.structures.assembled import Assembled, Members
 
-HORIZONTAL = (0, 3)  # indices in a member's six end displacements
+HORIZONTAL = (0, 3)  # places in a member's six end displacements
 
 
 class BaseFlexibility(Effect):

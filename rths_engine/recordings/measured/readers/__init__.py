@@ -1,4 +1,4 @@
-"""Reads a file of measurements of any known format, found by its content."""
+"""Read a file of measurements of any known format; the content decides the format."""
 
 from __future__ import annotations
 

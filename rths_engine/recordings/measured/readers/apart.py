@@ -1,6 +1,6 @@
-"""Reads binary formats in a process of its own, which a damaged file may crash or hold for ever; whoever asked goes on.
+"""Read binary formats in a separate process, because a damaged file can crash the reader or block it for ever.
 
-The process is started by the first file and kept; questions and answers are pickled through its pipes.
+The first file starts the process, which serves all later files. Requests and replies are pickled through its pipes.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured.table import Table
 
 # chosen; see docs/decisions/0023
-PATIENCE_S = 60.0  # a file of the largest size takes seconds
-TRIES = 2  # a file before it may have left the process in disorder
+PATIENCE_S = 60.0  # the largest file takes some seconds
+TRIES = 2  # the file before can have left the process in a bad state
 
 
 def read(raw: bytes) -> Table:
-    """Raises MeasuredError, also where reading crashes or does not end."""
+    """Read a binary file. Raises MeasuredError, also where reading crashes or does not end."""
     for _ in range(TRIES):
         try:
             kind, answer = _READER.ask(raw)
@@ -36,19 +36,19 @@ def read(raw: bytes) -> Table:
             return table
         raise MeasuredError(answer) if kind == "refused" else answer
     raise MeasuredError(
-        Issue("file", "is damaged: reading it crashes or does not end", fix="write it again, or export it as CSV")
+        Issue("file", "is damaged: reading it crashes or does not end", fix="write the file again, or export it as CSV")
     )
 
 
 class Reader:
-    """One process at a time, one file at a time."""
+    """The separate process of the reader: one process at a time, one file at a time."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
 
     def ask(self, raw: bytes) -> tuple[str, Any]:
-        """Raises EOFError or OSError where the process ends over the file, TimeoutError where it had to be ended."""
+        """The reply for a file. Raises EOFError or OSError for a crash of the process, TimeoutError after PATIENCE_S."""
         with self._lock:
             process = self._started()
             assert process.stdin and process.stdout
@@ -67,7 +67,7 @@ class Reader:
                 found: tuple[str, Any] = pickle.load(process.stdout)
                 return found
             except BaseException:
-                self._end()  # it is in the middle of this file
+                self._end()  # the process is still reading this file
                 if late.is_set():
                     raise TimeoutError from None
                 raise
@@ -94,16 +94,16 @@ class Reader:
             process.wait()
             for pipe in (process.stdin, process.stdout):
                 assert pipe
-                with contextlib.suppress(OSError):  # what was not sent any more
+                with contextlib.suppress(OSError):  # data that was not sent
                     pipe.close()
 
 
 def serve() -> None:
-    """Answer each file on the standard input, to its end."""
+    """Reply to each file on the standard input until the input ends."""
     from rths_engine.recordings.measured.readers import binary
 
     answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a library prints is no answer
+    os.dup2(2, 1)  # the output of a library must not enter the replies
     while True:
         try:
             raw = pickle.load(sys.stdin.buffer)

@@ -1,4 +1,4 @@
-"""The binary formats. Their libraries can crash on a damaged file, so that they are called by `apart` alone."""
+"""The binary formats. Their libraries can crash on a damaged file, so only `apart` calls them."""
 
 from __future__ import annotations
 

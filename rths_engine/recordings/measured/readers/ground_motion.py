@@ -1,4 +1,4 @@
-"""PEER AT2 and COSMOS V2 as measurements: every acceleration channel with the file's own step."""
+"""PEER AT2 and COSMOS V2 files as measurements: every acceleration channel with the step of the file."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""HDF5, MATLAB v7.3 and recordings of this program: every numeric dataset, with the units among its attributes.
+"""HDF5, MATLAB v7.3 and recordings of this program: every numeric dataset, with the units from its attributes.
 
-Links out of the file, external storage and virtual datasets are not followed: they could name any file of the machine.
+Links to other files, external storage and virtual datasets are not followed, because they could name any file of the machine.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ _RUN = "rths-recording/"
 
 
 def looks_like(raw: bytes) -> bool:
-    """Whether the bytes begin an HDF5 file; a user block may stand before it."""
+    """Whether the bytes are an HDF5 file, also after a user block."""
     return any(raw[at : at + 8] == _SIGNATURE for at in (0, 512, 1024, 2048))
 
 
 def read(raw: bytes) -> Table:
-    """Raises MeasuredError: a damaged file answers with errors of any kind."""
+    """Read the file. Raises MeasuredError for errors of any kind, which a damaged file can cause."""
     try:
         with h5py.File(io.BytesIO(raw), "r") as file:
             matlab = raw.startswith(b"MATLAB 7.3")
@@ -35,8 +35,8 @@ def read(raw: bytes) -> Table:
     except MeasuredError:
         raise
     except Exception as error:
-        problem = f"can't be read as HDF5: {type(error).__name__}"
-        raise MeasuredError(Issue("file", problem, fix="write it again, or export it as CSV")) from None
+        problem = f"cannot be read as HDF5: {type(error).__name__}"
+        raise MeasuredError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
 
 
 def _group(group: h5py.Group, matlab: bool, depth: int) -> dict[str, Any]:
@@ -64,7 +64,7 @@ def _add(found: dict[str, Any], name: str, item: h5py.Dataset, matlab: bool) -> 
 
 
 def _run(file: h5py.File) -> dict[str, Any]:
-    """Channels of a run's recording; its first row is at the end of the first substep."""
+    """Channels of the recording of a run. Its first row is at the end of the first substep."""
     signals, dt = file["signals"], float(file.attrs["dt"])
     refuse_many(signals.size)
     values = signals[()]

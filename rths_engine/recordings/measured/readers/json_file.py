@@ -16,10 +16,10 @@ def looks_like(raw: bytes) -> bool:
 
 
 def read(raw: bytes) -> Table:
-    """Read a JSON file. Raises MeasuredError for one that is not valid JSON."""
+    """Read a JSON file. Raises MeasuredError for a file that is not valid JSON."""
     try:
         data: Any = json.loads(raw.decode("utf-8-sig"))
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
-        problem = "is nested too deeply" if isinstance(error, RecursionError) else f"is no JSON: {error}"
-        raise MeasuredError(Issue("file", problem, fix="export it again, or as CSV")) from None
+        problem = "is nested too deeply" if isinstance(error, RecursionError) else f"is not valid JSON: {error}"
+        raise MeasuredError(Issue("file", problem, fix="export the file again, or export it as CSV")) from None
     return tree.table(data if isinstance(data, dict) else {"data": data}, "JSON")

@@ -16,12 +16,12 @@ _HEAD = b"MATLAB 5.0 MAT-file"
 
 
 def looks_like(raw: bytes, filename: str) -> bool:
-    """Whether the file is MATLAB's, by its head or its name."""
+    """Whether the file is a MATLAB file, by its header or its name."""
     return raw.startswith(_HEAD) or filename.lower().endswith(".mat")
 
 
 def read(raw: bytes) -> Table:
-    """Raises MeasuredError: scipy answers a damaged file with errors of any kind."""
+    """Read the file. Raises MeasuredError for errors of any kind, which a damaged file can cause."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -31,6 +31,6 @@ def read(raw: bytes) -> Table:
     except MeasuredError:
         raise
     except Exception as error:
-        problem = f"can't be read as a MATLAB file: {type(error).__name__}"
+        problem = f"cannot be read as a MATLAB file: {type(error).__name__}"
         raise MeasuredError(Issue("file", problem, fix="save it again with `save -v7` or as CSV")) from None
     return tree.table({name: value for name, value in variables.items() if not name.startswith("__")}, "MATLAB")

@@ -1,4 +1,4 @@
-"""Parquet: the columns of numbers, by the Arrow implementation in Rust (arro3)."""
+"""Parquet: the numeric columns, read by the Arrow implementation in Rust (arro3)."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ def looks_like(raw: bytes) -> bool:
 
 
 def read(raw: bytes) -> Table:
-    """Raises MeasuredError: a damaged file answers with errors of any kind."""
+    """Read the file. Raises MeasuredError for errors of any kind, which a damaged file can cause."""
     try:
         return _table(raw)
     except (MeasuredError, KeyboardInterrupt, SystemExit):
         raise
-    except BaseException as error:  # a panic of the Rust reader is no Exception
-        problem = f"can't be read as Parquet: {type(error).__name__}"
-        raise MeasuredError(Issue("file", problem, fix="write it again, or export it as CSV")) from None
+    except BaseException as error:  # a panic of the Rust reader is not an Exception
+        problem = f"cannot be read as Parquet: {type(error).__name__}"
+        raise MeasuredError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
 
 
 def _table(raw: bytes) -> Table:
@@ -46,12 +46,12 @@ def _table(raw: bytes) -> Table:
         for k in numeric:
             parts[k].append(_numbers(batch.column(k)))
     columns = [Column(fields[k].name, np.concatenate(parts[k]), _unit(fields[k])) for k in numeric if rows > 1]
-    left = tuple(f"column {field.name} holds no numbers" for k, field in enumerate(fields) if k not in numeric)
+    left = tuple(f"column {field.name} contains no numbers" for k, field in enumerate(fields) if k not in numeric)
     return Table("Parquet", tuple(columns), notes=left)
 
 
 def _numbers(values: Any) -> Array:
-    """Float64 with NaN for what is missing."""
+    """Float64 values, with NaN for missing values."""
     from arro3.core import DataType
 
     if values.null_count:

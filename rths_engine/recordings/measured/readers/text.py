@@ -1,4 +1,4 @@
-"""Text columns: CSV, TSV or white space, with or without header and row of units, with decimal point or comma."""
+"""Text columns: CSV, TSV or white space, with or without a header and a row of units, with a decimal point or comma."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from rths_engine.recordings.measured.table import Column, Table, refuse_many
 # chosen; see docs/decisions/0023
 _COMMENT = re.compile(r"[#%!]+|//")
 _MISSING = {"", "na", "n/a", "nan", "null", "none", "-", "--", "#n/a", "nil"}
-_LOOKED_AT = 60  # lines by which the separator is found
+_LOOKED_AT = 60  # lines used to determine the separator
 _CANDIDATES = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","))
 MOST_FIELDS = 1000
 
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """`separator` (empty: white space) and the sign of the decimals."""
+    """The `separator` (empty: white space) and the decimal sign of a text file."""
 
     separator: str
     decimal: str
@@ -39,7 +39,7 @@ class Form:
         return [field.strip() for field in line.split(self.separator)]
 
     def number(self, field: str) -> float | None:
-        """NaN where nothing was measured; None where the field is no number."""
+        """The number in a field: NaN for a missing value, None where the field is not a number."""
         if field.lower() in _MISSING:
             return float("nan")
         if "_" in field or (self.decimal == "," and "." in field):
@@ -54,13 +54,13 @@ Line = tuple[int, str]
 
 
 def read(lines: list[str]) -> Table:
-    """Raises MeasuredError with the line that is not like the others."""
+    """Read the columns of a text. Raises MeasuredError with the line that differs from the others."""
     filled = [(at, text) for at, line in enumerate(lines, start=1) if (text := line.strip("\r\n ")).strip()]
     plain = [(at, text) for at, text in filled if not _COMMENT.match(text.lstrip())]
     if plain and (ending := plain[-1][1][-1]) in ";,\t" and all(text.endswith(ending) for _, text in plain[-_LOOKED_AT:]):
         filled, plain = _without(ending, filled), _without(ending, plain)
     if not plain:
-        raise MeasuredError(Issue("file", "holds no numbers", fix="choose a file of measurements"))
+        raise MeasuredError(Issue("file", "contains no numbers", fix="choose a file of measurements"))
     looked_at = plain[len(plain) // 2 :][:_LOOKED_AT]
     form, numeric = _form(looked_at)
     first = _first(plain, form, numeric)
@@ -81,7 +81,7 @@ def _without(ending: str, lines: list[Line]) -> list[Line]:
 
 
 def _form(lines: list[Line]) -> tuple[Form, list[bool]]:
-    """The form under which most columns are numbers, and which columns are."""
+    """The form for which most columns are numbers, and whether each column is numeric."""
     best: tuple[tuple[int, int], Form, list[bool]] | None = None
     for form in (Form(*candidate) for candidate in _CANDIDATES):
         rows = [form.fields(text) for _, text in lines]
@@ -96,7 +96,7 @@ def _form(lines: list[Line]) -> tuple[Form, list[bool]]:
     if best is None:
         at, line = lines[0]
         fix = "write one row of numbers for each time, separated by comma, semicolon, tab or space"
-        raise MeasuredError(Issue(f"line {at}", "is no row of numbers", line, fix))
+        raise MeasuredError(Issue(f"line {at}", "is not a row of numbers", line, fix))
     return best[1], best[2]
 
 
@@ -107,11 +107,11 @@ def _first(lines: list[Line], form: Form, numeric: list[bool]) -> int:
         numbers = [form.number(field) for field, holds in zip(fields, numeric, strict=False) if holds]
         if len(fields) == len(numeric) and None not in numbers and not np.isnan(np.array(numbers, dtype=float)).all():
             return index
-    raise MeasuredError(Issue("file", "holds no full row of numbers", fix="mend the rows or the separator"))
+    raise MeasuredError(Issue("file", "contains no complete row of numbers", fix="correct the rows or the separator"))
 
 
 def _heading(header: list[str], form: Form, width: int) -> tuple[list[str], list[str]]:
-    """Names and units of the columns, from the last lines before the numbers; no names where none fit."""
+    """Names and units of the columns, from the last lines before the numbers; no names where no line fits."""
     rows = [form.fields(_COMMENT.sub("", text, count=1).strip() if _COMMENT.match(text) else text) for text in header]
     fitting = [row for row in rows if len(row) == width and any(form.number(field) is None for field in row)]
     if not fitting:
@@ -126,7 +126,7 @@ def _refuse_ambiguous(lines: list[Line], form: Form, names: list[str]) -> None:
     if form.separator == "," and not names and all(re.fullmatch(r"[-+]?\d+,\d+", text) for _, text in lines[:_LOOKED_AT]):
         at, line = lines[0]
         fix = "write numbers with a decimal point, or name the columns in a first line"
-        raise MeasuredError(Issue(f"line {at}", "the comma may be a decimal sign or a separator", line, fix))
+        raise MeasuredError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
 
 
 def _values(lines: list[Line], form: Form, numeric: list[bool]) -> Array:
@@ -139,7 +139,7 @@ def _values(lines: list[Line], form: Form, numeric: list[bool]) -> Array:
             if whole.shape[1] == len(numeric) == len(used):
                 return whole
         except ValueError:
-            pass  # the slow way below reads what is missing, or says what is wrong
+            pass  # the slower code below reads missing values or reports the error
     return np.array([_row(line, form, numeric, used) for line in lines])
 
 
@@ -147,12 +147,12 @@ def _row(line: Line, form: Form, numeric: list[bool], used: list[int]) -> list[f
     at, text = line
     fields = form.fields(text)
     if len(fields) != len(numeric):
-        fix = "mend or remove the line"
+        fix = "correct or remove the line"
         raise MeasuredError(Issue(f"line {at}", f"has {len(fields)} fields; the others have {len(numeric)}", text, fix))
     numbers = [form.number(fields[k]) for k in used]
     for k, number in zip(used, numbers, strict=True):
         if number is None:
-            raise MeasuredError(Issue(f"line {at}", f"column {k + 1} is no number", fields[k], "mend or remove the line"))
+            raise MeasuredError(Issue(f"line {at}", f"column {k + 1} is not a number", fields[k], "correct or remove the line"))
     return [number for number in numbers if number is not None]
 
 

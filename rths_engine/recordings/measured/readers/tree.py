@@ -1,4 +1,4 @@
-"""Columns of nested data, the common form of JSON, MATLAB and HDF5: `{force: {data: [...], dt: 0.01, units: kN}, ...}`."""
+"""Columns of nested data, as in JSON, MATLAB and HDF5 files: `{force: {data: [...], dt: 0.01, units: kN}, ...}`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NAMES = {"columns", "names", "channels", "labels", "header", "headers"}
 
 
 def table(tree: Mapping[str, Any], format: str) -> Table:
-    """Every array of numbers with more than one sample, named by its path, a `/` between."""
+    """A table of every numeric array with more than one sample; its name is its path with `/` between the keys."""
     hints: dict[str, str] = {}
     columns = list(_columns("", tree, None, hints, DEEPEST))
     return Table(format, tuple(_distinct(columns)), hints=hints)
@@ -55,7 +55,7 @@ def _columns(path: str, node: Mapping[str, Any], dt: float | None, hints: dict[s
 
 
 def array(value: Any) -> Array | None:
-    """`value` as an array of numbers; None where it is none, or is ragged."""
+    """`value` as an array of numbers; None where it is not numeric or is ragged."""
     if isinstance(value, np.ndarray):
         numeric = value.dtype.kind in "fiu" or value.dtype == bool
         if numeric:
@@ -104,7 +104,7 @@ def _texts(value: Any) -> list[str]:
 
 
 def _units_of(texts: Mapping[str, str]) -> dict[str, str]:
-    """Keys such as `displacement units`: what they are the unit of."""
+    """Units from keys such as `displacement units`, by the quantity they name."""
     found = {}
     for name, text in texts.items():
         if match := _OF.fullmatch(name):
