@@ -69,8 +69,8 @@ def test_words_bounds_and_guesses_compile_nothing_anew(kept: list[str], tmp_path
         ("parts/structures/assembled.py", "    shape: Array\n    section: Array", "    section: Array\n    shape: Array"),
         (
             "parts/compensators/__init__.py",
-            "    NoCompensation,\n    InverseCompensation,",
-            "    InverseCompensation,\n    NoCompensation,",
+            "    NoCompensation\n    | InverseCompensation\n",
+            "    InverseCompensation\n    | NoCompensation\n",
         ),
         ("running/loop.py", "    n: int  # substeps of an integration step\n", ""),
         ("foundation/kernel.py", '"fastmath": False', '"fastmath": True'),
