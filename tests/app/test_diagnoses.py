@@ -88,7 +88,7 @@ def test_the_extended_plan_and_the_plan_are_queued_once_as_ordinary_runs(service
     path = f"/diagnoses/{diagnosed['id']}"
     runs = service.post(f"{path}/simulations", {"by": "Bo"})
     again = service.http.post(f"/api/v1{path}/simulations", json={})
-    assert again.status_code == 409 and "queued already" in again.json()["detail"]
+    assert again.status_code == 409 and "already been queued" in again.json()["detail"]
     for word in ("before", "after"):
         run = service.wait(runs[word]["id"], "completed", within_s=PATIENCE_S)
         assert service.get(path)[f"{word}_id"] == run["id"] and run["name"].endswith(f", {word} diagnosis")
