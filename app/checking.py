@@ -78,5 +78,5 @@ def _check_size(model: Model, steps: int) -> None:
     plan = model.plan
     substeps, columns = steps * plan.substeps, len(channels(model))
     if substeps * columns * BYTES > LARGEST_RECORDING:
-        problem = f"{substeps} substeps of {columns} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
+        problem = f"{substeps} substeps of {columns} channels exceed {LARGEST_RECORDING / 1e9:g} GB"
         raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))

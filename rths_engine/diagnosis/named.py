@@ -99,7 +99,7 @@ def _declared(effect: Effect, name: str) -> dict[str, Any]:
 def _sentence(one: Judged, effect: Effect, numbers: Sequence[schema.Parameter]) -> str:
     spans = ", ".join(_span(number) for number in numbers[:1])
     at = one.component.place(effect)
-    subject = {"sensor": "sensor", "input": "recorded ground motion"}.get(at.partition(":")[0], one.name)
+    subject = {"sensor": "sensor", "input": "ground motion"}.get(at.partition(":")[0], one.name)
     if at.startswith("sensor"):
         subject = f"sensor {at.partition(':')[2]}"
     elif at.startswith("structure:"):

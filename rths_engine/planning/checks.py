@@ -1,4 +1,4 @@
-"""What must hold between the fields of a plan."""
+"""Checks between the fields of a plan."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from rths_engine.planning.plan import Plan
 
 # chosen; see docs/decisions/0023
 LONGEST = 3600.0  # s, of a drive or a force
-MOST_MOMENTS = 100_000  # of a drive that are looked at
+MOST_MOMENTS = 100_000  # samples of a drive that a check evaluates
 
 
 def issues(model: Model) -> Iterator[Issue]:
-    """Everything wrong between the fields of the model's plan, by what its kind of test needs."""
+    """All issues between the fields of the model's plan, according to its kind of test."""
     plan = model.plan
     lasting = list(_too_long(plan))
     yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(model))
@@ -36,10 +36,10 @@ def _too_long(plan: Plan) -> Iterator[Issue]:
 
 
 def too_long(where: str, shape: Any) -> Iterator[Issue]:
-    """The issue of a shape that lasts longer than a test may."""
+    """The issue of a shape that lasts longer than the longest test."""
     if not shape.duration <= LONGEST:
-        problem = f"lasts {shape.duration:.4g} s; {LONGEST:g} s is the most"
-        yield Issue(where, problem, shape.kind, "take fewer cycles or a higher frequency")
+        problem = f"lasts {shape.duration:.4g} s; the maximum is {LONGEST:g} s"
+        yield Issue(where, problem, shape.kind, "reduce the number of cycles or raise the frequency")
 
 
 def _driven(plan: Plan) -> Iterator[Issue]:
@@ -49,20 +49,20 @@ def _driven(plan: Plan) -> Iterator[Issue]:
     if plan.motion.kind != "none":
         yield Issue("motion", "is not used in this kind of test", plan.motion.kind, fix)
     if plan.forces:
-        yield Issue("forces", "are not used in this kind of test", len(plan.forces), "leave them out")
+        yield Issue("forces", "are not used in this kind of test", len(plan.forces), "remove them")
     if not plan.start.at_rest:
         yield Issue("start", "is not used in this kind of test", fix="leave it at rest")
     for name in ("structure_physics", "motion_physics"):
         if getattr(plan, name):
-            yield Issue(name, "is not used in this kind of test", len(getattr(plan, name)), "leave it out")
+            yield Issue(name, "is not used in this kind of test", len(getattr(plan, name)), "remove it")
     if len(plan.stations) != 1:
-        yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one")
+        yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one station")
     for station in plan.stations[:1]:
         for name, field in type(station).model_fields.items():
             extra: Any = field.json_schema_extra or {}
             given = getattr(station, name)
             if plan.test not in extra.get("tests", DRIVEN) and given != field.default:
-                yield Issue(f"stations.0.{name}", "is not used in this kind of test", given, "leave it out")
+                yield Issue(f"stations.0.{name}", "is not used in this kind of test", given, "remove it")
     if plan.drive.shape.kind == "still":
         yield Issue("drive.shape", "a test of one station needs a drive", "still", "choose the shape of its displacement")
     elif plan.stations:
@@ -70,7 +70,7 @@ def _driven(plan: Plan) -> Iterator[Issue]:
 
 
 def _within_limits(plan: Plan) -> Iterator[Issue]:
-    """The whole drive is known, so that what would trip is told before the start."""
+    """Issues of a drive that would trip the limits. The whole drive is known, so they are reported before the start."""
     reached, fastest = peaks(plan.drive, plan.duration or plan.drive.shape.duration, plan.controller_rate)
     limits = plan.stations[0].limits
     if reached > limits.displacement:
@@ -78,11 +78,11 @@ def _within_limits(plan: Plan) -> Iterator[Issue]:
         yield Issue("drive.amplitude", problem, plan.drive.amplitude, "lower the amplitude or raise the limit")
     if fastest > limits.velocity:
         problem = f"reaches {fastest * 1e3:.4g} mm/s, beyond the station's limit of {limits.velocity * 1e3:g} mm/s"
-        yield Issue("drive.shape", problem, plan.drive.shape.kind, "go slower or lower the amplitude")
+        yield Issue("drive.shape", problem, plan.drive.shape.kind, "lower the velocity or the amplitude")
 
 
 def peaks(drive: Drive, duration: float, rate: float) -> tuple[float, float]:
-    """Largest displacement (m) and velocity (m/s) of the command in the controller's steps; of a long one at MOST_MOMENTS."""
+    """Largest displacement (m) and velocity (m/s) of the command over the controller steps, at most MOST_MOMENTS of them."""
     steps = math.ceil(duration * rate)
     step = np.arange(0, steps + 1, max(1, steps // MOST_MOMENTS))
     now, before = np.split(drive.sample(np.concatenate([step, np.maximum(step - 1, 0)]) / rate), 2)
@@ -93,21 +93,23 @@ def peaks(drive: Drive, duration: float, rate: float) -> tuple[float, float]:
 def _computed(model: Model) -> Iterator[Issue]:
     plan = model.plan
     if plan.structure.kind == "none":
-        yield Issue("structure", "this kind of test computes a structure", "none", "choose one")
+        yield Issue("structure", "this kind of test computes a structure", "none", "choose a structure")
         return
     beyond = list(_beyond(model))
-    if beyond:  # the structure can't be assembled with such effects
+    if beyond:  # the structure cannot be assembled with these effects
         yield from beyond
         return
     if plan.drive.shape.kind != "still":
-        yield Issue("drive", "is for tests of one specimen or actuator", plan.drive.shape.kind, "leave it at rest")
+        yield Issue("drive", "is used only in tests of a specimen or an actuator", plan.drive.shape.kind, "leave it at rest")
     if plan.test == "structure" and plan.stations:
-        yield Issue("stations", "a structure alone has none", len(plan.stations), "remove them or choose a hybrid test")
+        yield Issue(
+            "stations", "a test of a structure alone has no stations", len(plan.stations), "remove them or choose a hybrid test"
+        )
     if plan.test == "hybrid" and not plan.start.at_rest:
         yield Issue("start", "a hybrid test starts from rest", fix="choose a test of the structure alone, or start at rest")
     moved = plan.motion.kind != "none" or plan.forces
     if not moved and plan.duration is None:
-        yield Issue("duration", "without ground motion or forces nothing says how long", None, "give a duration")
+        yield Issue("duration", "is not defined without ground motion or forces", None, "give a duration")
     dt, n, rate = plan.integrator.dt, plan.integrator.substeps, plan.controller_rate
     if not math.isclose(dt * rate, n, rel_tol=1e-9):
         fix = f"with {n} substeps at {rate:g} Hz the step is {n / rate:.9g} s"
@@ -122,7 +124,7 @@ def _beyond(model: Model) -> Iterator[Issue]:
         storey = getattr(effect, "storey", 1)
         if storey > floors:
             where = f"structure_physics.{index}.storey"
-            yield Issue(where, f"the structure has {floors} storeys", storey, f"give 1 to {floors}")
+            yield Issue(where, f"the structure has {floors} storeys", storey, f"give a storey from 1 to {floors}")
 
 
 def _stable(model: Model) -> Iterator[Issue]:
@@ -133,7 +135,7 @@ def _stable(model: Model) -> Iterator[Issue]:
     built, title = model.built, plan.integrator.title
     massless = int(np.sum(~built.mass.any(axis=0)))
     if massless:
-        problem = f"has {massless} degrees of freedom without mass, which {title.lower()} can't integrate"
+        problem = f"has {massless} degrees of freedom without mass, which {title.lower()} cannot integrate"
         yield Issue("integrator.kind", problem, plan.integrator.kind, "give them mass or choose CR or KR-α")
         return
     highest = float(circular_frequencies(built.mass, built.stiffness)[-1])
@@ -141,7 +143,7 @@ def _stable(model: Model) -> Iterator[Issue]:
         problem = (
             f"is {highest * plan.integrator.dt:.4g} over the highest circular frequency; {title.lower()} is unstable above 2"
         )
-        fix = f"take at most {bound / highest:.3g} s, or choose CR or KR-α"
+        fix = f"give at most {bound / highest:.3g} s, or choose CR or KR-α"
         yield Issue("integrator.dt", problem, plan.integrator.dt, fix)
 
 
@@ -151,28 +153,34 @@ def _places(model: Model) -> Iterator[Issue]:
     for index, station in enumerate(plan.stations):
         if station.storey > storeys:
             where = f"stations.{index}.storey"
-            yield Issue(where, f"the structure has {storeys} storeys", station.storey, f"give 1 to {storeys}")
+            yield Issue(where, f"the structure has {storeys} storeys", station.storey, f"give a storey from 1 to {storeys}")
     for index, force in enumerate(plan.forces):
         if force.floor > floors:
-            yield Issue(f"forces.{index}.floor", f"the structure has {floors} floors", force.floor, f"give 1 to {floors}")
+            yield Issue(
+                f"forces.{index}.floor", f"the structure has {floors} floors", force.floor, f"give a floor from 1 to {floors}"
+            )
     for name in ("displacement", "velocity"):
         given = len(getattr(plan.start, name))
         if given not in (0, floors):
-            yield Issue(f"start.{name}", f"has {given} numbers for {floors} floors", None, f"give {floors}, or none for rest")
+            yield Issue(
+                f"start.{name}", f"has {given} numbers for {floors} floors", None, f"give {floors} numbers, or none for rest"
+            )
 
 
 def _names(plan: Plan) -> Iterator[Issue]:
     names = [station.name for station in plan.stations]
     for index, name in enumerate(names):
         if name in names[:index]:
-            yield Issue(f"stations.{index}.name", "is another station's name already", name, "give each station its own name")
+            yield Issue(
+                f"stations.{index}.name", "is already the name of another station", name, "give each station its own name"
+            )
 
 
 def _capacity(plan: Plan) -> Iterator[Issue]:
-    """A command that the limits let through must be one that the actuator can follow."""
+    """Issues of limits that allow a command that the actuator cannot follow."""
     for index, station in enumerate(plan.stations):
         limit, capacity = station.limits.velocity, station.actuator.velocity_limit
         if limit > capacity:
-            problem = f"lets through {limit * 1e3:g} mm/s, more than the actuator's {capacity * 1e3:g} mm/s"
+            problem = f"allows {limit * 1e3:g} mm/s, more than the actuator's limit of {capacity * 1e3:g} mm/s"
             fix = "lower the limit to the actuator's capacity or choose a faster actuator"
             yield Issue(f"stations.{index}.limits.velocity", problem, limit, fix)

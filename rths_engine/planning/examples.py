@@ -109,7 +109,7 @@ def structure_earthquake(name: str) -> Plan:
 
 
 def structure_free_vibration(name: str) -> Plan:
-    """A three-storey building that is pulled and released."""
+    """A three-storey building that is pulled and then released."""
     storeys = tuple(Storey(mass=5.0e4, stiffness=k, height=3.2) for k in (4.0e7, 3.2e7, 2.4e7))
     return Plan(
         name="Pull and release of a three-storey building",

@@ -1,4 +1,4 @@
-"""(inputs, DOF): what a unit of the ground acceleration (m/s^2) and of each floor force (N) does to the equations."""
+"""Load vectors (inputs, DOF): the force vector for a unit of the ground acceleration (m/s^2) and of each floor force (N)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rths_engine.planning.plan import Plan
 
 
 def loads(plan: Plan, built: Assembled) -> Array:
-    """-M iota, and 1 at the floor of each force; nothing for a test without structure."""
+    """The load vectors: -M iota, and 1 at the floor of each force; empty for a test without structure."""
     if plan.driven:
         return np.zeros((0, 0))
     found: Array = np.zeros((1 + len(plan.forces), len(built.mass)))
@@ -27,7 +27,7 @@ def pushed(plan: Plan) -> tuple[int, ...]:
 
 
 def columns(plan: Plan) -> NDArray[np.int64]:
-    """(inputs): the recorded column to which each input is added: the ground's, then one for each floor of `pushed`."""
+    """The recorded column (inputs) to which each input is added: that of the ground, then those of the floors in `pushed`."""
     if plan.driven:
         return np.zeros(0, dtype=np.int64)
     floors = pushed(plan)

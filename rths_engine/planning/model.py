@@ -1,4 +1,4 @@
-"""A plan with all that is computed from it before a run, each once: matrices, scheme, factor, loads, periods."""
+"""The numerical model of a plan, computed once before a run: matrices, scheme, factor, loads and periods."""
 
 from __future__ import annotations
 
@@ -33,26 +33,26 @@ DEPENDS = {
     "periods": MATRICES_OF,
 }
 # chosen; see docs/decisions/0023
-MASSLESS = 1e-9  # of the largest load: rounding of a condensation
+MASSLESS = 1e-9  # of the largest load: a smaller load is rounding of a condensation
 
 
 @dataclass(frozen=True)
 class Model:
-    """The numerical model of a plan: made once, and passed on to whatever runs or judges the plan.
+    """The numerical model of a plan, made once and passed to all code that runs or checks the plan.
 
-    n degrees of freedom, S stations, I inputs. Each value is computed when it is first asked for, and then kept. Raises
-    PlanError where the structure is a mechanism or an effect does not fit it.
+    n degrees of freedom, S stations, I inputs. Each value is computed at its first use and then stored. Raises PlanError
+    where the structure is a mechanism or an effect does not fit it.
     """
 
     plan: Plan
 
     @classmethod
     def of(cls, planned: Plan | Model) -> Model:
-        """The model of a plan; a model is its own."""
+        """The model of a plan. A model is returned unchanged."""
         return planned if isinstance(planned, Model) else cls(planned)
 
     def changed(self, **fields: Any) -> Model:
-        """The model of the plan with other fields, without computing again what does not depend on them."""
+        """The model of the plan with `fields` changed. Values that do not depend on these fields are not computed again."""
         other = Model(self.plan.model_copy(update=fields))
         kept = {name: value for name, value in vars(self).items() if name != "plan" and not fields.keys() & DEPENDS[name]}
         vars(other).update(kept)
@@ -60,12 +60,12 @@ class Model:
 
     @cached_property
     def bare(self) -> Assembled:
-        """The structure as its own part describes it, without left-out effects."""
+        """The structure without left-out effects."""
         return self.plan.structure.assemble()
 
     @cached_property
     def built(self) -> Assembled:
-        """The structure with what effects change of its matrices."""
+        """The structure with the effects that change its matrices."""
         built = self.bare
         for effect in self.plan.structure_physics:
             if effect.hook == MATRICES:
@@ -74,7 +74,7 @@ class Model:
 
     @cached_property
     def drifts(self) -> Array:
-        """L (S, n): row j takes displacements to the stroke of station j."""
+        """L (S, n): row j maps displacements to the stroke of station j."""
         return self.built.drifts[[station.storey - 1 for station in self.plan.stations]]
 
     @cached_property
@@ -90,19 +90,19 @@ class Model:
 
     @cached_property
     def factor(self) -> Factor:
-        """The scheme's matrix, factorised. Raises PlanError unless it is positive definite."""
+        """The factor of the scheme's matrix. Raises PlanError unless the matrix is positive definite."""
         return factorised(self.scheme.effective)
 
     @cached_property
     def loads(self) -> Array:
-        """(I, n): what a unit of each input does to the equations."""
+        """Load vectors (I, n): the force vector for a unit of each input."""
         return loads(self.plan, self.built)
 
     @cached_property
     def floor_loads(self) -> Array | None:
-        """(recorded inputs, floors): forces on the floors by a unit of each recorded input.
+        """Forces on the floors (recorded inputs, floors) for a unit of each recorded input.
 
-        None without a structure, and where the ground moves mass off the floors, whose motion is not recorded.
+        None without a structure, and where the ground moves mass that is not at a floor: its motion is not recorded.
         """
         if self.plan.driven:
             return None
@@ -113,7 +113,7 @@ class Model:
 
     @cached_property
     def periods(self) -> Array:
-        """Natural periods (s) of the analytical substructure, the first mode's first."""
+        """Natural periods (s) of the analytical substructure, from the first mode on."""
         if not len(self.built.mass):
             return np.zeros(0)
         periods: Array = 2 * np.pi / circular_frequencies(self.built.mass, self.built.stiffness)

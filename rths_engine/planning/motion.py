@@ -32,7 +32,7 @@ class RecordMotion(Value):
         except MotionError as error:
             raise MotionError(replace(issue, where="motion.record") for issue in error.issues) from None
         if self.sha256 and motion.sha256 != self.sha256:
-            problem = f"record '{self.record}' is not the one planned: its SHA-256 is {motion.sha256}"
+            problem = f"record '{self.record}' differs from the planned record: its SHA-256 is {motion.sha256}"
             raise MotionError(Issue("motion.sha256", problem, self.sha256, "choose the record again"))
         return motion
 
@@ -70,7 +70,7 @@ class FileMotion(Value):
             raw = path.read_bytes()
         except OSError as error:
             raise MotionError(
-                Issue("motion.path", f"can't be read: {error.strerror}", self.path, "give the path of a record file")
+                Issue("motion.path", f"cannot be read: {error.strerror}", self.path, "give the path of a record file")
             ) from None
         return read(raw, path.name, unit=self.unit, dt=self.dt)
 
@@ -90,7 +90,7 @@ PlannedMotion = Annotated[RecordMotion | InlineMotion | FileMotion | NoMotion, F
 
 
 def scaled(planned: Any, library: MotionLibrary, periods: Array) -> Motion:
-    """The planned record times its scale factor; `periods` are the structure's, T1 (s) first. Raises MotionError."""
+    """The planned record times its scale factor. `periods` (s) are those of the structure, T1 first. Raises MotionError."""
     motion: Motion = planned.unscaled(library)
     if isinstance(planned, NoMotion):
         return motion

@@ -1,4 +1,4 @@
-"""A test plan: one immutable value from which a run is reproducible to the bit."""
+"""A test plan: one immutable value that reproduces its run to the bit."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ MOST_STATIONS = 32
 
 
 class Noise(Value):
-    """Standard deviation of white Gaussian sensor noise added every substep to what the loop measures."""
+    """Standard deviation of the white Gaussian sensor noise that every substep adds to the measured values."""
 
     displacement: float = quantity("Displacement noise (standard deviation)", "m", "mm", ge=0, le=0.1, default=0.0)
     force: float = quantity("Force noise (standard deviation)", "N", "kN", ge=0, le=1e7, default=0.0)
 
 
 class Station(Value):
-    """One experimental substructure: actuator, specimen and sensors; it stands for `dampers` equal ones in its storey."""
+    """One experimental substructure: actuator, specimen and sensors. It represents `dampers` equal dampers in its storey."""
 
     name: str = Field("Station", title="Name", min_length=1, max_length=80)
     storey: int = quantity("Storey", ge=1, le=100, default=1, help="storey 1 is the lowest", tests=ONLY_HYBRID)
@@ -64,12 +64,12 @@ class Station(Value):
 
     @property
     def rig(self) -> tuple[Part, Part, Part]:
-        """Compensator, actuator and specimen as they are built, with what effects change of a part."""
+        """Compensator, actuator and specimen as they are built, with the effects that change a part."""
         return self.compensator, amended(self.actuator, self.actuator_physics), amended(self.specimen, self.specimen_physics)
 
     @property
     def physics(self) -> tuple[Effect, ...]:
-        """Every effect with a step of its own."""
+        """All effects that have their own step."""
         return tuple(one for one in (*self.actuator_physics, *self.specimen_physics, *self.sensor_physics) if one.hook != PART)
 
 
@@ -92,11 +92,11 @@ Pace = Annotated[Fastest | RealTime, Field(discriminator="kind")]
 
 
 class Plan(Value):
-    """A test. `digest` names what decides its result; `reading.read_plan` checks everything that needs no ground motion.
+    """A test plan. `digest` covers everything that decides its result.
 
-    `test` says which half is computed and which is tested: `hybrid` both; `structure` nothing is tested; `specimen` and
-    `actuator` nothing is computed, and the one station follows `drive`. Fields name the kinds that use them; in a plan of
-    another kind they stay as they are by default.
+    `reading.read_plan` checks everything that does not need the ground motion. `test` is the kind of test: `hybrid` computes
+    the structure and tests the specimens; `structure` tests nothing; `specimen` and `actuator` compute no structure, and their
+    one station follows `drive`. Fields name the kinds that use them. In a plan of another kind they keep their default.
     """
 
     model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
@@ -147,7 +147,7 @@ class Plan(Value):
 
     @property
     def substeps(self) -> int:
-        """Controller steps of a step of the loop."""
+        """Number of controller steps in a step of the loop."""
         return 1 if self.driven else self.integrator.substeps
 
     @property
@@ -156,10 +156,10 @@ class Plan(Value):
         return self.substep if self.driven else self.integrator.dt
 
     def length(self, record: float) -> float:
-        """Duration (s) of the test: as planned, else as long as it is moved; `record` is the ground motion's (s)."""
+        """Duration (s) of the test: as planned, else that of the excitation; `record` (s) is that of the ground motion."""
         return self.duration or self.moved(record)
 
     def moved(self, record: float) -> float:
-        """Until when (s) ground motion, forces or drive move it."""
+        """Time (s) at which ground motion, forces and drive end."""
         forces = (force.shape.duration for force in self.forces)
         return max(0.0 if self.motion.kind == "none" else record, self.drive.shape.duration, *forces)

@@ -16,7 +16,7 @@ DEEPEST = 30
 
 
 def parse(text: str) -> Any:
-    """The data of a YAML (or JSON) text. Raises PlanError with the line of a mistake; aliases are refused."""
+    """The data in a YAML (or JSON) text. Raises PlanError with the line of an error; aliases are not allowed."""
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
     from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent
@@ -30,13 +30,15 @@ def parse(text: str) -> Any:
             if depth > DEEPEST:
                 raise PlanError(Issue("", f"the text is nested deeper than {DEEPEST} levels"))
             if isinstance(event, AliasEvent):
-                raise PlanError(Issue("", "YAML aliases (*name) are not read in plans", fix="write the value out"))
+                raise PlanError(
+                    Issue("", "YAML aliases (*name) are not allowed in plans", fix="write the value instead of the alias")
+                )
         return YAML(typ="safe", pure=True).load(text)
     except MarkedYAMLError as error:
         line = f"line {error.problem_mark.line + 1}: " if error.problem_mark else ""
-        raise PlanError(Issue("", f"{line}the text is no YAML: {error.problem}")) from None
+        raise PlanError(Issue("", f"{line}the text is not valid YAML: {error.problem}")) from None
     except (YAMLError, ValueError, RecursionError) as error:
-        raise PlanError(Issue("", f"the text is no YAML: {str(error).splitlines()[0]}")) from None
+        raise PlanError(Issue("", f"the text is not valid YAML: {str(error).splitlines()[0]}")) from None
 
 
 def write(plan: BaseModel) -> str:

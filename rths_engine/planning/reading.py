@@ -1,4 +1,4 @@
-"""Read a plan and check everything in it that needs no ground motion."""
+"""Read a plan and check everything that does not need its ground motion."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ def read_plan(data: Any) -> Plan:
 
 
 def read_model(data: Any) -> Model:
-    """A plan from its JSON form as the model that was made to check it. Raises PlanError with every issue."""
+    """The model of a plan in JSON form, which the checks of the plan need too. Raises PlanError with every issue."""
     if not isinstance(data, Mapping):
         raise PlanError(Issue("", "a plan is a mapping of fields", fix="start from a template"))
     model = Model(validated(Plan, data))
     found = tuple(issues(model))
     if found:
         raise PlanError(found)
-    _ = model.factor  # which a singular scheme has none of
+    _ = model.factor  # raises PlanError for a singular scheme
     return model
 
 
 def plan_from_yaml(text: str) -> Plan:
-    """A plan from YAML. Raises PlanError for YAML that is not valid, as for a plan that is not valid."""
+    """A plan from YAML. Raises PlanError for invalid YAML and for an invalid plan."""
     return model_from_yaml(text).plan
 
 
 def model_from_yaml(text: str) -> Model:
-    """A plan from YAML as the model that was made to check it. Raises PlanError as `plan_from_yaml` does."""
+    """The model of a plan in YAML. Raises PlanError like `plan_from_yaml`."""
     return read_model(plan_yaml.parse(text))
 
 
 def plan_to_yaml(plan: Plan) -> str:
-    """A plan as YAML in SI with each number's unit as a comment; `plan_from_yaml` reads the same plan back."""
+    """A plan as YAML in SI, with the unit of each number as a comment. `plan_from_yaml` returns the same plan from it."""
     return plan_yaml.write(plan)

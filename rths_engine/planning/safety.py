@@ -20,8 +20,8 @@ LIMITS = {
 class Limits(Value):
     """Checked every substep, before the command is sent (displacement, velocity, oscillation) and after the force is measured.
 
-    A value that is not a number trips as well. Source: Chen and Ricles (2012), section 5: 200 mm and 300 mm/s; `oscillation` is
-    what an operator would see of a loop that feeds itself without reaching these.
+    A value that is not a number also trips. Source: Chen and Ricles (2012), section 5: 200 mm and 300 mm/s. `oscillation`
+    replaces an operator who stops a growing or lasting oscillation below these limits.
     """
 
     displacement: float = quantity("Command displacement limit", "m", "mm", gt=0, le=10, default=0.2)

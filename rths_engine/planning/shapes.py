@@ -11,7 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Value, quantity
 
 # chosen; see docs/decisions/0023
-TONES = 400  # of band-limited noise
+TONES = 400  # number of tones in band-limited noise
 Share = Annotated[float, Field(ge=-1e6, le=1e6)]  # of the amplitude
 
 

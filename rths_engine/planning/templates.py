@@ -1,8 +1,8 @@
-"""Plans to start from: the twelve simulations of Table III of Chen and Ricles (2012), EESD 41, 549-569, and the examples.
+"""Templates of plans: the twelve simulations of Table III of Chen and Ricles (2012), EESD 41, 549-569, and the examples.
 
-A shear building with its storey stiffnesses, first period and 2 % damping stands for the paper's frame, first-order delays of
-30 and 45 controller steps for its actuators, and a bundled record of the same earthquake for its ground motion.
-The record's factor was chosen once, for floors about as far displaced as the paper's simulation 2.
+A shear building with the storey stiffnesses, the first period and 2 % damping represents the paper's frame. First-order delays
+of 30 and 45 controller steps represent its actuators, and a bundled record of the same earthquake its ground motion. The factor
+of the record was chosen once, to give about the floor displacements of the paper's simulation 2.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def template(name: str) -> Plan:
         return _table3(name, PAPER[name])
     if name in EXAMPLES:
         return EXAMPLES[name](name)
-    raise PlanError(Issue("", f"there is no template '{name}'", fix="choose one of " + ", ".join(names())))
+    raise PlanError(Issue("", f"the template '{name}' does not exist", fix="choose one of " + ", ".join(names())))
 
 
 def _table3(name: str, row: PaperRow) -> Plan:
@@ -132,7 +132,7 @@ def _with_brace(stiffness: float, dampers: int) -> float:
 
 
 def _building() -> ShearBuilding:
-    """Equal floor masses such that T1 is the paper's: m = lambda (T1 / 2 pi)^2, with lambda the lower root for m = 1."""
+    """The building with equal floor masses for the paper's T1: m = lambda (T1 / 2 pi)^2, lambda the lower root for m = 1."""
     k1, k2 = STOREY_STIFFNESS
     root = ((k1 + 2 * k2) - math.sqrt((k1 + 2 * k2) ** 2 - 4 * k1 * k2)) / 2
     mass = root * (FIRST_PERIOD / (2 * math.pi)) ** 2

@@ -1,1 +1,1 @@
-"""The compiled loop and everything that prepares it, runs it and replays one part of it."""
+"""The compiled loop, and the code that prepares it, runs it and replays single parts."""

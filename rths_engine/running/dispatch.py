@@ -1,4 +1,4 @@
-"""The compiled dispatch over each registry of parts, and the effects of a component in a row."""
+"""The compiled dispatch over each registry of parts, and over the effects of a component."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Effects(NamedTuple):
 
 
 def effects(planned: Sequence[Effect], dt: float) -> Effects:
-    """Left-out effects as the compiled loop takes them: hooks and codes, parameters, states."""
+    """Left-out effects in the form of the compiled loop: hooks and codes, parameters, states."""
     built = [effect.build(dt) for effect in planned]
     codes = [(effect.hook, _code(effect)) for effect in planned]
     return Effects(
@@ -42,7 +42,7 @@ def _code(effect: Effect) -> int:
 
 
 def stacked(rows: Sequence[Effects]) -> Effects:
-    """The effects of several components: codes (C, E, 2), parameters and states (C, E, widest); a code of -1 is none."""
+    """The effects of several components: codes (C, E, 2), parameters and states (C, E, widest); a code of -1 is no effect."""
     count = max((len(row.codes) for row in rows), default=0)
     tables = [np.full((len(rows), count, 2), -1, dtype=np.int64)]
     for which in (1, 2):
@@ -56,7 +56,7 @@ def stacked(rows: Sequence[Effects]) -> Effects:
 
 @compiled
 def own(effects, component):
-    """The effects of one component of those stacked."""
+    """The effects of one component, from the stacked effects."""
     return Effects(effects.codes[component], effects.parameters[component], effects.states[component])
 
 
@@ -69,7 +69,7 @@ def acts(hook, effects):
 def _extending(kinds: Sequence[type[Effect]]) -> Any:
     """`extended(hook, effects, y, x, v, w, t, dt)`: the signal y after every effect at this hook (`physics.effect`).
 
-    Each component has its own, over its own effects alone, which keeps the compiled loop small.
+    Each component has its own dispatch over its own effects only, which keeps the compiled loop small.
     """
     steps = _steps(kinds)
     extend = fold(steps)
@@ -84,7 +84,9 @@ def _extending(kinds: Sequence[type[Effect]]) -> Any:
 
 
 def _steps(kinds: Sequence[type[Effect]]) -> tuple[Any, ...]:
-    return tuple(dict.fromkeys(kind.step for kind in kinds))  # of several kinds one: their code in the dispatch
+    return tuple(
+        dict.fromkeys(kind.step for kind in kinds)
+    )  # several kinds can share one step, and so its code in the dispatch
 
 
 extend_actuator = _extending(physics.ACTUATOR)
@@ -97,8 +99,8 @@ extend_storey = _extending(physics.STRUCTURE)
 def resisted(code, parameters, state, flexibility, x, dt, before, last):
     """Displacement u and force f of a specimen behind a series flexibility: u + flexibility f(u) = x.
 
-    f rises with u within a substep, so that u lies between x and x - flexibility f(x). Secants from the force `last`, kept
-    within the bracket that they find; `before` is room for the state.
+    f increases with u within a substep, so u lies between x and x - flexibility f(x). Secant steps start from the force `last`
+    and stay within the bracket found so far. `before` is memory for a copy of the state.
     """
     if flexibility <= 0.0:
         return x, resist(code, parameters, state, x, dt)

@@ -1,7 +1,7 @@
-"""The one compiled loop: integrate, ramp, compensate, actuate, measure, check, record.
+"""The compiled loop: integrate, ramp, compensate, actuate, measure, check, record.
 
-Order within step i: from the external and measured forces at step i the integrator gives x[i+1] and v[i+1], for CR (3); the
-command ramps from L x[i] to L x[i+1] over n substeps (8); every substep checks the limits, compensates (7), actuates (5),
+Order within step i: from the external and measured forces at step i, the integrator computes x[i+1] and v[i+1], for CR by (3).
+The command ramps from L x[i] to L x[i+1] over n substeps (8). Every substep checks the limits, compensates (7), actuates (5),
 reads the specimen and the sensors, and updates the tracking indicator (9) and the energy error (10). A test of a specimen or an
 actuator alone has no degrees of freedom: its command is the drive.
 """
@@ -45,7 +45,7 @@ def _within(value, limit):
 
 @compiled
 def track(memory, x_cmd, x_meas, f_meas):
-    """Tracking indicator (9) and energy error (10) by the trapezoidal rule; remembers the measured values."""
+    """Tracking indicator (9) and energy error (10) by the trapezoidal rule; stores the measured values for the next substep."""
     cmd_move = x_cmd - memory[X_CMD]
     meas_move = x_meas - memory[X_MEAS]
     memory[AREA] += 0.5 * (x_cmd + memory[X_CMD]) * meas_move
@@ -58,7 +58,7 @@ def track(memory, x_cmd, x_meas, f_meas):
 
 
 class Setup(NamedTuple):
-    """What stays the same during a run (SI). S stations, Q substeps of the whole run."""
+    """The constant data of a run (SI). S stations, Q substeps of the whole run."""
 
     n: int  # substeps of an integration step
     dt_step: float  # integration step
@@ -75,7 +75,7 @@ class Setup(NamedTuple):
     floors: Any  # DOF of the floors
     drifts: Any  # L (S, DOF)
     drive: Any  # (steps + 1, S), added to L x
-    dampers: Any  # equal dampers a station stands for (S)
+    dampers: Any  # number of equal dampers that a station represents (S)
     codes: Any  # part codes (S, 3)
     parameters: Any  # (3, S, widest)
     limits: Any  # (S, 4), in the order of safety.LIMITS
@@ -83,7 +83,7 @@ class Setup(NamedTuple):
 
 
 class State(NamedTuple):
-    """What changes from step to step, in place."""
+    """The data that change from step to step, in place."""
 
     x: Any  # (DOF)
     v: Any  # (DOF)
@@ -94,16 +94,16 @@ class State(NamedTuple):
 
 
 class LeftOut(NamedTuple):
-    """Left-out effects of a plan that has any. Without them the loop is compiled without a trace of them."""
+    """The left-out effects of a plan. A plan without effects has a loop that is compiled without them."""
 
     stations: Any  # dispatch.Effects, stacked
     storeys: Any  # dispatch.Effects, stacked, E effects of storeys
-    drifts: Any  # (E, DOF), takes x to the drift that each works against
+    drifts: Any  # (E, DOF), maps x to the drift that each effect acts against
     stiffness: Any  # (E), elastic, along that drift
 
 
 class Record(NamedTuple):
-    """What a run writes. Columns of signals: inputs, floors, stations; trip: station from 0, value, bound, substep from 1."""
+    """The output of a run. Columns of signals: inputs, floors, stations; trip: station from 0, value, bound, substep from 1."""
 
     signals: Any  # (Q, inputs + floors + columns of the stations)
     history: Any  # (steps + 1, 2, floors), x and v
@@ -112,7 +112,7 @@ class Record(NamedTuple):
 
 @compiled
 def _extended_rig(j, setup, state, left_out, x_comp, noise, t):
-    """Actuator, specimen and sensors of station j with the effects on them (`physics.effect`): the readings."""
+    """The readings of station j: its actuator, specimen and sensors with their effects (`physics.effect`)."""
     memory, dt, effects = state.memory[j], setup.dt, own(left_out.stations, j)
     codes, parameters, parts = setup.codes[j], setup.parameters, state.parts
     force, before = memory[F_TRUE], memory[X_TRUE]
@@ -133,7 +133,7 @@ def _extended_rig(j, setup, state, left_out, x_comp, noise, t):
 
 @compiled
 def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
-    """One controller step of station j into its row. Returns the position of the broken limit plus 1, or 0, and the value."""
+    """One controller step of station j into its row. Returns 0 or the position plus 1 of the exceeded limit, and the value."""
     memory, limits, dt = state.memory[j], setup.limits[j], setup.dt
     codes, parameters, parts = setup.codes[j], setup.parameters, state.parts
     velocity = (x_cmd - memory[X_CMD]) / dt
@@ -165,7 +165,7 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
 
 @compiled
 def _resist_drifts(t, dt, state, left_out, residual):
-    """Subtract the forces of the structure's left-out effects, against the drifts of their storeys, from `residual`."""
+    """Subtract from `residual` the forces of the structure's left-out effects, against the drifts of their storeys."""
     x, v = state.x, state.v
     for k in range(left_out.stiffness.size):
         drift, rate = 0.0, 0.0
@@ -211,7 +211,7 @@ def integrate(i, setup, state, left_out, residual, work, x_next):
 
 @entry
 def advance(first, last, setup, state, left_out, record):
-    """Integration steps first to last - 1. Returns 0 or a broken limit's position plus 1, and the substeps recorded."""
+    """Integration steps first to last - 1. Returns 0 or the exceeded limit's position plus 1, and the substeps recorded."""
     x, n, floors, inputs = state.x, setup.n, setup.floors, setup.loads.shape[0]
     stations, width = setup.dampers.size, len(RECORDED)
     residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))

@@ -1,13 +1,13 @@
-"""Half waves in a row of a command that oscillates without dying out: a loop that feeds itself, below the other limits."""
+"""Count the consecutive half waves of a command that oscillates without decay: an unstable loop below the other limits."""
 
 from __future__ import annotations
 
 from rths_engine.foundation.kernel import compiled
 
 # chosen; see docs/decisions/0023
-LEAST = 0.02  # m/s, peak of a half wave that counts
-LONGEST = 0.2  # s, of a half wave: above 2.5 Hz
-DYING = 0.8  # of the largest peak in the row; a lower one begins the row anew
+LEAST = 0.02  # m/s, smallest peak of a half wave that counts
+LONGEST = 0.2  # s, longest half wave that counts: above 2.5 Hz
+DYING = 0.8  # of the largest peak in the row; a lower peak starts a new row
 
 # state: signed peak of the present half wave (m/s), its age (s), largest peak of the row (m/s), half waves in it
 PEAK, AGE, LARGEST, COUNT, SIZE = range(5)
@@ -15,7 +15,7 @@ PEAK, AGE, LARGEST, COUNT, SIZE = range(5)
 
 @compiled
 def half_waves(state, velocity, dt):
-    """The row's length after one more substep at this command velocity (m/s)."""
+    """The length of the row after one more substep at this command velocity (m/s)."""
     if velocity * state[PEAK] < 0.0:
         peak = abs(state[PEAK])
         if peak < LEAST or state[AGE] > LONGEST:

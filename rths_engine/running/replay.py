@@ -1,4 +1,4 @@
-"""One component alone on recorded signals, by the steps of the loop."""
+"""Replay of one component on recorded signals, with the steps of the loop."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def specimen(
 ) -> Array:
     """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s).
 
-    `pressed` is the force before.
+    `pressed` is the force (N) before the first sample.
     """
     part = amended(part, extended)
     parameters, state = part.build(dt)

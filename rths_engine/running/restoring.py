@@ -13,7 +13,7 @@ from rths_engine.parts.structures.frame_model import CURVATURE, WEIGHTS
 
 
 class Rows(NamedTuple):
-    """A matrix by compressed rows."""
+    """A matrix in compressed rows."""
 
     start: Any
     column: Any
@@ -21,7 +21,7 @@ class Rows(NamedTuple):
 
 
 def rows(matrix: Array) -> Rows:
-    """A matrix by its nonzero numbers, row by row."""
+    """The matrix in compressed rows, without its zeros."""
     sparse = csr_array(matrix)
     return Rows(sparse.indptr.astype(np.uint64), sparse.indices.astype(np.uint64), sparse.data)
 
@@ -40,10 +40,10 @@ def subtract_product(matrix, vector, result):
 def subtract_forces(members, x, plastic, result):
     """Subtract the members' restoring forces: result -= r(x).
 
-    `plastic` (E, 3) holds and takes the plastic curvatures (1/m) of the members.
+    `plastic` (E, 3) are the plastic curvatures (1/m) of the members, updated in place.
 
-    At each Lobatto point: trial moment EI (kappa - kappa_p), back moment H kappa_p; where they differ by more than the yield
-    moment, kappa_p grows by the excess over EI + H (bilinear law with kinematic hardening, exact return mapping).
+    At each Lobatto point the trial moment is EI (kappa - kappa_p) and the back moment H kappa_p. Where they differ by more than
+    the yield moment, kappa_p increases by the excess over EI + H (bilinear law, kinematic hardening, exact return mapping).
     """
     basic = np.empty(3)
     for e in range(members.dofs.shape[0]):

@@ -1,4 +1,4 @@
-"""A run: the only owner of changing state. `advance` yields chunks for live view, cancel and pace."""
+"""A run, the only owner of state that changes. `advance` runs it in parts, for the live view, cancelling and pace."""
 
 from __future__ import annotations
 
@@ -27,11 +27,10 @@ LARGEST_RECORDING = 2_000_000_000  # bytes
 
 
 class Run:
-    """One execution of a plan. `signals[:done]` holds what was recorded, columns as in `channels`, SI.
+    """One execution of a plan. `signals[:done]` are the recorded samples in SI, with columns as in `channels`.
 
-    Starts as planned, or from `initial` displacements (m) and velocities (m/s) of the degrees of freedom, as the loop holds
-    them.
-    Raises PlanError or MotionError when the plan can't be run; nothing has happened then.
+    The run starts as planned, or from `initial`: displacements (m) and velocities (m/s) of the loop's degrees of freedom.
+    Raises PlanError or MotionError, before anything runs, when the plan cannot run.
     """
 
     def __init__(
@@ -51,7 +50,7 @@ class Run:
         stations = len(plan.stations)
         self.channels: tuple[Channel, ...] = channels(model)
         if self.total * len(self.channels) * 8 > LARGEST_RECORDING:
-            problem = f"{self.total} substeps of {len(self.channels)} channels would not fit in {LARGEST_RECORDING / 1e9:g} GB"
+            problem = f"{self.total} substeps of {len(self.channels)} channels exceed {LARGEST_RECORDING / 1e9:g} GB"
             raise PlanError(Issue("duration", problem, plan.duration, "shorten the test or lower the controller rate"))
         self.signals: Array = np.zeros((self.total, len(self.channels)))
         self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
@@ -90,7 +89,7 @@ class Run:
         return slice(before, self.done)
 
     def result(self, status: str, elapsed_s: float) -> Result:
-        """What was recorded so far, with its measures. `status` is completed, tripped or cancelled."""
+        """The result so far: recorded signals and their measures. `status` is completed, tripped or cancelled."""
         steps = self.done // self.plan.substeps
         return Result(
             model=self.model,
@@ -114,7 +113,7 @@ class Run:
 
 
 def simulate(planned: Plan | Model, motions: MotionLibrary | None = None) -> Result:
-    """Run a plan to its end as fast as the machine can."""
+    """Run a plan to its end as fast as possible."""
     run = Run(planned, motions or MotionLibrary(None))
     start = time.perf_counter()
     run.advance(run.total)
@@ -122,15 +121,17 @@ def simulate(planned: Plan | Model, motions: MotionLibrary | None = None) -> Res
 
 
 def _summed(rows: Array, columns: NDArray[np.int64]) -> Array:
-    """What the loop wrote, with the inputs of one column added; the other columns follow as they are."""
-    inputs = np.full((len(rows), columns.max() + 1), -0.0)  # to which every number adds as itself, 0.0 and -0.0 too
+    """The rows of the loop, with the inputs of the same recorded column added; the other columns do not change."""
+    inputs = np.full(
+        (len(rows), columns.max() + 1), -0.0
+    )  # adding a number to -0.0 gives the same number, also for 0.0 and -0.0
     for k, column in enumerate(columns):
         inputs[:, column] += rows[:, k]
     return np.hstack([inputs, rows[:, len(columns) :]])
 
 
 def _noise(plan: Plan, total: int) -> Array:
-    """Sensor noise (substeps, stations, 2): displacement (m) and force (N), by the plan's seed."""
+    """Sensor noise (substeps, stations, 2): displacement (m) and force (N), from the seed of the plan."""
     scale = np.array([(station.noise.displacement, station.noise.force) for station in plan.stations]).reshape(-1, 2)
     noise: Array = np.zeros((total, len(scale), 2))
     if scale.any():
@@ -143,7 +144,7 @@ def _steps(duration: float, dt: float) -> int:
 
 
 def _inputs(plan: Plan, record: Motion, time: Array) -> Array:
-    """(steps + 1, inputs): ground acceleration, linear between samples and zero after the record's end, and floor forces."""
+    """Inputs (steps + 1, inputs): ground acceleration, linear between samples and zero after the record, and floor forces."""
     if plan.driven:
         return np.zeros((len(time), 0))
     ground = record.acceleration

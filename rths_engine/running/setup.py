@@ -1,4 +1,4 @@
-"""A plan as what the compiled loop holds still: parts of the stations, matrices, excitation, limits."""
+"""The constant data of the compiled loop, from a plan: parts of the stations, matrices, excitation and limits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from rths_engine.running.restoring import rows
 
 
 def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop.Setup, Array]:
-    """What stays the same during a run, and the states of the stations' parts at its start (3, stations, widest).
+    """The constant data of a run, and the start states of the stations' parts (3, stations, widest).
 
     inputs (steps + 1, I), drive (steps + 1, stations), noise (substeps, stations, 2).
     """
@@ -71,7 +71,7 @@ def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
 
 
 def left_out(model: Model) -> loop.LeftOut | None:
-    """The plan's left-out effects as the loop takes them; None where the plan has none."""
+    """The left-out effects of the plan in the form of the loop; None for a plan without effects."""
     plan, built = model.plan, model.built
     against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
     if not against and not any(station.physics for station in plan.stations):

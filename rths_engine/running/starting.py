@@ -1,4 +1,4 @@
-"""Where a run begins."""
+"""The start state of a run."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from rths_engine.planning.model import Model
 def state(model: Model, force: Array) -> tuple[Array, Array, Array]:
     """x, v and c of the scheme before step 0, under the external `force` (N) of step 0. Each (n,).
 
-    With A[0] = inv(D + E) R[0] the scheme would step x[1] = x[0] + dt v[0] + (1 + s) dt^2 A[0]. From rest v stays zero;
-    else it is moved by -(1/2 + s) dt A[0], so that x[1] = x[0] + dt v[0] + dt^2/2 A[0].
+    With A[0] = inv(D + E) R[0] the first step of the scheme is x[1] = x[0] + dt v[0] + (1 + s) dt^2 A[0]. From rest v stays
+    zero. Otherwise v changes by -(1/2 + s) dt A[0], so that x[1] = x[0] + dt v[0] + dt^2/2 A[0].
     """
     start, built, scheme, dt = model.plan.start, model.built, model.scheme, model.plan.step
     x, v = (_following(built, given) for given in (start.displacement, start.velocity))
@@ -32,7 +32,7 @@ def state(model: Model, force: Array) -> tuple[Array, Array, Array]:
 
 
 def _following(built: Assembled, given: tuple[float, ...]) -> Array:
-    """All degrees of freedom where the floors have the values `given` and no other is loaded: x_s = -inv(K_ss) K_sf x_f."""
+    """All degrees of freedom for the floor values `given`, with no load on the others: x_s = -inv(K_ss) K_sf x_f."""
     x = np.zeros(len(built.mass))
     if not any(given):
         return x

@@ -9,7 +9,7 @@ from rths_engine.foundation.kernel import entry
 
 @entry
 def stop(x, r):
-    """Stop operator: y of each x, from -1 to 1, an elastic slider that follows x and slips at a distance r.
+    """Stop operator: y of each x, from -1 to 1, for an elastic slider that follows x and slips at the distance r.
 
     Source: Brokate and Sprekels (1996), Hysteresis and Phase Transitions, section 2.1.
     """

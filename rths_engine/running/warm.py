@@ -1,4 +1,4 @@
-"""`python -m rths_engine.running.warm`: compile the loop once, so that the first test starts at once."""
+"""`python -m rths_engine.running.warm`: compile the loop once, so that the first test starts without delay."""
 
 from __future__ import annotations
 

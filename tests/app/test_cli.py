@@ -74,7 +74,7 @@ def test_a_printed_template_reads_back_as_the_same_plan(name: str, capsys: pytes
 def test_an_unknown_template_is_refused_with_the_names_there_are(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", "table3-13"]) == 2
     out, err = capsys.readouterr()
-    assert not out and "there is no template 'table3-13'" in err and "table3-12" in err
+    assert not out and "the template 'table3-13' does not exist" in err and "table3-12" in err
 
 
 def test_json_is_one_object_with_the_measures_of_the_run(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
@@ -168,7 +168,7 @@ def test_a_plan_with_mistakes_is_refused_with_one_line_for_each(
     [
         (None, "No such file"),
         (b"", "a mapping of fields"),
-        (b"name: [", "no YAML"),
+        (b"name: [", "not valid YAML"),
         (b"\x89HDF\r\n\xff", "is not valid UTF-8 text"),
         (b"- 1\n- 2\n", "a mapping of fields"),
     ],

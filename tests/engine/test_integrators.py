@@ -109,7 +109,7 @@ def test_a_step_beyond_the_stability_limit_is_refused_with_the_step_to_take(kind
 def test_an_integrator_that_needs_mass_everywhere_refuses_a_frame_with_massless_rotations() -> None:
     storey = {"height": 4.0, "mass": 2e5, "column": "W14x120", "beam": "W24x55"}
     frame = {"kind": "moment_frame", "bays": [8.0], "storeys": [storey]}
-    with pytest.raises(PlanError, match=r"without mass, which explicit newmark can't integrate.*choose CR or KR"):
+    with pytest.raises(PlanError, match=r"without mass, which explicit newmark cannot integrate.*choose CR or KR"):
         make(frame, STILL, 0.01, kind="explicit_newmark", duration=1.0)
     make(frame, STILL, 0.01, kind="kr_alpha", rho=0.5, duration=1.0)
 

@@ -89,7 +89,7 @@ def test_a_constant_force_holds_a_storey_at_force_over_stiffness() -> None:
             "200 mm",
         ),
         ({"test": "hybrid"}, "structure", "computes a structure"),
-        ({"test": "structure", "structure": building([1e5], [1e7])}, "stations", "a structure alone has none"),
+        ({"test": "structure", "structure": building([1e5], [1e7])}, "stations", "a test of a structure alone has no stations"),
         ({"test": "hybrid", "structure": building([1e5], [1e7])}, "drive", "leave it at rest"),
     ],
 )
@@ -121,7 +121,7 @@ def test_an_excitation_that_does_not_fit_the_structure_is_told_where(changed: di
 
 def test_a_velocity_limit_beyond_the_actuator_is_named_before_the_start() -> None:
     actuator = {"kind": "servo_hydraulic", "velocity_limit": 0.25}
-    with pytest.raises(PlanError, match=r"stations\.0\.limits\.velocity.*300 mm/s, more than the actuator's 250 mm/s"):
+    with pytest.raises(PlanError, match=r"stations\.0\.limits\.velocity.*300 mm/s, more than the actuator's limit of 250 mm/s"):
         read_plan(driven("specimen", station={"actuator": actuator, "limits": {}}))
 
 
@@ -200,7 +200,7 @@ def test_what_a_station_stands_for_in_a_building_is_refused_in_a_test_without_on
 
 @pytest.mark.parametrize("frequency", [1e-300, 1e-4])
 def test_a_drive_without_end_is_refused_before_it_is_sampled(frequency: float) -> None:
-    with pytest.raises(PlanError, match=r"drive\.shape.*: lasts .* s; 3600 s is the most"):
+    with pytest.raises(PlanError, match=r"drive\.shape.*: lasts .* s; the maximum is 3600 s"):
         read_plan(driven("specimen", drive={"shape": {**SINE, "frequency": frequency}}))
 
 

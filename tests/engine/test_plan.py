@@ -55,7 +55,7 @@ def test_table_iii_stands_on_the_papers_first_period() -> None:
         ("stations.1.compensator.alpha_es", 0.2, "stations.1.compensator.alpha_es", ">= 1"),
         ("stations.1.specimen.kind", "jelly", "stations.1.specimen", "mr_damper"),
         ("stations.1.storey", 3, "stations.1.storey", "2 storeys"),
-        ("stations.1.name", "Storey 1 damper", "stations.1.name", "another station's"),
+        ("stations.1.name", "Storey 1 damper", "stations.1.name", "name of another station"),
         ("integrator.dt", 0.01, "integrator.dt", "10 substeps"),
         ("seed", 1.5, "seed", "whole number"),
         ("surprise", 1, "surprise", "not a field"),
