@@ -129,7 +129,7 @@ def test_the_form_of_other_kinds_of_test_is_whole_and_accessible(
 
 def test_a_test_without_a_loop_has_no_stability_and_says_so(opened: Opener) -> None:
     page = opened("/stability/specimen-mr-damper")
-    expect(page.locator("#verdict")).to_contain_text("follows its drive. It has no loop that can become unstable")
+    expect(page.locator("#verdict")).to_contain_text("follows its drive. It has no closed loop that can become unstable")
     expect(page.locator("table").first).to_be_hidden()
 
 
