@@ -136,7 +136,7 @@ def _detail(request: Request, error: HTTPException) -> str:
     words = {
         "Not Found": f"There is nothing at {request.url.path}.",
         "There was an error parsing the body": (
-            "The body can't be read: it is not UTF-8, is nested too deeply, is an incomplete form, "
+            "The body cannot be read: it is not UTF-8, is nested too deeply, is an incomplete form, "
             "or has a number with too many digits."
         ),
     }

@@ -48,7 +48,7 @@ def _bytes(path: Path, where: str) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise MeasuredError(Issue(where, f"can't be read: {error.strerror}", str(path))) from None
+        raise MeasuredError(Issue(where, f"cannot be read: {error.strerror}", str(path))) from None
 
 
 def _text(path: Path) -> str:

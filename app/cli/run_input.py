@@ -61,5 +61,5 @@ def _text(path: str) -> str:
         raise PlanError(Issue("PLAN.yaml", "is not valid UTF-8 text", path, "`rths plan NAME` prints a plan")) from None
     except OSError as error:
         raise PlanError(
-            Issue("PLAN.yaml", f"can't be read: {error.strerror}", path, "`rths plan NAME` prints a plan")
+            Issue("PLAN.yaml", f"cannot be read: {error.strerror}", path, "`rths plan NAME` prints a plan")
         ) from None

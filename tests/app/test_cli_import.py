@@ -45,11 +45,11 @@ def test_warnings_are_told_and_kept(folder: Path, capsys: pytest.CaptureFixture[
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["none.csv", "--guess"], "FILE = none.csv: can't be read: No such file"),
+        (["none.csv", "--guess"], "FILE = none.csv: cannot be read: No such file"),
         (["sine.csv"], "needs either --guess, or --map MAP.yaml and --out REC.h5"),
         (["sine.csv", "--map", "map.yaml"], "needs either --guess"),
         (["sine.csv", "--guess", "--out", "rec.h5"], "needs either --guess"),
-        (["sine.csv", "--map", "none.yaml", "--out", "rec.h5"], "--map = none.yaml: can't be read"),
+        (["sine.csv", "--map", "none.yaml", "--out", "rec.h5"], "--map = none.yaml: cannot be read"),
         (["sine.csv", "--map", "sine.csv", "--out", "rec.h5"], "mapping"),
         (["sine.csv", "--map", "broken.yaml", "--out", "rec.h5"], "line 1: the text is not valid YAML"),
         (["sine.csv", "--map", "map.yaml", "--out", "missing/rec.h5"], "there is no folder missing"),

@@ -49,7 +49,7 @@ def test_a_bare_file_is_read_as_the_papers_record_is_unless_told(record: Path, c
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["--record", "nowhere.txt"], "can't be read"),
+        (["--record", "nowhere.txt"], "cannot be read"),
         (["--record-dt", "0.01"], "name the record's file"),
         (["--factor", "-1"], "factor"),
         (["--factor", "nan"], "factor"),
