@@ -52,6 +52,7 @@ check: setup
 # Write a migration to the present models: make migration MESSAGE="measure of ..."
 migration: setup
 	$(BIN)/python -m app.new_migration "$(MESSAGE)"
+	@$(BIN)/ruff format --quiet migrations
 
 # Write the generated tables into docs/*.md: app/documents.
 docs: setup

@@ -70,7 +70,7 @@ def commands(text: str) -> str:
         target, _, variables = line.removeprefix("make ").partition(" ")
         wanted = re.search(rf"^{target}:.*\n((?:\t.*\n)+)", makefile, re.MULTILINE)
         assert wanted, f"no target {target} in the Makefile"
-        recipe = wanted[1].replace("\t", "").replace("$(BIN)", ".venv/bin")
+        recipe = re.sub(r"^\t@?", "", wanted[1], flags=re.MULTILINE).replace("$(BIN)", ".venv/bin")
         for name, value in re.findall(r"(\w+)=\"([^\"]*)\"", variables):
             recipe = recipe.replace(f"$({name})", value)
         text = text.replace(line + "\n", recipe)
