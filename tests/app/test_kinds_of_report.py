@@ -102,7 +102,7 @@ def test_the_command_line_runs_and_prints_every_kind(name: str, tmp_path: Path, 
     heading = next(csv_parts(out)).decode()
     assert ("ag (g)" in heading) == (plan["test"] in {"hybrid", "structure"})
     assert main(["stability", str(path)]) == 0
-    assert ("no loop" in capsys.readouterr().out) == (plan["test"] in {"specimen", "actuator"})
+    assert ("no closed loop" in capsys.readouterr().out) == (plan["test"] in {"specimen", "actuator"})
 
 
 def test_a_record_for_a_test_that_follows_its_drive_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

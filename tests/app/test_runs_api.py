@@ -150,7 +150,7 @@ def test_a_measure_is_sorted_by_only_at_a_station_that_a_run_has(client: TestCli
         answer = client.get(RUNS, params={"sort": f"mte_mm:{station}"})
         assert answer.status_code == 422, station
         assert answer.json()["errors"][0]["where"] == "sort"
-        assert "a station from 1 to 2" in answer.json()["detail"]
+        assert "a station number from 1 to 2" in answer.json()["detail"]
 
 
 @pytest.mark.parametrize(
