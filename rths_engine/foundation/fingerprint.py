@@ -11,6 +11,7 @@ import builtins
 import dis
 import hashlib
 from collections.abc import Callable, Iterator
+from functools import cache
 from types import CodeType, ModuleType
 from typing import Any, TypeGuard
 
@@ -67,13 +68,13 @@ class Walk:
 
     def _names(self, name: str, code: CodeType, scope: dict[str, Any]) -> None:
         modules = []
-        for step in dis.get_instructions(code):
-            if step.opname != "LOAD_GLOBAL" or hasattr(builtins, step.argval):
+        for operation, read in _steps(code):
+            if operation != "LOAD_GLOBAL" or hasattr(builtins, read):
                 continue
-            if step.argval not in scope:
-                raise NameError(f"{name} uses {step.argval}, but is compiled before {step.argval} is defined")
-            value = scope[step.argval]
-            self._walk(f"{name}.{step.argval}", value)
+            if read not in scope:
+                raise NameError(f"{name} uses {read}, but is compiled before {read} is defined")
+            value = scope[read]
+            self._walk(f"{name}.{read}", value)
             if isinstance(value, ModuleType) and value.__name__.partition(".")[0] in self.own:
                 modules.append(value)
         for module in modules:
@@ -99,12 +100,17 @@ def _codes(code: CodeType) -> Iterator[CodeType]:
             yield from _codes(held)
 
 
-def _instructions(code: CodeType) -> Iterator[str]:
+@cache
+def _steps(code: CodeType) -> tuple[tuple[str, Any], ...]:
+    """Name and argument of each instruction. Entry points share most of their code, which is taken apart once."""
+    return tuple((step.opname, step.argval) for step in dis.get_instructions(code))
+
+
+@cache
+def _instructions(code: CodeType) -> tuple[str, ...]:
     """Each instruction with its constant or name, not with the index of the constant, which changes with a docstring."""
-    yield repr(code.co_varnames[: code.co_argcount])
-    for step in dis.get_instructions(code):
-        held = step.argval
-        if isinstance(held, CodeType):
-            yield f"{step.opname} ({'; '.join(_instructions(held))})"
-        else:
-            yield f"{step.opname} {held!r}"
+    found = [repr(code.co_varnames[: code.co_argcount])]
+    for operation, held in _steps(code):
+        inner = f"({'; '.join(_instructions(held))})" if isinstance(held, CodeType) else repr(held)
+        found.append(f"{operation} {inner}")
+    return tuple(found)
