@@ -1,4 +1,4 @@
-"""One diagnosis that several tests look at: a specimen with 2 mm of play. What is told and shown of it is as JSON is read."""
+"""One diagnosis that several tests read: a specimen with 2 mm of play. Verdict and plots are compared in their JSON form."""
 
 from __future__ import annotations
 

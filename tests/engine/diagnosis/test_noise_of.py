@@ -23,7 +23,7 @@ def test_the_first_noise_is_a_hundredth_of_the_output() -> None:
 
 @pytest.mark.parametrize("left_out", [[], [Wave(size=1.0, storey=1)], [Wave(size=1.0, storey=4), Wave(size=2.0, storey=2)]])
 def test_an_effect_that_was_left_out_is_not_taken_for_noise(left_out: list[Wave]) -> None:
-    """The fitted gain leaves up to ten times the noise; of 600 samples its deviation is told to 1 / sqrt(1200), five of it."""
+    """The fit leaves up to ten times the noise. An estimate of 600 samples errs by 1 / sqrt(1200); 0.15 is five times that."""
     used = first_noise(recordings(linear(), noisy([Gain(gain=2.1), *left_out], 2)))
     found = with_noise(used, fit(used, [Gain()]))
     assert found.noises[0].deviation == pytest.approx(SIGMA, rel=0.15)
