@@ -48,8 +48,6 @@ class RawFiles:
 @lru_cache(maxsize=2)
 def _table(path: Path, filename: str) -> Table:
     """The table in a file; cached, because a user reads the same file many times while editing its mapping."""
-    try:
-        raw = path.read_bytes()
-    except FileNotFoundError:
-        raise NotFound(f"The file {filename} is no longer stored. Upload it again.") from None
-    return read(raw, filename)
+    if not path.exists():
+        raise NotFound(f"The file {filename} is no longer stored. Upload it again.")
+    return read(path, filename)

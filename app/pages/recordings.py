@@ -12,7 +12,7 @@ from app.dependencies import Configured
 from app.measured.dependency import Recordings
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
-from rths_engine.recordings.measured import FORMATS
+from rths_engine.formats.registry import TITLES
 
 LIMIT = 50
 
@@ -29,7 +29,7 @@ def listed(
     """The page of all recordings with the import of files."""
     found, total = recordings.listed(LIMIT, LIMIT * (number - 1))
     part: dict[str, Any] = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
-    offered: dict[str, Any] = {"formats": FORMATS, "limit_mb": configured.measurements_limit // MEGABYTE}
+    offered: dict[str, Any] = {"formats": TITLES, "limit_mb": configured.measurements_limit // MEGABYTE}
     return page(request, "recordings.html", **part, **offered)
 
 

@@ -58,6 +58,10 @@ class PlanError(RthsError):
     """A test plan that cannot run as written."""
 
 
+class FileError(RthsError):
+    """A file that cannot be read, or whose header contradicts its data."""
+
+
 class MotionError(RthsError):
     """A ground-motion record that does not exist, cannot be read or cannot be used."""
 

@@ -13,7 +13,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MotionError
 from rths_engine.foundation.part import Value, quantity
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, read
-from rths_engine.parts.ground_motions.readers import check_size
+from rths_engine.parts.ground_motions.from_file import check_size
 from rths_engine.parts.ground_motions.scaling import Factor, Scale
 
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import MeasuredError
 from rths_engine.recordings.measured import Examined, Finding, Mapping, examine, imported
-from rths_engine.recordings.measured.table import Column, Table
 from tests.engine.measurements import COLUMNS, NAMES, RATE, T, mapping
 
 

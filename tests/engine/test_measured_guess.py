@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import MeasuredError
 from rths_engine.recordings.measured import Mapping, guess, mapping_yaml, names, read
 from rths_engine.recordings.measured.names import written_unit
 from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension
-from rths_engine.recordings.measured.table import Column, Table
 from tests.engine import measurements as made
 from tests.engine.measurements import T, V, X
 

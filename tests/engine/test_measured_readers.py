@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rths_engine.formats import apart
+from rths_engine.formats.table import MOST_SAMPLES
 from rths_engine.foundation.errors import MeasuredError
 from rths_engine.recordings.measured import examine, guess, imported, read
-from rths_engine.recordings.measured.readers import apart
-from rths_engine.recordings.measured.table import MOST_SAMPLES
 from tests.engine import measurements as made
 from tests.engine.measurements import COLUMNS, NAMES, RATE, F, V, X, csv, text
 

@@ -9,12 +9,12 @@ import h5py
 import numpy as np
 import pytest
 
+from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import MeasuredError, RecordingError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.templates import template
 from rths_engine.recordings import run_file as recording
 from rths_engine.recordings.measured import Mapping, Measured, examine, imported, save
-from rths_engine.recordings.measured.table import Column, Table
 from rths_engine.recordings.opening import load
 from rths_engine.running.run import simulate
 from tests.engine.measurements import COLUMNS, NAMES, RATE, X, mapping

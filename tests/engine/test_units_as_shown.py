@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
+from rths_engine.formats.units_in_text import ACCELERATION_UNITS, checked_unit
 from rths_engine.foundation import unit_text, units
 from rths_engine.foundation.errors import PlanError, RthsError
 from rths_engine.foundation.part import validated
-from rths_engine.parts.ground_motions.units_in_text import ACCELERATION_UNITS, checked_unit
 from rths_engine.parts.physics.wording import said
 from rths_engine.planning.plan import Plan
 from rths_engine.recordings.measured.names import written_unit

@@ -7,7 +7,7 @@ import json
 from functools import cache
 from importlib.resources import files
 
-from rths_engine.parts.ground_motions.readers import read
+from rths_engine.parts.ground_motions.from_file import read
 from rths_engine.parts.ground_motions.record import Motion
 
 _DATA = files("rths_engine.parts.ground_motions") / "data"

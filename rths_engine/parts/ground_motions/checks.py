@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from rths_engine.formats.table import Column
+from rths_engine.formats.units_in_text import ACCELERATION_UNITS, checked_unit
 from rths_engine.foundation import units
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, MotionError
+from rths_engine.foundation.errors import FileError, Issue, MotionError
 from rths_engine.foundation.units import STANDARD_GRAVITY
-from rths_engine.parts.ground_motions.parsed import Parsed
-from rths_engine.parts.ground_motions.units_in_text import ACCELERATION_UNITS, checked_unit
 
 # chosen; see docs/decisions/0023
 SHORTEST_STEP, LONGEST_STEP = 0.0005, 0.1  # s
@@ -18,40 +18,40 @@ LEAST_PGA, LARGEST_PGA = 0.001, 5.0  # g
 _SAME_STEP = 1e-3
 
 
-def checked(parsed: Parsed, unit: str | None, dt: float | None) -> tuple[Array, float]:
+def checked(column: Column, unit: str | None, dt: float | None) -> tuple[Array, float]:
     """Acceleration (m/s^2) and step (s); a given `unit` overrides that of the file. Raises MotionError with every issue."""
     issues: list[Issue] = []
-    chosen_unit, step = _unit(parsed, unit, issues), _step(parsed, dt, issues)
-    count = len(parsed.samples)
+    chosen_unit, step = _unit(column, unit, issues), _step(column, dt, issues)
+    count = len(column.values)
     if count < FEWEST_SAMPLES:
         issues.append(Issue("file", f"needs at least {FEWEST_SAMPLES} samples", count, "give the whole record"))
     if count > MOST_SAMPLES:
         issues.append(Issue("file", f"has more than {MOST_SAMPLES:,} samples", count, "cut or resample the record"))
-    bad = np.flatnonzero(~np.isfinite(parsed.samples))
+    bad = np.flatnonzero(~np.isfinite(column.values))
     if len(bad):
         problem = "needs a finite number, not NaN or infinity"
-        issues.append(Issue(f"sample {bad[0] + 1}", problem, str(parsed.samples[bad[0]]), "mend the record"))
+        issues.append(Issue(f"sample {bad[0] + 1}", problem, str(column.values[bad[0]]), "mend the record"))
     if issues or chosen_unit is None or step is None:
         raise MotionError(issues)
-    acceleration: Array = parsed.samples * units.factor(chosen_unit)
+    acceleration: Array = column.values * units.factor(chosen_unit)
     _check_peak(acceleration, chosen_unit)
     return acceleration, step
 
 
-def _unit(parsed: Parsed, unit: str | None, issues: list[Issue]) -> str | None:
+def _unit(column: Column, unit: str | None, issues: list[Issue]) -> str | None:
     if unit:
         try:
             return checked_unit(unit)
-        except MotionError as error:
+        except FileError as error:
             issues += error.issues
-    elif parsed.unit is None:
+    elif not column.unit:
         fix = "choose one of " + ", ".join(ACCELERATION_UNITS)
         issues.append(Issue("unit", "the file does not state its unit of acceleration", fix=fix))
-    return parsed.unit
+    return column.unit
 
 
-def _step(parsed: Parsed, dt: float | None, issues: list[Issue]) -> float | None:
-    step = parsed.dt if parsed.dt is not None else dt
+def _step(column: Column, dt: float | None, issues: list[Issue]) -> float | None:
+    step = column.dt if column.dt is not None else dt
     if step is None:
         issues.append(Issue("dt", "the file does not state its step", fix="give the step in seconds, for example 0.01"))
     elif not SHORTEST_STEP <= step <= LONGEST_STEP:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from rths_engine.formats.table import Column, Table
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.guess import Guess, guess
 from rths_engine.recordings.measured.importing import Examined, examine, imported
 from rths_engine.recordings.measured.mapping import Mapping
-from rths_engine.recordings.measured.readers import FORMATS, read
+from rths_engine.recordings.measured.reading import read
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
 from rths_engine.recordings.measured.store import save
-from rths_engine.recordings.measured.table import Column, Table
 
 __all__ = [
-    "FORMATS",
     "Column",
     "Examined",
     "Finding",

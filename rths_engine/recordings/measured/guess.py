@@ -7,13 +7,13 @@ from itertools import chain
 
 import numpy as np
 
+from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured import names, relations
 from rths_engine.recordings.measured.guess_units import Unit, by_hint, by_magnitude, by_partner
 from rths_engine.recordings.measured.mapping import LARGEST_NUMBER, MOST_CHANNELS, ColumnMap, Mapping
 from rths_engine.recordings.measured.roles import ROLES, dimension, key
-from rths_engine.recordings.measured.table import Column, Table
 
 # chosen; see docs/decisions/0023
 _ALIKE = 0.8  # correlation from which an unnamed column counts as the derivative of another column

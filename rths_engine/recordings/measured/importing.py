@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rths_engine.formats.table import MOST_SAMPLES, Table
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.foundation.errors import FileError, Issue, MeasuredError
 from rths_engine.recordings.measured import checks, clock, mapping_yaml, pairs
 from rths_engine.recordings.measured.clock import Clock
 from rths_engine.recordings.measured.finding import Finding
@@ -15,7 +16,6 @@ from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
 from rths_engine.recordings.measured.resample import resampled
 from rths_engine.recordings.measured.roles import ROLES, SI, dimension, to_si
-from rths_engine.recordings.measured.table import MOST_SAMPLES, Table
 
 # chosen; see docs/decisions/0023
 LEAST = 8  # samples of a recording
@@ -81,7 +81,7 @@ def _check_columns(table: Table, mapping: Mapping) -> None:
             try:
                 if name is not None:
                     table.column(name, f"mapping.channels.{index}")
-            except MeasuredError as error:
+            except FileError as error:
                 issues += error.issues
     if issues:
         raise MeasuredError(issues)

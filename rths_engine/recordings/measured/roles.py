@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rths_engine.foundation import units
 from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.unit_names import WITH_ZERO
 from rths_engine.results.channels import CHANNELS, key
 
 __all__ = ["ROLES", "SHOWN", "SI", "UNITS", "WITH_ZERO", "dimension", "key", "shown", "to_si"]
@@ -15,8 +16,6 @@ _ALSO = {units.UNITS[unit][0]: unit for role in ROLES.values() for unit in role.
 SI = _ALSO | {role.dimensions[0]: role.unit for role in ROLES.values()}
 SHOWN = _ALSO | {role.dimensions[0]: role.shown for role in ROLES.values()}
 
-# unit -> (SI value of one, SI value at its zero), by definition
-WITH_ZERO = {"degC": (1.0, 273.15), "degF": (5 / 9, 255.3722222222222)}
 UNITS = (*(name for name, (dimension, _) in units.UNITS.items() if dimension in SI), *WITH_ZERO)
 
 

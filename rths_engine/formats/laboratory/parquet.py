@@ -7,28 +7,30 @@ from typing import Any
 
 import numpy as np
 
+from rths_engine.formats.format import Format
+from rths_engine.formats.source import Source
+from rths_engine.formats.table import Column, Table, refuse_many
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, MeasuredError
-from rths_engine.recordings.measured.table import Column, Table, refuse_many
+from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
 BATCH = 65_536  # rows
 
 
-def looks_like(raw: bytes) -> bool:
-    """Whether the bytes are a Parquet file."""
-    return raw.startswith(b"PAR1") or raw.endswith(b"PAR1")
+def looks_like(source: Source) -> bool:
+    """Whether the content is a Parquet file."""
+    return source.head.startswith(b"PAR1") or source.tail.endswith(b"PAR1")
 
 
-def read(raw: bytes) -> Table:
-    """Read the file. Raises MeasuredError for errors of any kind, which a damaged file can cause."""
+def read(source: Source) -> Table:
+    """Read the file. Raises FileError for errors of any kind, which a damaged file can cause."""
     try:
-        return _table(raw)
-    except (MeasuredError, KeyboardInterrupt, SystemExit):
+        return _table(source.bytes())
+    except (FileError, KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:  # a panic of the Rust reader is not an Exception
         problem = f"cannot be read as Parquet: {type(error).__name__}"
-        raise MeasuredError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
+        raise FileError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
 
 
 def _table(raw: bytes) -> Table:
@@ -62,3 +64,18 @@ def _numbers(values: Any) -> Array:
 def _unit(field: Any) -> str:
     metadata = {bytes(key): bytes(value) for key, value in dict(field.metadata).items()}
     return next((metadata[name].decode("utf-8", "replace") for name in (b"unit", b"units") if name in metadata), "")
+
+
+FORMAT = Format(
+    key="parquet",
+    title="Parquet",
+    of="measurement",
+    extensions=("parquet",),
+    defined="Apache Parquet",
+    header="column names, units in their metadata",
+    compared="",
+    looks_like=looks_like,
+    read=read,
+    library="arro3",
+    apart=True,
+)

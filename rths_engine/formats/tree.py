@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from rths_engine.formats.table import Column, Table, refuse_many, spread
 from rths_engine.foundation.arrays import Array
-from rths_engine.recordings.measured.table import Column, Table, refuse_many, spread
 
 # chosen; see docs/decisions/0023
 DEEPEST = 12

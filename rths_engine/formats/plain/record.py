@@ -10,11 +10,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from rths_engine.formats.format import Format
+from rths_engine.formats.lines import NUMBER, numbers, value
+from rths_engine.formats.source import Source
+from rths_engine.formats.table import Column, Table
+from rths_engine.formats.units_in_text import unit_in
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, MotionError
-from rths_engine.parts.ground_motions.parsed import Parsed
-from rths_engine.parts.ground_motions.text import NUMBER, numbers, value
-from rths_engine.parts.ground_motions.units_in_text import unit_in
+from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
 _COMMENT = ("#", "%", "!", "//", '"', "'", ";", "*")
@@ -29,38 +31,33 @@ _UNIFORM = 0.05  # of a step: time stamps often have few digits
 Row = tuple[int, list[float]]
 
 
-def looks_like(lines: list[str]) -> bool:
+def looks_like(source: Source) -> bool:
     """Whether most lines, apart from comments, contain only numbers."""
-    texts = [text for line in lines if (text := line.strip()) and not text.startswith(_COMMENT)]
+    texts = [text for line in source.head_lines if (text := line.strip()) and not text.startswith(_COMMENT)]
     return 2 * sum(_only_numbers(text) for text in texts) > len(texts)
 
 
-def parse(lines: list[str], channel: int = 1) -> Parsed:
-    """The record in a file of columns. Raises MotionError with the line where the columns break off."""
+def read(source: Source) -> Table:
+    """The record in a file of columns. Raises FileError with the line where the columns break off."""
+    lines = source.lines
     header, data = _split(lines)
     rows = _rows(data)
-    dt, unit = header_step(header), unit_in(" ".join(header))
+    dt, unit = header_step(header), unit_in(" ".join(header)) or ""
     if dt is None and (listed := _count_and_step(rows)) is not None:
         dt, rows = listed, rows[1:]
     widths = {len(row) for _, row in rows[:-1]} or {len(rows[0][1])}
     if len(widths) == 1 and widths != {1} and len(rows[-1][1]) in widths and _is_time(table := np.array([r for _, r in rows])):
-        return _timed(table, rows, dt, unit, channel)
-    if channel != 1:
-        raise MotionError(Issue("channel", "the file has one channel", channel, "choose channel 1"))
-    samples = np.array([number for _, row in rows for number in row])
-    return Parsed(samples, "columns", unit, dt)
+        columns = _timed(table, rows, dt, unit)
+    else:
+        columns = (Column("acceleration", np.array([number for _, row in rows for number in row]), unit, dt),)
+    return Table("plain columns", columns, named=False, header="\n".join(header))
 
 
-def _timed(table: Array, rows: Sequence[Row], header_dt: float | None, unit: str | None, channel: int) -> Parsed:
-    channels = tuple(f"column {number}" for number in range(2, table.shape[1] + 1))
-    if not 1 <= channel <= len(channels):
-        listed = "; ".join(f"{number}: {name}" for number, name in enumerate(channels, start=1))
-        raise MotionError(Issue("channel", f"the file has {len(channels)} channels", channel, f"choose one of {listed}"))
+def _timed(table: Array, rows: Sequence[Row], header_dt: float | None, unit: str) -> tuple[Column, ...]:
     dt = _uniform_step(table[:, 0], rows)
     if header_dt is not None and abs(header_dt / dt - 1) > _UNIFORM:
-        raise MotionError(Issue("dt", f"the header says {header_dt:g} s, the time column {dt:g} s", fix="correct one of them"))
-    named = channels[channel - 1] if len(channels) > 1 else ""
-    return Parsed(table[:, channel], "columns", unit, dt, component=named, channels=channels, channel=channel)
+        raise FileError(Issue("dt", f"the header says {header_dt:g} s, the time column {dt:g} s", fix="correct one of them"))
+    return tuple(Column(f"column {k + 1}", table[:, k], unit, dt) for k in range(1, table.shape[1]))
 
 
 def _split(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
@@ -77,7 +74,7 @@ def _split(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
             data.append((at, text))
     if not data:
         fix = "give PEER AT2, COSMOS V2, or columns of numbers"
-        raise MotionError(Issue("file", "contains no numbers", lines[0].strip(), fix))
+        raise FileError(Issue("file", "contains no numbers", lines[0].strip(), fix))
     return header, data
 
 
@@ -93,14 +90,14 @@ def _rows(data: list[tuple[int, str]]) -> list[Row]:
         if separator:
             fields = text.removesuffix(separator).split(separator)
             if not all(field.strip() for field in fields):
-                raise MotionError(Issue(f"line {at}", "has an empty field", text, "fill the field or remove the line"))
+                raise FileError(Issue(f"line {at}", "has an empty field", text, "fill the field or remove the line"))
             text = " ".join(fields)
         rows.append((at, numbers(text.replace(",", ".") if decimal_comma else text, f"line {at}")))
     return rows
 
 
 def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
-    """Separator (empty: spaces), and whether the comma is the decimal sign. Raises MotionError where this is ambiguous."""
+    """Separator (empty: spaces), and whether the comma is the decimal sign. Raises FileError where this is ambiguous."""
     text = "\n".join(line for _, line in data)
     separator = next((sign for sign in ";\t" if sign in text), "")
     if "," not in text:
@@ -108,7 +105,7 @@ def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
     if "." in text:
         if separator:
             at, line = next((at, line) for at, line in data if "," in line)
-            raise MotionError(Issue(f"line {at}", "has both comma and point", line, "write numbers with a decimal point only"))
+            raise FileError(Issue(f"line {at}", "has both comma and point", line, "write numbers with a decimal point only"))
         return ",", False
     fields = re.split(separator or r"\s+", text.replace("\n", separator or "\n"))
     if separator or any(len(line.split()) > 1 for _, line in data):
@@ -117,7 +114,7 @@ def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
             return separator, True
     at, line = next((at, line) for at, line in data if "," in line)
     fix = "write numbers with a decimal point, or separate the columns by semicolons"
-    raise MotionError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
+    raise FileError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
 
 
 def header_step(header: list[str]) -> float | None:
@@ -145,7 +142,7 @@ def _is_time(table: Array) -> bool:
 def _uniform_step(times: Array, rows: Sequence[Row]) -> float:
     bad = np.flatnonzero(~np.isfinite(times))
     if len(bad):
-        raise MotionError(Issue(f"line {rows[bad[0]][0]}", "time needs a finite number", str(times[bad[0]])))
+        raise FileError(Issue(f"line {rows[bad[0]][0]}", "time needs a finite number", str(times[bad[0]])))
     dt = float(f"{np.median(np.diff(times)):.9g}")
     if len(times) > 1 and dt > 0:
         dt = float(f"{(times[-1] - times[0]) / round((times[-1] - times[0]) / dt):.9g}")
@@ -154,5 +151,18 @@ def _uniform_step(times: Array, rows: Sequence[Row]) -> float:
         at = rows[off[0] if len(off) else 0][0]
         fix = "resample the record to a uniform step; for acceleration only, write one value on each line"
         problem = f"the first column is not a time with a uniform step (about {dt:g} s)"
-        raise MotionError(Issue(f"line {at}", problem, f"{times[off[0] if len(off) else 0]:g}", fix))
+        raise FileError(Issue(f"line {at}", problem, f"{times[off[0] if len(off) else 0]:g}", fix))
     return dt
+
+
+FORMAT = Format(
+    key="record",
+    title="Plain text of one record",
+    of="ground motion",
+    extensions=("txt", "csv", "dat", "acc"),
+    defined="acceleration alone, or time and acceleration",
+    header="step or sampling rate, unit",
+    compared="step of the time column",
+    looks_like=looks_like,
+    read=read,
+)

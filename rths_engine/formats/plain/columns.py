@@ -10,11 +10,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from rths_engine.formats.format import Format
+from rths_engine.formats.plain.record import header_step
+from rths_engine.formats.source import Source
+from rths_engine.formats.table import Column, Table, distinct, refuse_many
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, MeasuredError
-from rths_engine.parts.ground_motions.columns import header_step
-from rths_engine.recordings.measured.names import written_unit
-from rths_engine.recordings.measured.table import Column, Table, refuse_many
+from rths_engine.foundation.errors import FileError, Issue
+from rths_engine.foundation.unit_names import written_unit
 
 # chosen; see docs/decisions/0023
 _COMMENT = re.compile(r"[#%!]+|//")
@@ -53,14 +55,15 @@ class Form:
 Line = tuple[int, str]
 
 
-def read(lines: list[str]) -> Table:
-    """Read the columns of a text. Raises MeasuredError with the line that differs from the others."""
+def read(source: Source) -> Table:
+    """Read the columns of a text. Raises FileError with the line that differs from the others."""
+    lines = source.lines
     filled = [(at, text) for at, line in enumerate(lines, start=1) if (text := line.strip("\r\n ")).strip()]
     plain = [(at, text) for at, text in filled if not _COMMENT.match(text.lstrip())]
     if plain and (ending := plain[-1][1][-1]) in ";,\t" and all(text.endswith(ending) for _, text in plain[-_LOOKED_AT:]):
         filled, plain = _without(ending, filled), _without(ending, plain)
     if not plain:
-        raise MeasuredError(Issue("file", "contains no numbers", fix="choose a file of measurements"))
+        raise FileError(Issue("file", "contains no numbers", fix="choose a file of measurements"))
     looked_at = plain[len(plain) // 2 :][:_LOOKED_AT]
     form, numeric = _form(looked_at)
     first = _first(plain, form, numeric)
@@ -73,7 +76,7 @@ def read(lines: list[str]) -> Table:
     used = [k for k, holds in enumerate(numeric) if holds]
     columns = [Column(names[k] if names else f"column {k + 1}", values[:, j], units[k], dt) for j, k in enumerate(used)]
     left = tuple(f"{names[k] if names else f'column {k + 1}'} holds text" for k, holds in enumerate(numeric) if not holds)
-    return Table("columns of text", tuple(_distinct(columns)), named=bool(names), notes=left)
+    return Table("columns of text", distinct(columns), named=bool(names), notes=left)
 
 
 def _without(ending: str, lines: list[Line]) -> list[Line]:
@@ -96,7 +99,7 @@ def _form(lines: list[Line]) -> tuple[Form, list[bool]]:
     if best is None:
         at, line = lines[0]
         fix = "write one row of numbers for each time, separated by comma, semicolon, tab or space"
-        raise MeasuredError(Issue(f"line {at}", "is not a row of numbers", line, fix))
+        raise FileError(Issue(f"line {at}", "is not a row of numbers", line, fix))
     return best[1], best[2]
 
 
@@ -107,7 +110,7 @@ def _first(lines: list[Line], form: Form, numeric: list[bool]) -> int:
         numbers = [form.number(field) for field, holds in zip(fields, numeric, strict=False) if holds]
         if len(fields) == len(numeric) and None not in numbers and not np.isnan(np.array(numbers, dtype=float)).all():
             return index
-    raise MeasuredError(Issue("file", "contains no complete row of numbers", fix="correct the rows or the separator"))
+    raise FileError(Issue("file", "contains no complete row of numbers", fix="correct the rows or the separator"))
 
 
 def _heading(header: list[str], form: Form, width: int) -> tuple[list[str], list[str]]:
@@ -126,7 +129,7 @@ def _refuse_ambiguous(lines: list[Line], form: Form, names: list[str]) -> None:
     if form.separator == "," and not names and all(re.fullmatch(r"[-+]?\d+,\d+", text) for _, text in lines[:_LOOKED_AT]):
         at, line = lines[0]
         fix = "write numbers with a decimal point, or name the columns in a first line"
-        raise MeasuredError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
+        raise FileError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
 
 
 def _values(lines: list[Line], form: Form, numeric: list[bool]) -> Array:
@@ -148,19 +151,22 @@ def _row(line: Line, form: Form, numeric: list[bool], used: list[int]) -> list[f
     fields = form.fields(text)
     if len(fields) != len(numeric):
         fix = "correct or remove the line"
-        raise MeasuredError(Issue(f"line {at}", f"has {len(fields)} fields; the others have {len(numeric)}", text, fix))
+        raise FileError(Issue(f"line {at}", f"has {len(fields)} fields; the others have {len(numeric)}", text, fix))
     numbers = [form.number(fields[k]) for k in used]
     for k, number in zip(used, numbers, strict=True):
         if number is None:
-            raise MeasuredError(Issue(f"line {at}", f"column {k + 1} is not a number", fields[k], "correct or remove the line"))
+            raise FileError(Issue(f"line {at}", f"column {k + 1} is not a number", fields[k], "correct or remove the line"))
     return [number for number in numbers if number is not None]
 
 
-def _distinct(columns: list[Column]) -> list[Column]:
-    seen: dict[str, int] = {}
-    for column in columns:
-        seen[column.name] = seen.get(column.name, 0) + 1
-    return [
-        column if seen[column.name] == 1 else Column(f"{column.name} (column {k})", column.values, column.unit, column.dt)
-        for k, column in enumerate(columns, start=1)
-    ]
+FORMAT = Format(
+    key="columns",
+    title="Columns of text (CSV, TSV, white space)",
+    of="measurement",
+    extensions=("csv", "tsv", "txt", "dat"),
+    defined="RFC 4180 and its habitual variants",
+    header="names, a row of units, time step or sampling rate",
+    compared="number of fields in every row",
+    looks_like=lambda source: bool(source.head_lines),
+    read=read,
+)

@@ -14,19 +14,21 @@ import sys
 import threading
 from typing import Any
 
-from rths_engine.foundation.errors import Issue, MeasuredError
-from rths_engine.recordings.measured.table import Table
+from rths_engine.formats.source import Source
+from rths_engine.formats.table import Table
+from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
+_SERVING = "rths_engine.formats.serving"  # imported only by that process
 PATIENCE_S = 60.0  # the largest file takes some seconds
 TRIES = 2  # the file before can have left the process in a bad state
 
 
-def read(raw: bytes) -> Table:
-    """Read a binary file. Raises MeasuredError, also where reading crashes or does not end."""
+def read(source: Source, key: str) -> Table:
+    """Read a file of the format `key`. Raises FileError, also where reading crashes or does not end."""
     for _ in range(TRIES):
         try:
-            kind, answer = _READER.ask(raw)
+            kind, answer = _READER.ask((source, key))
         except TimeoutError:
             break
         except (EOFError, OSError, pickle.UnpicklingError):
@@ -34,8 +36,8 @@ def read(raw: bytes) -> Table:
         if kind == "table":
             table: Table = answer
             return table
-        raise MeasuredError(answer) if kind == "refused" else answer
-    raise MeasuredError(
+        raise FileError(answer) if kind == "refused" else answer
+    raise FileError(
         Issue("file", "is damaged: reading it crashes or does not end", fix="write the file again, or export it as CSV")
     )
 
@@ -47,7 +49,7 @@ class Reader:
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
 
-    def ask(self, raw: bytes) -> tuple[str, Any]:
+    def ask(self, asked: tuple[Source, str]) -> tuple[str, Any]:
         """The reply for a file. Raises EOFError or OSError for a crash of the process, TimeoutError after PATIENCE_S."""
         with self._lock:
             process = self._started()
@@ -62,7 +64,7 @@ class Reader:
             timer.daemon = True
             timer.start()
             try:
-                pickle.dump(raw, process.stdin)
+                pickle.dump(asked, process.stdin)
                 process.stdin.flush()
                 found: tuple[str, Any] = pickle.load(process.stdout)
                 return found
@@ -81,7 +83,7 @@ class Reader:
     def _started(self) -> subprocess.Popen[bytes]:
         if self._process is None or self._process.poll() is not None:
             self._end()
-            command = [sys.executable, "-c", f"from {__name__} import serve; serve()"]
+            command = [sys.executable, "-c", f"from {_SERVING} import serve; serve()"]
             pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
             environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
             self._process = subprocess.Popen(command, env=environment, **pipes)
@@ -96,28 +98,6 @@ class Reader:
                 assert pipe
                 with contextlib.suppress(OSError):  # data that was not sent
                     pipe.close()
-
-
-def serve() -> None:
-    """Reply to each file on the standard input until the input ends."""
-    from rths_engine.recordings.measured.readers import binary
-
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # the output of a library must not enter the replies
-    while True:
-        try:
-            raw = pickle.load(sys.stdin.buffer)
-        except EOFError:
-            return
-        answer: tuple[str, Any]
-        try:
-            answer = ("table", binary.read(raw))
-        except MeasuredError as refusal:
-            answer = ("refused", refusal.issues)
-        except Exception as error:
-            answer = ("failed", error)
-        pickle.dump(answer, answers)
-        answers.flush()
 
 
 _READER = Reader()

@@ -12,31 +12,34 @@ from typing import Any
 import h5py
 import numpy as np
 
-from rths_engine.foundation.errors import Issue, MeasuredError
-from rths_engine.recordings.measured.readers import tree
-from rths_engine.recordings.measured.table import Table, refuse_many
+from rths_engine.formats import tree
+from rths_engine.formats.format import Format
+from rths_engine.formats.source import Source
+from rths_engine.formats.table import Table, refuse_many
+from rths_engine.foundation.errors import FileError, Issue
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _RUN = "rths-recording/"
 
 
-def looks_like(raw: bytes) -> bool:
-    """Whether the bytes are an HDF5 file, also after a user block."""
-    return any(raw[at : at + 8] == _SIGNATURE for at in (0, 512, 1024, 2048))
+def looks_like(source: Source) -> bool:
+    """Whether the content is an HDF5 file, also after a user block."""
+    return any(source.head[at : at + 8] == _SIGNATURE for at in (0, 512, 1024, 2048))
 
 
-def read(raw: bytes) -> Table:
-    """Read the file. Raises MeasuredError for errors of any kind, which a damaged file can cause."""
+def read(source: Source) -> Table:
+    """Read the file. Raises FileError for errors of any kind, which a damaged file can cause."""
+    raw = source.bytes()
     try:
         with h5py.File(io.BytesIO(raw), "r") as file:
             matlab = raw.startswith(b"MATLAB 7.3")
             nodes = _run(file) if str(file.attrs.get("schema")).startswith(_RUN) else _group(file, matlab, tree.DEEPEST)
             return tree.table(nodes, "MATLAB v7.3" if matlab else "HDF5")
-    except MeasuredError:
+    except FileError:
         raise
     except Exception as error:
         problem = f"cannot be read as HDF5: {type(error).__name__}"
-        raise MeasuredError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
+        raise FileError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
 
 
 def _group(group: h5py.Group, matlab: bool, depth: int) -> dict[str, Any]:
@@ -74,3 +77,18 @@ def _run(file: h5py.File) -> dict[str, Any]:
 
 def _plain(value: Any) -> bool:
     return isinstance(value, str | bytes | int | float | np.number)
+
+
+FORMAT = Format(
+    key="hdf5",
+    title="HDF5 and MATLAB v7.3",
+    of="measurement",
+    extensions=("h5", "hdf5", "mat"),
+    defined="The HDF5 file format, The HDF Group",
+    header="attributes: unit, time step or rate",
+    compared="",
+    looks_like=looks_like,
+    read=read,
+    library="h5py",
+    apart=True,
+)

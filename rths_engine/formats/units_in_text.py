@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from rths_engine.foundation import units
-from rths_engine.foundation.errors import Issue, MotionError
+from rths_engine.foundation.errors import FileError, Issue
 
 ACCELERATION_UNITS = tuple(name for name, (dimension, _) in units.UNITS.items() if dimension == "acceleration")
 
@@ -26,9 +26,9 @@ def unit_in(text: str) -> str | None:
 
 
 def checked_unit(unit: str) -> str:
-    """`unit`, where it is a unit of acceleration. Raises MotionError with a list of these units otherwise."""
+    """`unit`, where it is a unit of acceleration. Raises FileError with a list of these units otherwise."""
     plain = units.named(unit)
     if plain is None or plain not in ACCELERATION_UNITS:
         fix = "choose one of " + ", ".join(ACCELERATION_UNITS)
-        raise MotionError(Issue("unit", "is not a unit of acceleration", unit, fix))
+        raise FileError(Issue("unit", "is not a unit of acceleration", unit, fix))
     return plain

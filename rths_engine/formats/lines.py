@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from rths_engine.foundation.errors import Issue, MotionError
+from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?"
@@ -15,16 +15,16 @@ _LONGEST_LINE = 100_000
 
 
 def lines_of(raw: bytes) -> list[str]:
-    """The lines of a text file: UTF-8 with or without BOM, or Latin-1; any line end. Raises MotionError for binary content."""
+    """The lines of a text file: UTF-8 with or without BOM, or Latin-1; any line end. Raises FileError for binary content."""
     if not raw.strip():
-        raise MotionError(Issue("file", "is empty", fix="choose a record file"))
+        raise FileError(Issue("file", "is empty", fix="choose a record file"))
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise MotionError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))
+        raise FileError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))
     control = _CONTROL.search(raw)
     if control or raw.startswith(b"%PDF"):
         where = f"byte {control.start()}" if control else "file"
         fix = "give the record as text: PEER AT2, COSMOS V2 or plain columns"
-        raise MotionError(Issue(where, "is binary, not text", fix=fix))
+        raise FileError(Issue(where, "is binary, not text", fix=fix))
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -33,7 +33,7 @@ def lines_of(raw: bytes) -> list[str]:
     for number, line in enumerate(lines, start=1):
         if len(line) > _LONGEST_LINE:
             problem = f"has {len(line)} characters; a line takes at most {_LONGEST_LINE}"
-            raise MotionError(Issue(f"line {number}", problem, fix="write a few numbers on each line"))
+            raise FileError(Issue(f"line {number}", problem, fix="write a few numbers on each line"))
     return lines
 
 
@@ -46,7 +46,7 @@ def value(token: str) -> float | None:
 
 
 def numbers(line: str, where: str, width: int = 0) -> list[float]:
-    """The numbers of a line, also where fixed columns of `width` touch. Raises MotionError for text that is not a number."""
+    """The numbers of a line, also where fixed columns of `width` touch. Raises FileError for text that is not a number."""
     line = line.rstrip()
     if not width and "_" not in line:
         try:
@@ -66,7 +66,7 @@ def numbers(line: str, where: str, width: int = 0) -> list[float]:
         parts = _GLUED.findall(token)
         if len(parts) < 2 or "".join(parts) != token:
             fix = "correct or remove it: only numbers can follow the header"
-            raise MotionError(Issue(where, "is not a number", token, fix))
+            raise FileError(Issue(where, "is not a number", token, fix))
         found += [float(part.replace("D", "E").replace("d", "e")) for part in parts]
     return found
 

@@ -11,10 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rths_engine.foundation.errors import Issue, MotionError
-from rths_engine.parts.ground_motions.parsed import Parsed
-from rths_engine.parts.ground_motions.text import NUMBER, block
-from rths_engine.parts.ground_motions.units_in_text import unit_in
+from rths_engine.formats.format import Format
+from rths_engine.formats.lines import NUMBER, block
+from rths_engine.formats.source import Source
+from rths_engine.formats.statement import count as stated_count
+from rths_engine.formats.table import Column, Table, distinct
+from rths_engine.formats.units_in_text import unit_in
+from rths_engine.foundation.errors import FileError, Issue
 
 _CSMIP = re.compile(rf"^\s*(\d+)\s+points of accel\w* data,? equally spaced at\s*({NUMBER})\s*sec", re.IGNORECASE)
 _COSMOS = re.compile(r"^\s*(\d+)\s+acceleration\s+pts", re.IGNORECASE)
@@ -38,38 +41,32 @@ class _Block:
     header: list[str]
 
 
-def looks_like(lines: list[str]) -> bool:
-    """Whether the lines are a COSMOS or CSMIP V2 file."""
-    return any(_CSMIP.match(line) or _COSMOS.match(line) for line in lines)
+def looks_like(source: Source) -> bool:
+    """Whether the file is a COSMOS or CSMIP V2 file."""
+    return any(_CSMIP.match(line) or _COSMOS.match(line) for line in source.head_lines)
 
 
-def parse(lines: list[str], channel: int = 1) -> Parsed:
-    """The acceleration in block number `channel`. Raises MotionError with a list of the channels when there are fewer."""
+def read(source: Source) -> Table:
+    """Every acceleration block as a column. Raises FileError with the line of what does not follow the format."""
+    lines = source.lines
     blocks = _blocks(lines)
     if not blocks:
         fix = "a V2 file has '... points of accel data equally spaced at ...' or '... acceleration pts, ...'"
-        raise MotionError(Issue("file", "has no acceleration block", lines[0].strip(), fix))
+        raise FileError(Issue("file", "has no acceleration block", lines[0].strip(), fix))
     names = tuple(_name(found) for found in blocks)
-    if not 1 <= channel <= len(blocks):
-        listed = "; ".join(f"{number}: {name}" for number, name in enumerate(names, start=1))
-        raise MotionError(Issue("channel", f"the file has {len(blocks)} channels", channel, f"choose one of {listed}"))
-    chosen = blocks[channel - 1]
-    opening = lines[chosen.at - 1]
-    if re.search(r"\buncorrected\b", chosen.header[0], re.IGNORECASE) or "counts" in opening:
-        raise MotionError(Issue("line 1", "is an uncorrected record", fix="give the corrected record (volume 2, .V2)"))
-    event, station = _origin(chosen.header)
-    return Parsed(
-        samples=_samples(lines, chosen),
-        format="cosmos",
-        unit=unit_in(opening),
-        dt=chosen.dt,
-        title=", ".join(part for part in (event, station, names[channel - 1]) if part),
-        event=event,
-        station=station,
-        component=names[channel - 1],
-        channels=names,
-        channel=channel,
-    )
+    columns, statements = [], []
+    for name, found in zip(names, blocks, strict=True):
+        opening = lines[found.at - 1]
+        if re.search(r"\buncorrected\b", found.header[0], re.IGNORECASE) or "counts" in opening:
+            fix = "give the corrected record (volume 2, .V2)"
+            raise FileError(Issue(f"line {found.at - len(found.header)}", "is an uncorrected record", fix=fix))
+        samples = _samples(lines, found)
+        statements.append(stated_count(found.count, len(samples), f"line {found.at}", name))
+        columns.append(Column(name, samples, unit_in(opening) or "", found.dt, quantity="acceleration"))
+    event, station = _origin(blocks[0].header)
+    about = {"title": ", ".join(part for part in (event, station) if part), "event": event, "station": station}
+    header = "\n".join(lines[: blocks[0].at])
+    return Table("COSMOS or CSMIP V2", distinct(columns), statements=tuple(statements), header=header, about=about)
 
 
 def _blocks(lines: list[str]) -> list[_Block]:
@@ -105,11 +102,7 @@ def _samples(lines: list[str], chosen: _Block) -> np.ndarray:
     last = chosen.at
     while last < len(lines) and not (_OPENS.match(lines[last]) or _END.search(lines[last])):
         last += 1
-    samples = np.array(block(enumerate(lines[chosen.at : last], start=chosen.at + 1), int(fixed[2]) if fixed else 0))
-    if len(samples) != chosen.count:
-        problem = f"says {chosen.count} samples, but {len(samples)} follow"
-        raise MotionError(Issue(f"line {chosen.at}", problem, fix="download the record again"))
-    return samples
+    return np.array(block(enumerate(lines[chosen.at : last], start=chosen.at + 1), int(fixed[2]) if fixed else 0))
 
 
 def _name(found: _Block) -> str:
@@ -125,3 +118,16 @@ def _origin(header: list[str]) -> tuple[str, str]:
     station = next((line.split(":")[-1] for line in header if re.search(r"CA\s*:", line)), "")
     event = next((line for line in header if re.search(r"\bearthquake\b", line, re.IGNORECASE)), "")
     return " ".join(event.split())[:80], " ".join(station.split())[:80]
+
+
+FORMAT = Format(
+    key="cosmos",
+    title="COSMOS V2 and CSMIP V2",
+    of="ground motion",
+    extensions=("v2", "v2c"),
+    defined="COSMOS Strong Motion Data Format 1.20; CSMIP standard tape format",
+    header="step, unit, number of samples, channel names, event, station",
+    compared="number of samples of each channel",
+    looks_like=looks_like,
+    read=read,
+)

@@ -1,0 +1,1 @@
+"""Formats of data acquisition, test machines and simulation programs."""

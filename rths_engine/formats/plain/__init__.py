@@ -1,0 +1,1 @@
+"""Text and JSON without a format of their own."""

@@ -1,0 +1,22 @@
+"""Formats that are recognised by their content but not read: the error names the format and how to export the file."""
+
+from __future__ import annotations
+
+from rths_engine.formats.source import Source
+from rths_engine.foundation.errors import FileError, Issue
+
+# first bytes -> what the file is, and how to get its numbers
+_SIGNATURES = (
+    (b"%PDF", "is a PDF document", "export the numbers as text or CSV"),
+    (b"\x1f\x8b", "is compressed (gzip)", "decompress it first"),
+    (b"PK\x03\x04", "is a ZIP archive", "import its files, or unpack it first"),
+    (b"\xd0\xcf\x11\xe0", "is an old Office document (OLE), such as .xls", "save it as .xlsx or CSV"),
+)
+
+
+def refuse(source: Source) -> None:
+    """Raises FileError where the file is of a format that is not read."""
+    for signature, problem, fix in _SIGNATURES:
+        if source.head.startswith(signature):
+            told = f"{problem}, which is binary and not read here"
+            raise FileError(Issue("file", told, fix=f"{fix}, or give the record as text"))

@@ -1,0 +1,42 @@
+"""Every format that is read, in the order in which a file is tried; the content of the file decides, not its name."""
+
+from __future__ import annotations
+
+from rths_engine.formats import apart, recognised
+from rths_engine.formats.format import Format
+from rths_engine.formats.laboratory import hdf5, matlab, parquet
+from rths_engine.formats.plain import columns, json_file, record
+from rths_engine.formats.source import Source
+from rths_engine.formats.strong_motion import at2, cosmos
+from rths_engine.formats.table import Table, checked
+from rths_engine.foundation.errors import FileError, Issue
+
+FORMATS: tuple[Format, ...] = (
+    parquet.FORMAT,
+    hdf5.FORMAT,
+    matlab.FORMAT,
+    json_file.FORMAT,
+    cosmos.FORMAT,
+    at2.FORMAT,
+)
+COLUMNS, RECORD = columns.FORMAT, record.FORMAT  # text of no known format: rows of a table, or samples of one record
+TITLES = tuple(one.title for one in (*FORMATS, COLUMNS))
+BY_KEY = {one.key: one for one in (*FORMATS, COLUMNS, RECORD)}
+
+
+def read(source: Source, otherwise: Format = COLUMNS, format: str | None = None) -> Table:
+    """The table in a file; `otherwise` reads text of no known format. Raises FileError."""
+    if not source.head.strip():
+        raise FileError(Issue("file", "is empty", fix="choose a file of measurements or a record"))
+    if format is not None and format not in BY_KEY:
+        raise FileError(Issue("format", "is not a known format", format, "choose one of " + ", ".join(BY_KEY)))
+    chosen = BY_KEY[format] if format else detected(source, otherwise)
+    return checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
+
+
+def detected(source: Source, otherwise: Format = COLUMNS) -> Format:
+    """The format of a file by its content. Raises FileError for a format that is recognised but not read."""
+    found = next((one for one in FORMATS if one.looks_like(source)), None)
+    if found is None:
+        recognised.refuse(source)
+    return found or otherwise

@@ -1,0 +1,73 @@
+"""A file to read: a path or bytes, its name, and its first lines, by which its format is recognised."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from rths_engine.formats import lines
+from rths_engine.foundation.errors import FileError, Issue
+
+HEAD = 1 << 16  # bytes by which a format is recognised; chosen, see docs/decisions/0023
+
+
+@dataclass(frozen=True)
+class Source:
+    """The content of a file, in memory (`content`) or on disk (`path`), and the name that its owner gave it."""
+
+    name: str
+    path: Path | None = None
+    content: bytes | None = field(default=None, repr=False)
+
+    @cached_property
+    def size(self) -> int:
+        """Size in bytes."""
+        return len(self.content) if self.content is not None else self._path.stat().st_size
+
+    @cached_property
+    def head(self) -> bytes:
+        """The first bytes, all bytes of a small file."""
+        if self.content is not None:
+            return self.content[:HEAD]
+        with self._path.open("rb") as file:
+            return file.read(HEAD)
+
+    @cached_property
+    def tail(self) -> bytes:
+        """The last bytes, at most 64."""
+        if self.content is not None:
+            return self.content[-64:]
+        with self._path.open("rb") as file:
+            file.seek(max(0, self.size - 64))
+            return file.read()
+
+    def bytes(self) -> bytes:
+        """The whole content."""
+        return self.content if self.content is not None else self._path.read_bytes()
+
+    @cached_property
+    def head_lines(self) -> list[str]:
+        """The lines in the first bytes; empty for binary content."""
+        whole = self.size <= len(self.head)
+        try:
+            found = lines.lines_of(self.head)
+        except FileError:
+            return []
+        return found if whole else found[:-1]
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """All lines. Raises FileError for content that is not text."""
+        return lines.lines_of(self.bytes())
+
+    @property
+    def extension(self) -> str:
+        """Extension of the name in lower case, without the dot."""
+        return Path(self.name.replace("\\", "/")).suffix.lower().lstrip(".")
+
+    @property
+    def _path(self) -> Path:
+        if self.path is None:
+            raise FileError(Issue("file", "has neither a path nor content"))
+        return self.path

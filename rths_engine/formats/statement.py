@@ -1,0 +1,85 @@
+"""What the header of a file states, beside what was read from its data.
+
+A statement agrees where |stated - read| <= within; `within` is what the rounding of the two numbers explains. A statement that
+does not agree refuses the file, because either the header or the data are not what they claim to be.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue
+
+_DIGITS = re.compile(r"[-+]?(\d*)\.?(\d*)(?:[eEdD]([-+]?\d+))?")
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """A number in a header and the number that was read from the data, both in `unit`. `where`: the line or the attribute."""
+
+    what: str
+    where: str
+    stated: float
+    read: float
+    unit: str = ""
+    within: float = 0.0
+
+    @property
+    def agrees(self) -> bool:
+        return abs(self.stated - self.read) <= self.within * (1 + 1e-9)
+
+    @property
+    def issue(self) -> Issue:
+        unit = f" {self.unit}" if self.unit else ""
+        problem = f"states a {self.what} of {self.stated:.7g}{unit}; the data have {self.read:.7g}{unit}"
+        return Issue(self.where, problem, fix="the file contradicts itself: get it again, or correct the header or the data")
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A number of a header: its value, half a unit of its last digit, and where it stands."""
+
+    value: float
+    within: float
+    where: str
+
+    @classmethod
+    def of(cls, text: str, where: str) -> Written:
+        """The number in `text`. Raises ValueError where it is not a number."""
+        return cls(float(re.sub("[dD]", "E", text)), last_digit(text) / 2, where)
+
+
+def last_digit(text: str) -> float:
+    """The value of one unit of the last digit of a number as it is written: 0.001 for `-0.182`, 1 for `182`."""
+    found = _DIGITS.fullmatch(text.strip())
+    return 10.0 ** (int(found[3] or 0) - len(found[2])) if found else 0.0
+
+
+def count(stated: int, read: int, where: str, of: str = "") -> Statement:
+    """The number of samples."""
+    return Statement(f"number of samples{of and f' of {of}'}", where, stated, read)
+
+
+def step(stated: Written, read: float, unit: str = "s") -> Statement:
+    """The time step of a header beside the step of the time column, in `unit`."""
+    return Statement("time step", stated.where, stated.value, read, unit, max(stated.within, 1e-3 * abs(read)))
+
+
+def peak(stated: Written, values: Array, unit: str, rounding: float = 0.0, of: str = "", signed: bool = False) -> Statement:
+    """The largest absolute value, in `unit`; `rounding`: half a unit of the last digit of the samples."""
+    at = int(np.argmax(np.abs(values)))
+    read = float(values[at]) if signed else abs(float(values[at]))
+    given = stated.value if signed else abs(stated.value)
+    return Statement(f"peak{of and f' of {of}'}", stated.where, given, read, unit, stated.within + rounding + 1e-6 * abs(read))
+
+
+def peak_time(stated: Written, values: Array, dt: float, start: float = 0.0, of: str = "") -> Statement:
+    """The time (s) of the largest absolute value: of the sample nearest to the stated time, where several are as large."""
+    size = np.abs(values)
+    times = start + np.flatnonzero(size >= np.max(size) * (1 - 1e-9)) * dt
+    read = float(times[np.argmin(np.abs(times - stated.value))])
+    return Statement(f"time of the peak{of and f' of {of}'}", stated.where, stated.value, read, "s", stated.within + dt)

@@ -1,0 +1,105 @@
+"""A ground motion from a file of any format: one acceleration channel, in SI, with its origin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import PurePath
+
+from rths_engine.formats import registry
+from rths_engine.formats.source import Source
+from rths_engine.formats.table import Column, Table
+from rths_engine.foundation import units
+from rths_engine.foundation.errors import FileError, Issue, MotionError
+from rths_engine.parts.ground_motions.checks import checked
+from rths_engine.parts.ground_motions.record import Motion, slug
+
+_LARGEST_FILE = 100_000_000  # bytes: ten channels of a million samples; chosen, see docs/decisions/0023
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """An acceleration channel of a file: its number from 1, by which it is chosen, and its name."""
+
+    number: int
+    column: Column
+
+    @property
+    def name(self) -> str:
+        return self.column.name
+
+
+def read(
+    raw: bytes,
+    filename: str,
+    unit: str | None = None,
+    dt: float | None = None,
+    format: str | None = None,
+    channel: int | None = None,
+) -> Motion:
+    """The motion in a file, named after the file. `unit` and `dt` (s) are used where the file does not state them.
+
+    `format` is a key of the formats, `channel` the number of an acceleration channel from 1: needed where the file has several.
+    Raises MotionError with every issue: what, where, value, bound and how to mend it.
+    """
+    table = _table(raw, filename, format)
+    offered = _channels(table)
+    chosen = _chosen(offered, channel)
+    acceleration, step = checked(chosen.column, unit, dt)
+    file = filename.replace("\\", "/").rsplit("/", 1)[-1]
+    which = f", channel {chosen.number} of {len(offered)}" if len(offered) > 1 else ""
+    component = chosen.name if table.named else ""
+    title = table.about.get("title", "")
+    return Motion(
+        name=slug(PurePath(file).stem),
+        title=(f"{title}, {component}" if title and which else title) or PurePath(file).stem or "Motion",
+        dt=step,
+        acceleration=acceleration,
+        provenance=f"read from {file} ({table.format}{which})",
+        event=table.about.get("event", ""),
+        component=component,
+        station=table.about.get("station", ""),
+    )
+
+
+def channels(raw: bytes, filename: str, format: str | None = None) -> tuple[str, ...]:
+    """Names of the acceleration channels in a file, in the order of the numbers of `channel`, from 1."""
+    return tuple(one.name for one in _channels(_table(raw, filename, format)))
+
+
+def check_size(size: int) -> None:
+    """Raises MotionError for a file that is larger than the limit."""
+    if size > _LARGEST_FILE:
+        raise MotionError(Issue("file", f"is larger than {_LARGEST_FILE:,} bytes", size, "cut or resample the record"))
+
+
+def _table(raw: bytes, filename: str, format: str | None) -> Table:
+    check_size(len(raw))
+    try:
+        return registry.read(Source(filename, content=raw), registry.RECORD, format)
+    except FileError as error:
+        raise MotionError(error.issues) from None
+
+
+def _channels(table: Table) -> tuple[Channel, ...]:
+    """The acceleration channels: those that are said to be acceleration, else those whose unit does not contradict it."""
+    said = [one for one in table.columns if one.quantity == "acceleration"]
+    possible = said or [one for one in table.columns if not one.quantity and _can_be_acceleration(one.unit)]
+    if not possible:
+        names = "; ".join(f"{one.name} ({one.quantity or one.unit})" for one in table.columns)
+        raise MotionError(Issue("file", "has no channel of acceleration", names, "give the acceleration record"))
+    return tuple(Channel(number, column) for number, column in enumerate(possible, start=1))
+
+
+def _can_be_acceleration(unit: str) -> bool:
+    known = units.named(unit)
+    return known is None or units.UNITS[known][0] == "acceleration"
+
+
+def _chosen(offered: tuple[Channel, ...], channel: int | None) -> Channel:
+    if channel is None and len(offered) == 1:
+        return offered[0]
+    if channel is not None and 1 <= channel <= len(offered):
+        return offered[channel - 1]
+    listed = "; ".join(f"{one.number}: {one.name}" for one in offered)
+    problem = "the file has 1 channel" if len(offered) == 1 else f"the file has {len(offered)} channels"
+    raise MotionError(Issue("channel", problem, channel, f"choose one of {listed}"))
