@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.recordings.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel
+from rths_engine.recordings.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel, Signal, same_motion
 from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, shown
 from rths_engine.results.decimate import extremes
 
@@ -36,14 +37,20 @@ def column(one: Column) -> dict[str, Any]:
 def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:
     """The channels by a mapping, and the findings about them. There are no channels if the time or the values are invalid."""
     findings = [{**one.as_dict(), "column": _column(one, mapping)} for one in found.findings]
-    return {"mapping": mapping.as_dict(), "findings": findings, **preview(found.measured)}
+    lags = [] if found.measured is None else [one.as_dict() for one in same_motion.found(found.measured, mapping)]
+    about = {"mapping": mapping.as_dict(), "findings": findings, "lags": lags}
+    return {**about, **preview(found.measured, found.signals)}
 
 
-def preview(measured: Measured | None) -> dict[str, Any]:
-    """Decimated channels and force-displacement loops of a recording; empty without a recording."""
+def preview(measured: Measured | None, signals: Sequence[Signal] = ()) -> dict[str, Any]:
+    """Decimated channels and force-displacement loops of a recording; empty without a recording.
+
+    Where `signals` are given, a channel shows the samples of the file at their own times, not those of the common clock.
+    """
+    own = {one.channel.key: one for one in signals}
     if measured is None:
         return {"channels": [], "loops": [], "samples": None, "dt_s": None, "start_s": None}
-    channels = [_decimated(one, measured) for one in measured.channels]
+    channels = [_decimated(one, measured, own.get(one.key)) for one in measured.channels]
     loops = [_loop(measured, number) for number in measured.numbers("station") if _moved(measured, number)]
     clock = {"samples": measured.samples, "dt_s": measured.dt, "start_s": measured.start}
     return {"channels": channels, "loops": loops, **clock}
@@ -53,13 +60,13 @@ def described(one: MeasuredChannel) -> dict[str, Any]:
     """A channel without its samples, with `unit` and statistics in the unit shown."""
     values, unit = shown(one.values, one.unit)
     named = {"key": one.key, "role": one.role, "number": one.number, "label": one.label, "column": one.column}
-    return {**named, "unit": unit, **_statistics(values)}
+    return {**named, "moved": one.moved, "unit": unit, **_statistics(values)}
 
 
-def _decimated(one: MeasuredChannel, measured: Measured) -> dict[str, Any]:
-    values, _ = shown(one.values, one.unit)
+def _decimated(one: MeasuredChannel, measured: Measured, own: Signal | None) -> dict[str, Any]:
+    values, _ = shown(one.values if own is None else own.values, one.unit)
     kept = extremes(values[:, None], BUCKETS)
-    times = measured.start + kept * measured.dt
+    times = measured.start + kept * measured.dt if own is None else own.clock.times[kept]
     return {**described(one), "time": _rounded(times, 9), "values": _rounded(values[kept], DIGITS)}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rths_engine.formats.table import Column, Table
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.guess import Guess, guess
-from rths_engine.recordings.measured.importing import Examined, examine, imported
+from rths_engine.recordings.measured.importing import Examined, Signal, examine, imported
 from rths_engine.recordings.measured.mapping import Mapping
 from rths_engine.recordings.measured.reading import read
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
@@ -19,6 +19,7 @@ __all__ = [
     "Mapping",
     "Measured",
     "MeasuredChannel",
+    "Signal",
     "Table",
     "examine",
     "guess",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,6 +38,11 @@ class Clock:
 def of_step(step: float, count: int, start: float = 0.0) -> Clock:
     """The clock of `count` samples at equal steps (s)."""
     return Clock(start + np.arange(count) * step, step, True)
+
+
+def shifted(clock: Clock, by: float) -> Clock:
+    """The clock with its times moved by `by` (s)."""
+    return replace(clock, times=clock.times + by)
 
 
 def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:

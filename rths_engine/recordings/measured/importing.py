@@ -14,7 +14,7 @@ from rths_engine.recordings.measured.clock import Clock
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
-from rths_engine.recordings.measured.resample import resampled
+from rths_engine.recordings.measured.resample import described, resampled
 from rths_engine.recordings.measured.roles import ROLES, SI, dimension, to_si
 
 # chosen; see docs/decisions/0023
@@ -24,11 +24,21 @@ LOST = 0.01  # share of a channel's time that other channels lack, from which a 
 
 
 @dataclass(frozen=True)
+class Signal:
+    """The samples of a file for one channel, in SI, at their own times, before they are put on the clock of the recording."""
+
+    channel: ColumnMap
+    values: Array
+    clock: Clock
+
+
+@dataclass(frozen=True)
 class Examined:
     """The result of an import. `measured` is None where the time cannot be used or values are missing."""
 
     measured: Measured | None
     findings: tuple[Finding, ...]
+    signals: tuple[Signal, ...] = ()
 
     @property
     def errors(self) -> tuple[Finding, ...]:
@@ -49,29 +59,34 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
     _check_columns(table, mapping)
     findings: list[Finding] = []
     clocks: dict[str, Clock | None] = {}
-    signals: list[tuple[ColumnMap, Array, Clock]] = []
+    signals: list[Signal] = []
     for index, channel in enumerate(mapping.channels):
         if channel.role == "t":
             continue
         own = _clock(table, mapping, channel, index, clocks, findings)
         if own is None:
             continue
+        if channel.lag:
+            own = clock.shifted(own, -channel.lag)
         values, found = checks.filled(_si(table.column(channel.column, "").values, channel), own.times, channel.key)
         found += checks.too_large(values, channel.key, _unit(channel))
         findings += found
         if not any(one.severity == "error" for one in found):
             findings += checks.shape(values, own.times, channel.key, _unit(channel))
-            signals.append((channel, values, own))
+            signals.append(Signal(channel, values, own))
     if len(signals) < len(mapping.measurements):
-        return Examined(None, tuple(findings))
-    start, count, dt = _grid(mapping, [own for _, _, own in signals])
+        return Examined(None, tuple(findings), tuple(signals))
+    start, count, dt = _grid(mapping, [one.clock for one in signals])
     findings += _lost(signals, start, start + (count - 1) * dt, mapping)
-    channels = tuple(_channel(one, resampled(values, own, start, count, dt)) for one, values, own in signals)
+    channels = tuple(
+        _channel(one.channel, resampled(one.values, one.clock, start, count, dt), _moved(one, start, count, dt))
+        for one in signals
+    )
     findings += pairs.contradictions({one.key: one.values for one in channels}, dt)
     warnings = tuple(one for one in findings if one.severity == "warning")
     text = mapping_yaml.write(mapping)
     measured = Measured(dt, channels, start, mapping.title, mapping.test, source, sha256, text, warnings)
-    return Examined(measured, tuple(findings))
+    return Examined(measured, tuple(findings), tuple(signals))
 
 
 def _check_columns(table: Table, mapping: Mapping) -> None:
@@ -114,7 +129,7 @@ def _clock(
         raise MeasuredError(Issue("mapping.rate", bound, f"{step:g} s", "check its unit"))
     if count < 2:
         raise MeasuredError(Issue(f"mapping.channels.{index}", f"has {count} samples; it needs at least 2", column.name))
-    return clock.of_step(step, count)
+    return clock.of_step(step, count, column.start)
 
 
 def _stamps(mapping: Mapping, channel: ColumnMap) -> ColumnMap | None:
@@ -161,9 +176,10 @@ def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
     return float(begin), count, dt
 
 
-def _lost(signals: list[tuple[ColumnMap, Array, Clock]], begin: float, end: float, mapping: Mapping) -> list[Finding]:
+def _lost(signals: list[Signal], begin: float, end: float, mapping: Mapping) -> list[Finding]:
     found = []
-    for channel, _, own in signals:
+    for one in signals:
+        channel, own = one.channel, one.clock
         first = max(own.start, mapping.start if mapping.start is not None else -np.inf)
         last = min(own.end, mapping.stop if mapping.stop is not None else np.inf)
         beyond = max(0.0, begin - first) + max(0.0, last - end)
@@ -175,8 +191,15 @@ def _lost(signals: list[tuple[ColumnMap, Array, Clock]], begin: float, end: floa
     return found
 
 
-def _channel(channel: ColumnMap, values: Array) -> MeasuredChannel:
+def _moved(signal: Signal, start: float, count: int, dt: float) -> str:
+    """How the samples of a channel came to the clock of the recording; empty where they are the samples of the file."""
+    lag = signal.channel.lag
+    parts = [f"times reduced by a lag of {1e3 * lag:.6g} ms"] if lag else []
+    return "; ".join(filter(None, [*parts, described(signal.clock, start, count, dt)]))
+
+
+def _channel(channel: ColumnMap, values: Array, moved: str) -> MeasuredChannel:
     role = ROLES[channel.role]
     number = (channel.number or 1) if role.counts else None
     label = channel.label or (f"{role.label}, {role.counts} {number}" if number else role.label)
-    return MeasuredChannel(channel.role, number, values, _unit(channel), label, str(channel.column))
+    return MeasuredChannel(channel.role, number, values, _unit(channel), label, str(channel.column), moved)

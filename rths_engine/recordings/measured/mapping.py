@@ -51,6 +51,7 @@ class ColumnMap(Value):
         None, max_length=300, title="Own time column", description="where channels were sampled by different clocks"
     )
     rate: float | None = quantity("Own rate", "Hz", default=None, gt=0)
+    lag: float = quantity("Lag of its clock", "s", "ms", default=0.0, help="subtracted from the times of the column")
 
     @field_validator("unit")
     @classmethod

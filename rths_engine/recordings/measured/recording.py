@@ -14,7 +14,10 @@ from rths_engine.recordings.measured.roles import ROLES, key
 
 @dataclass(frozen=True, eq=False)
 class MeasuredChannel:
-    """One signal in SI. `number` is its station or floor; None for a role with only one channel."""
+    """One signal in SI. `number` is its station or floor; None for a role with only one channel.
+
+    `moved` says how its samples came to the clock of the recording; empty where they are the samples of the file.
+    """
 
     role: str
     number: int | None
@@ -22,6 +25,7 @@ class MeasuredChannel:
     unit: str
     label: str = ""
     column: str = ""
+    moved: str = ""
 
     @property
     def key(self) -> str:

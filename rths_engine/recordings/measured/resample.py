@@ -29,11 +29,7 @@ def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) 
     if not 1 / LARGEST_FACTOR <= ratio <= LARGEST_FACTOR:
         bound = f"is {max(ratio, 1 / ratio):.4g} times away from the file's {1 / clock.step:.6g} Hz; at most {LARGEST_FACTOR}"
         raise MeasuredError(Issue("mapping.target_rate", bound, f"{1 / dt:.6g} Hz", "choose a rate closer to that of the file"))
-    factor = (
-        Fraction(ratio).limit_denominator(LARGEST_FACTOR)
-        if ratio >= 1
-        else 1 / Fraction(1 / ratio).limit_denominator(LARGEST_FACTOR)
-    )
+    factor = _factor(ratio)
     step = dt * float(factor)
     needed = min(int(np.ceil((count - 1) * dt / step)) + 1, int((clock.end - start) / step + 1 + ON_GRID))
     even = _evenly(values, clock, start, needed, step)
@@ -44,11 +40,35 @@ def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) 
     return np.concatenate([found, np.full(short, found[-1])]) if short > 0 else np.asarray(found[:count])
 
 
+def described(clock: Clock, start: float, count: int, dt: float) -> str:
+    """How `resampled` finds its values, in words; empty where they are the values themselves."""
+    factor = _factor(clock.step / dt)
+    parts = []
+    if not clock.uniform:
+        parts.append("interpolated to equal steps (modified Akima)")
+    elif not _on_grid(clock, start, count, dt * float(factor)):
+        parts.append("interpolated between its samples (modified Akima)")
+    if factor != 1:
+        parts.append(f"from {1 / clock.step:.6g} Hz to {1 / dt:.6g} Hz by a zero-phase polyphase filter")
+    return "; ".join(parts)
+
+
+def _factor(ratio: float) -> Fraction:
+    if ratio >= 1:
+        return Fraction(ratio).limit_denominator(LARGEST_FACTOR)
+    return 1 / Fraction(1 / ratio).limit_denominator(LARGEST_FACTOR)
+
+
+def _on_grid(clock: Clock, start: float, count: int, step: float) -> bool:
+    """Whether start + k step, k < count, are times of the clock."""
+    first = (start - clock.start) / clock.step
+    return abs(first - round(first)) < ON_GRID and abs(step / clock.step - 1) * count < DRIFT
+
+
 def _evenly(values: Array, clock: Clock, start: float, count: int, step: float) -> Array:
     """`values` at start + k step: interpolated, or the samples where their times agree."""
     first = (start - clock.start) / clock.step
-    on_grid = abs(first - round(first)) < ON_GRID and abs(step / clock.step - 1) * count < DRIFT
-    if clock.uniform and on_grid and round(first) + count <= len(values):
+    if clock.uniform and _on_grid(clock, start, count, step) and round(first) + count <= len(values):
         return values[round(first) : round(first) + count]
     wanted = np.clip(start + np.arange(count) * step, clock.times[0], clock.times[-1])
     if len(values) < 4:

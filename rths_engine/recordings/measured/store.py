@@ -50,7 +50,8 @@ def _write(file: h5py.File, measured: Measured) -> None:
     for one in measured.channels:
         options: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
         dataset = file.create_dataset(one.key, data=one.values, **options)
-        dataset.attrs.update(role=one.role, number=one.number or 0, unit=one.unit, label=one.label, column=one.column)
+        about = {"role": one.role, "number": one.number or 0, "unit": one.unit, "label": one.label}
+        dataset.attrs.update(about, column=one.column, moved=one.moved)
     file.attrs.update(
         schema=SCHEMA,
         code_version=__version__,
@@ -86,4 +87,4 @@ def _channel(dataset: h5py.Dataset) -> MeasuredChannel:
     unit, label, column = (str(dataset.attrs[name]) for name in ("unit", "label", "column"))
     if key(role, number) != dataset.name.lstrip("/") or unit not in SI.values():
         raise ValueError(f"{dataset.name} is not a channel of a known role in SI")
-    return MeasuredChannel(role, number, dataset[:], unit, label, column)
+    return MeasuredChannel(role, number, dataset[:], unit, label, column, str(dataset.attrs.get("moved", "")))
