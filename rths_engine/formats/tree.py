@@ -1,57 +1,139 @@
-"""Columns of nested data, as in JSON, MATLAB and HDF5 files: `{force: {data: [...], dt: 0.01, units: kN}, ...}`."""
+"""Columns of nested data, as in JSON, MATLAB and HDF5 files: `{force: {data: [...], dt: 0.01, units: kN}, ...}`.
+
+A list of channels, `[{name: force, unit: kN, rate: 250, data: [...]}, ...]`, gives one column for each channel.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
+from rths_engine.formats.attributes import Attributes
+from rths_engine.formats.statement import Statement
 from rths_engine.formats.table import Column, Table, refuse_many, spread
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
 DEEPEST = 12
-_STEP = re.compile(r"(dt|delta_?t|time_?step|sampling_?(interval|period)|ts)(_s)?", re.IGNORECASE)
-_RATE = re.compile(r"(fs|rate|freq|frequency|(sampling|sample)_?(freq|frequency|rate))(_hz)?", re.IGNORECASE)
-_UNIT = re.compile(r"units?", re.IGNORECASE)
+_UNIFORM = 1e-3  # of a step: time stamps that differ more from equal steps are not compared with a stated step
 _OF = re.compile(r"(.+?)[ _](units?)|(units?)[ _](?:of[ _])?(.+)", re.IGNORECASE)
-_VALUES = {"data", "values", "value", "signal", "signals", "y"}
+_VALUES = {"data", "values", "value", "signal", "signals", "y", "samples"}
+_TIME = {"t", "time", "times", "timestamps"}
 _NAMES = {"columns", "names", "channels", "labels", "header", "headers"}
+_LISTS = {"channels", "signals", "data", "series", "sensors", "traces", "columns", "variables", "measurements", "items"}
+_NAME = ("name", "channel", "channel_name", "label", "title", "id", "key")
+_ABOUT = {"attributes", "attrs", "properties", "meta", "metadata"}
+
+
+@dataclass
+class _Found:
+    """What was found so far: columns, units of quantities that are not columns, statements, and what was not applied."""
+
+    columns: list[Column] = field(default_factory=list)
+    hints: dict[str, str] = field(default_factory=dict)
+    statements: list[Statement] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
 
 def table(tree: Mapping[str, Any], format: str) -> Table:
-    """A table of every numeric array with more than one sample; its name is its path with `/` between the keys."""
-    hints: dict[str, str] = {}
-    columns = list(_columns("", tree, None, hints, DEEPEST))
-    return Table(format, tuple(_distinct(columns)), hints=hints)
+    """A table of every numeric array with more than one sample; its name is its path with `/` between the keys.
+
+    Step and start are valid for everything below their object, unit and scale for the arrays of their object.
+    """
+    found = _Found()
+    _collect("", tree, None, 0.0, found, DEEPEST)
+    columns = tuple(_distinct(found.columns))
+    return Table(format, columns, hints=found.hints, notes=tuple(found.notes), statements=tuple(found.statements))
 
 
-def _columns(path: str, node: Mapping[str, Any], dt: float | None, hints: dict[str, str], depth: int) -> list[Column]:
+def _collect(path: str, node: Mapping[str, Any], dt: float | None, start: float, found: _Found, depth: int) -> None:
     if depth == 0:
-        return []
-    dt = _step(node) or dt
-    arrays = {name: found for name, value in node.items() if (found := array(value)) is not None and found.size > 1}
+        return
+    about = Attributes.of({**{k: v for name in node if str(name).lower() in _ABOUT for k, v in _mapping(node[name])}, **node})
+    dt = about.step or dt
+    start = start if about.start is None else about.start
+    arrays = {str(name): one for name, value in node.items() if (one := array(value)) is not None and one.size > 1}
+    of_columns = {about.found[what][0] for what in ("scale", "gain", "offset", "sensitivity") if what in about.found}
+    if len(arrays) > 1:
+        arrays = {name: one for name, one in arrays.items() if name not in of_columns} or arrays
     texts = {str(name): value for name, value in node.items() if isinstance(value, str)}
-    unit = next((text for name, text in texts.items() if _UNIT.fullmatch(name)), "")
     of = _units_of(texts)
-    hints |= {f"{path}/{name}".strip("/"): text for name, text in of.items() if name not in arrays}
+    found.hints |= {f"{path}/{name}".strip("/"): text for name, text in of.items() if name not in arrays}
     names = next((_texts(node[name]) for name in node if str(name).lower() in _NAMES), [])
-    listed = next((_texts(value) for name, value in node.items() if _UNIT.fullmatch(str(name))), [])
-    columns: list[Column] = []
+    listed = next((_texts(value) for name, value in node.items() if re.fullmatch("units?", str(name), re.IGNORECASE)), [])
+    signals = [name for name in arrays if name.lower() not in _TIME]
+    lone = len(signals) == 1 and (bool(path) or signals[0].lower() in _VALUES)
+    if not lone and signals:
+        found.notes += _unclear(path, about)
     for name, values in arrays.items():
-        own = of.get(name, unit)
-        collapsed = path if path and str(name).lower() in _VALUES and len(arrays) == 1 else f"{path}/{name}".strip("/")
-        signals = spread(collapsed, values, names if values.ndim == 2 else (), own, dt)
-        if len(listed) == len(signals) > 1:
-            signals = [Column(one.name, one.values, text, one.dt) for one, text in zip(signals, listed, strict=True)]
-        columns += signals
+        own = of.get(name, about.unit if name in signals else "")
+        collapsed = path if path and name.lower() in _VALUES and lone else f"{path}/{name}".strip("/")
+        applied = ""
+        if lone and name in signals:
+            values, own, applied, left = about.scaled(_upright(values), own)
+            found.notes += [f"{collapsed}: {text}" for text in (left, *about.others) if text]
+        columns = spread(collapsed, values, names if values.ndim == 2 else (), own, dt)
+        if len(listed) == len(columns) > 1:
+            columns = [replace(one, unit=text) for one, text in zip(columns, listed, strict=True)]
+        found.columns += [replace(one, start=start, applied=applied) for one in columns]
+        if lone and name in signals and columns:
+            found.statements += about.statements(collapsed, len(columns[0].values), dt)
+            found.statements += _step(about, {key: one for key, one in arrays.items() if key not in signals})
     for name, value in node.items():
-        inside = _records(value) if isinstance(value, list) else value
-        if isinstance(inside, Mapping):
-            columns += _columns(f"{path}/{name}".strip("/"), inside, dt, hints, depth - 1)
-    return columns
+        for key, inside in _inside(str(name), value):
+            _collect(f"{path}/{key}".strip("/"), inside, dt, start, found, depth - 1)
+
+
+def _mapping(value: Any) -> list[tuple[str, Any]]:
+    return list(value.items()) if isinstance(value, Mapping) else []
+
+
+def _unclear(path: str, about: Attributes) -> list[str]:
+    """Scale, gain, offset and sensitivity beside several arrays: it is not stated to which array they belong."""
+    names = [about.found[what][0] for what in ("scale", "gain", "offset", "sensitivity") if what in about.found]
+    where = f"{path}: " if path else ""
+    return [f"{where}{', '.join(names)} not applied: it is not stated to which array it belongs"] if names else []
+
+
+def _step(about: Attributes, times: Mapping[str, Array]) -> list[Statement]:
+    """The stated step beside the step of the time array of the same object, where that has equal steps."""
+    stated = about.step
+    result = []
+    for name, values in times.items():
+        steps = np.diff(np.ravel(values))
+        if stated and len(steps) > 1 and np.ptp(steps) <= _UNIFORM * abs(steps[0]) and steps[0] > 0:
+            where = about.found["step" if "step" in about.found else "rate"][0]
+            read = float(np.mean(steps))
+            result.append(Statement(f"time step of {name}", where, stated, read, "s", 1e-3 * read))
+    return result
+
+
+def _inside(name: str, value: Any) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """The objects in a value: one object, the rows of a list as columns, or the channels of a list, each by its own name."""
+    if isinstance(value, Mapping):
+        if name.lower() not in _ABOUT:
+            yield name, value
+    elif isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
+        if any(_is_channel(one) for one in value):
+            for at, one in enumerate(value, start=1):
+                own = next((str(one[key]) for key in _NAME if isinstance(one.get(key), str) and one[key].strip()), str(at))
+                yield own if name.lower() in _LISTS and own != str(at) else f"{name}/{own}", one
+        else:
+            yield name, _records(value)
+
+
+def _is_channel(item: Mapping[str, Any]) -> bool:
+    return any((one := array(value)) is not None and one.size > 1 for value in item.values())
+
+
+def _upright(values: Array) -> Array:
+    """The array with its samples along the first axis, as `spread` takes them."""
+    values = np.squeeze(values)
+    return values.T if values.ndim == 2 and values.shape[0] < values.shape[1] else values
 
 
 def array(value: Any) -> Array | None:
@@ -70,32 +152,9 @@ def array(value: Any) -> Array | None:
     return None
 
 
-def _records(rows: list[Any]) -> dict[str, Any] | None:
+def _records(rows: list[Any]) -> dict[str, Any]:
     """Rows `[{t: 0, x: 1}, ...]` as columns."""
-    if not rows or not all(isinstance(row, dict) for row in rows):
-        return None
     return {name: [row.get(name) for row in rows] for name in rows[0] if not isinstance(rows[0][name], dict | list | str)}
-
-
-def _step(node: Mapping[str, Any]) -> float | None:
-    for name, value in node.items():
-        number = _number(value)
-        if number is None or number <= 0:
-            continue
-        plain = re.sub(r"[ \-]+", "_", str(name).strip())
-        if _STEP.fullmatch(plain):
-            return number
-        if _RATE.fullmatch(plain):
-            return 1 / number
-    return None
-
-
-def _number(value: Any) -> float | None:
-    found = np.asarray(value) if isinstance(value, int | float | np.ndarray | np.generic) else None
-    if found is None or isinstance(value, bool) or found.size != 1 or found.dtype.kind not in "fiu":
-        return None
-    number = float(found.reshape(-1)[0])
-    return number if np.isfinite(number) and abs(number) < 1e12 else None
 
 
 def _texts(value: Any) -> list[str]:
@@ -118,5 +177,5 @@ def _distinct(columns: list[Column]) -> list[Column]:
     for column in columns:
         seen[column.name] = seen.get(column.name, 0) + 1
         name = column.name if seen[column.name] == 1 else f"{column.name}~{seen[column.name]}"
-        result.append(Column(name, column.values, column.unit, column.dt))
+        result.append(replace(column, name=name))
     return result
