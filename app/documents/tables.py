@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.documents import commands, decisions, diagnosis, effects, outputs, parts, rooms, routes, settings
+from app.documents import commands, decisions, diagnosis, effects, formats, outputs, parts, rooms, routes, settings
 from rths_engine.parts import actuators, compensators, integrators, physics, specimens, structures
 from rths_engine.planning.shapes import SHAPES
 
@@ -29,6 +29,9 @@ TABLES: dict[str, Callable[[], str]] = {
     "effects of sensors": lambda: effects.effects(physics.SENSOR),
     "effects of a structure": lambda: effects.effects(physics.STRUCTURE),
     "effects of the ground motion": lambda: effects.effects(physics.INPUT),
+    "formats of ground motions": lambda: formats.formats("ground motion"),
+    "formats of measurements": lambda: formats.formats("measurement"),
+    "formats that are named": formats.named,
     "routes": routes.routes,
     "commands": commands.commands,
     "options": commands.options,

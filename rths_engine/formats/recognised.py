@@ -14,6 +14,11 @@ _SIGNATURES = (
 )
 
 
+def rows() -> list[tuple[str, str]]:
+    """What each such file is, and how to get its numbers."""
+    return [(problem, fix) for _, problem, fix in _SIGNATURES]
+
+
 def refuse(source: Source) -> None:
     """Raises FileError where the file is of a format that is not read."""
     for signature, problem, fix in _SIGNATURES:
