@@ -16,15 +16,7 @@ _LONGEST_LINE = 100_000
 
 def lines_of(raw: bytes) -> list[str]:
     """The lines of a text file: UTF-8 with or without BOM, or Latin-1; any line end. Raises FileError for binary content."""
-    if not raw.strip():
-        raise FileError(Issue("file", "is empty", fix="choose a record file"))
-    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise FileError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))
-    control = _CONTROL.search(raw)
-    if control or raw.startswith(b"%PDF"):
-        where = f"byte {control.start()}" if control else "file"
-        fix = "give the record as text: PEER AT2, COSMOS V2 or plain columns"
-        raise FileError(Issue(where, "is binary, not text", fix=fix))
+    check_text(raw)
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -35,6 +27,28 @@ def lines_of(raw: bytes) -> list[str]:
             problem = f"has {len(line)} characters; a line takes at most {_LONGEST_LINE}"
             raise FileError(Issue(f"line {number}", problem, fix="write a few numbers on each line"))
     return lines
+
+
+def check_text(raw: bytes) -> None:
+    """Raises FileError for content that is not text, or not in an encoding that is read."""
+    if not raw.strip():
+        raise FileError(Issue("file", "is empty", fix="choose a record file"))
+    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise FileError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))
+    control = _CONTROL.search(raw)
+    if control or raw.startswith(b"%PDF"):
+        where = f"byte {control.start()}" if control else "file"
+        fix = "give the record as text: PEER AT2, COSMOS V2 or plain columns"
+        raise FileError(Issue(where, "is binary, not text", fix=fix))
+
+
+def decoded(line: bytes) -> str:
+    """A line as text, without its end, BOM and the end-of-file sign of DOS: UTF-8, or Latin-1."""
+    try:
+        text = line.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = line.decode("latin-1")
+    return text.replace("\x1a", "").strip("\r\n ")
 
 
 def value(token: str) -> float | None:

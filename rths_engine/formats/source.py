@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from io import BytesIO
 from pathlib import Path
+from typing import BinaryIO
 
 from rths_engine.formats import lines
 from rths_engine.foundation.errors import FileError, Issue
@@ -41,6 +43,16 @@ class Source:
         with self._path.open("rb") as file:
             file.seek(max(0, self.size - 64))
             return file.read()
+
+    def open(self) -> BinaryIO:
+        """The content as an open file."""
+        return BytesIO(self.content) if self.content is not None else self._path.open("rb", buffering=0)
+
+    def part(self, start: int, size: int) -> bytes:
+        """At most `size` bytes from byte `start`."""
+        with self.open() as file:
+            file.seek(start)
+            return file.read(size)
 
     def bytes(self) -> bytes:
         """The whole content."""

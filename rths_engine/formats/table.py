@@ -10,12 +10,13 @@ from functools import cached_property
 
 import numpy as np
 
+from rths_engine.formats.scratch import on_disk
 from rths_engine.formats.statement import Statement
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
-MOST_SAMPLES = 50_000_000  # in all columns: 400 MB
+MOST_SAMPLES = 50_000_000  # in all columns in memory: 400 MB; numeric_block.MOST_VALUES limits those in a scratch file
 MOST_COLUMNS = 1000
 LONGEST_NAME = 200
 
@@ -78,7 +79,7 @@ def checked(table: Table) -> Table:
     if len(table.columns) > MOST_COLUMNS:
         problem = f"has {len(table.columns)} columns; the maximum is {MOST_COLUMNS}"
         raise FileError(Issue("file", problem, fix="export fewer signals, one signal a column"))
-    refuse_many(sum(len(column.values) for column in table.columns))
+    refuse_many(sum(len(column.values) for column in table.columns if not on_disk(column.values)))
     if contradictions := [one.issue for one in table.statements if not one.agrees]:
         raise FileError(contradictions)
     return replace(

@@ -1,9 +1,11 @@
-"""`python -m rths_engine.running.warm`: compile the loop once, so that the first test starts without delay."""
+"""`python -m rths_engine.running.warm`: compile everything once, so that the first test and the first import do not wait."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from rths_engine.formats.numeric_block import Layout, read_block
+from rths_engine.formats.source import Source
 from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
 from rths_engine.parts.physics.structure.coulomb_friction import CoulombFriction
 from rths_engine.planning import templates
@@ -13,7 +15,7 @@ from rths_engine.running.stop import stop
 
 
 def warm() -> None:
-    """Run one integration step of a small plan, without and with a left-out effect, and every replay."""
+    """Run one integration step of a small plan, without and with a left-out effect, and every replay; read a row of numbers."""
     plan = templates.template("linear-damper").model_copy(update={"duration": 0.01})
     simulate(plan)
     station = plan.stations[0].model_copy(update={"specimen_physics": (Asymmetry(),)})
@@ -25,6 +27,7 @@ def warm() -> None:
     replay.structure(plan, np.zeros((2, 1)), np.zeros((2, 1)))
     replay.structure(plan.model_copy(update={"structure_physics": (CoulombFriction(),)}), np.zeros((2, 1)), np.zeros((2, 1)))
     stop(still, 0.5)
+    read_block(Source("row.csv", content=b"0,1\n"), 0, Layout(",", ".", (True, True)), lambda at, line: None)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rths_engine.formats import apart
+from rths_engine.formats.plain import columns
 from rths_engine.formats.table import MOST_SAMPLES
 from rths_engine.foundation.errors import MeasuredError
 from rths_engine.recordings.measured import examine, guess, imported, read
@@ -187,3 +188,20 @@ def test_a_small_file_that_claims_to_be_huge_is_refused_unread() -> None:
         written.create_dataset("x", (MOST_SAMPLES + 1,), "f8", chunks=(1024,))
     with pytest.raises(MeasuredError, match="the maximum is"):
         read(file.getvalue(), "a.h5")
+
+
+@pytest.mark.parametrize("line", ["# paused", "4,5 # late", "4,5,6", "4,1.501.51", "4,****"])
+def test_a_line_between_rows_that_is_not_a_row_is_refused_by_its_number(line: str) -> None:
+    rows = "".join(f"{k / 100},{k % 7}\n" for k in range(200))
+    with pytest.raises(MeasuredError, match=r"^line 202\b"):
+        read(f"time (s),x (mm)\n{rows}{line}\n{rows}".encode(), "paused.csv")
+
+
+def test_the_head_of_a_file_decides_its_columns_however_long_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(columns, "LOOKED_INTO", 4000)
+    rows = "".join(f"{k / 100:.2f};{k % 7},5;\r\n" for k in range(2000))
+    (tmp_path / "long.csv").write_text(f"rig µ\r\nTime;Displacement;\r\n[s];[mm];\r\n{rows}n/a;-;\r\n")
+    table = read(tmp_path / "long.csv", "long.csv")
+    assert [(one.name, one.unit) for one in table.columns] == [("Time", "s"), ("Displacement", "mm")]
+    assert np.array_equal(table.columns[1].values[:-1], np.arange(2000) % 7 + 0.5)
+    assert all(np.isnan(one.values[-1]) for one in table.columns)

@@ -11,10 +11,11 @@ from itertools import pairwise
 import numpy as np
 
 from rths_engine.formats.format import Format
+from rths_engine.formats.lines import check_text, decoded, value
+from rths_engine.formats.numeric_block import Layout, line_number, read_block
 from rths_engine.formats.plain.record import header_step
 from rths_engine.formats.source import Source
-from rths_engine.formats.table import Column, Table, distinct, refuse_many
-from rths_engine.foundation.arrays import Array
+from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.errors import FileError, Issue
 from rths_engine.foundation.unit_names import written_unit
 
@@ -22,6 +23,7 @@ from rths_engine.foundation.unit_names import written_unit
 _COMMENT = re.compile(r"[#%!]+|//")
 _MISSING = {"", "na", "n/a", "nan", "null", "none", "-", "--", "#n/a", "nil"}
 _LOOKED_AT = 60  # lines used to determine the separator
+LOOKED_INTO = 1 << 20  # bytes: the header is in the first; the lines that determine the separator are in the middle of the file
 _CANDIDATES = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","))
 MOST_FIELDS = 1000
 
@@ -46,44 +48,63 @@ class Form:
             return float("nan")
         if "_" in field or (self.decimal == "," and "." in field):
             return None
-        try:
-            return float(field.replace(",", ".") if self.decimal == "," else field)
-        except ValueError:
-            return None
+        return value(field.replace(",", ".") if self.decimal == "," else field)
 
 
-Line = tuple[int, str]
+Line = tuple[int, str]  # byte at which the line starts, and the line
 
 
 def read(source: Source) -> Table:
     """Read the columns of a text. Raises FileError with the line that differs from the others."""
-    lines = source.lines
-    filled = [(at, text) for at, line in enumerate(lines, start=1) if (text := line.strip("\r\n ")).strip()]
+    filled = _filled(source, 0, LOOKED_INTO)
     plain = [(at, text) for at, text in filled if not _COMMENT.match(text.lstrip())]
-    if plain and (ending := plain[-1][1][-1]) in ";,\t" and all(text.endswith(ending) for _, text in plain[-_LOOKED_AT:]):
-        filled, plain = _without(ending, filled), _without(ending, plain)
     if not plain:
         raise FileError(Issue("file", "contains no numbers", fix="choose a file of measurements"))
-    looked_at = plain[len(plain) // 2 :][:_LOOKED_AT]
-    form, numeric = _form(looked_at)
+    whole = source.size <= LOOKED_INTO
+    sample = plain if whole else _filled(source, source.size // 2, LOOKED_INTO)
+    if ending := _ending(sample[-_LOOKED_AT:]):
+        filled, plain, sample = (_without(ending, lines) for lines in (filled, plain, sample))
+    form, numeric = _form(source, sample[len(sample) // 2 :][:_LOOKED_AT])
     first = _first(plain, form, numeric)
     header = [text for at, text in filled if at < plain[first][0]]
     names, units = _heading(header, form, len(numeric))
-    _refuse_ambiguous(plain[first:], form, names)
-    refuse_many((len(plain) - first) * len(numeric))
-    values = _values(plain[first:], form, numeric)
+    _refuse_ambiguous(source, plain[first:], form, names)
+    layout = Layout(form.separator, form.decimal, numeric, bool(ending))
+    values = read_block(source, plain[first][0], layout, partial(_other_line, source, form, numeric, ending))
     dt = header_step(header)
     used = [k for k, holds in enumerate(numeric) if holds]
-    columns = [Column(names[k] if names else f"column {k + 1}", values[:, j], units[k], dt) for j, k in enumerate(used)]
+    columns = [Column(names[k] if names else f"column {k + 1}", values[j], units[k], dt) for j, k in enumerate(used)]
     left = tuple(f"{names[k] if names else f'column {k + 1}'} holds text" for k, holds in enumerate(numeric) if not holds)
     return Table("columns of text", distinct(columns), named=bool(names), notes=left)
+
+
+def _filled(source: Source, start: int, size: int) -> list[Line]:
+    """The lines that are not empty in a part of the file; only whole lines."""
+    raw = source.part(start, size)
+    check_text(raw)
+    found: list[Line] = []
+    at = start
+    lines = raw.splitlines(keepends=True)
+    if start + size < source.size:
+        lines.pop()
+    for number, line in enumerate(lines):
+        if (text := decoded(line)).strip() and (number or not start):
+            found.append((at, text))
+        at += len(line)
+    return found
+
+
+def _ending(lines: list[Line]) -> str:
+    """The separator with which all lines end; empty where they do not."""
+    ending = lines[-1][1][-1] if lines else ""
+    return ending if ending and ending in ";,\t" and all(text.endswith(ending) for _, text in lines) else ""
 
 
 def _without(ending: str, lines: list[Line]) -> list[Line]:
     return [(at, text.removesuffix(ending)) for at, text in lines]
 
 
-def _form(lines: list[Line]) -> tuple[Form, list[bool]]:
+def _form(source: Source, lines: list[Line]) -> tuple[Form, list[bool]]:
     """The form for which most columns are numbers, and whether each column is numeric."""
     best: tuple[tuple[int, int], Form, list[bool]] | None = None
     for form in (Form(*candidate) for candidate in _CANDIDATES):
@@ -99,7 +120,7 @@ def _form(lines: list[Line]) -> tuple[Form, list[bool]]:
     if best is None:
         at, line = lines[0]
         fix = "write one row of numbers for each time, separated by comma, semicolon, tab or space"
-        raise FileError(Issue(f"line {at}", "is not a row of numbers", line, fix))
+        raise FileError(Issue(f"line {line_number(source, at)}", "is not a row of numbers", line, fix))
     return best[1], best[2]
 
 
@@ -125,38 +146,34 @@ def _heading(header: list[str], form: Form, width: int) -> tuple[list[str], list
     return [name or f"column {k}" for k, name in enumerate(fitting[-1], start=1)], [""] * width
 
 
-def _refuse_ambiguous(lines: list[Line], form: Form, names: list[str]) -> None:
+def _refuse_ambiguous(source: Source, lines: list[Line], form: Form, names: list[str]) -> None:
     if form.separator == "," and not names and all(re.fullmatch(r"[-+]?\d+,\d+", text) for _, text in lines[:_LOOKED_AT]):
         at, line = lines[0]
         fix = "write numbers with a decimal point, or name the columns in a first line"
-        raise FileError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
+        raise FileError(Issue(f"line {line_number(source, at)}", "the comma can be a decimal sign or a separator", line, fix))
 
 
-def _values(lines: list[Line], form: Form, numeric: list[bool]) -> Array:
-    used = [k for k, holds in enumerate(numeric) if holds]
-    if '"' not in lines[0][1]:
-        texts = (text.replace(",", ".") if form.decimal == "," else text for _, text in lines)
-        load = partial(np.loadtxt, delimiter=form.separator or None, comments=None, ndmin=2)
-        try:
-            whole: Array = load(texts)
-            if whole.shape[1] == len(numeric) == len(used):
-                return whole
-        except ValueError:
-            pass  # the slower code below reads missing values or reports the error
-    return np.array([_row(line, form, numeric, used) for line in lines])
-
-
-def _row(line: Line, form: Form, numeric: list[bool], used: list[int]) -> list[float]:
-    at, text = line
+def _other_line(source: Source, form: Form, numeric: list[bool], ending: str, at: int, raw: bytes) -> list[float] | None:
+    """The numbers of a line that is not written as plain numbers, such as one with `n/a`; None for an empty line."""
+    text = decoded(raw).removesuffix(ending)
+    if not text.strip():
+        return None
+    if _COMMENT.match(text.lstrip()):
+        raise _refused(source, at, "is a comment between rows of numbers", text)
     fields = form.fields(text)
     if len(fields) != len(numeric):
-        fix = "correct or remove the line"
-        raise FileError(Issue(f"line {at}", f"has {len(fields)} fields; the others have {len(numeric)}", text, fix))
-    numbers = [form.number(fields[k]) for k in used]
-    for k, number in zip(used, numbers, strict=True):
-        if number is None:
-            raise FileError(Issue(f"line {at}", f"column {k + 1} is not a number", fields[k], "correct or remove the line"))
-    return [number for number in numbers if number is not None]
+        raise _refused(source, at, f"has {len(fields)} fields; the others have {len(numeric)}", text)
+    numbers: list[float] = []
+    for k, (field, holds) in enumerate(zip(fields, numeric, strict=True)):
+        if holds and (number := form.number(field)) is not None:
+            numbers.append(number)
+        elif holds:
+            raise _refused(source, at, f"column {k + 1} is not a number", field)
+    return numbers
+
+
+def _refused(source: Source, at: int, problem: str, text: str) -> FileError:
+    return FileError(Issue(f"line {line_number(source, at)}", problem, text, "correct or remove the line"))
 
 
 FORMAT = Format(
