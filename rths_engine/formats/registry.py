@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rths_engine.formats import apart, recognised
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import hdf5, matlab, parquet
+from rths_engine.formats.laboratory import hdf5, lvm, matlab, parquet
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import at2, cosmos
@@ -16,6 +16,7 @@ FORMATS: tuple[Format, ...] = (
     hdf5.FORMAT,
     matlab.FORMAT,
     json_file.FORMAT,
+    lvm.FORMAT,
     cosmos.FORMAT,
     at2.FORMAT,
 )
