@@ -10,6 +10,7 @@ from rths_engine.planning.shapes import SHAPES
 
 TABLES: dict[str, Callable[[], str]] = {
     "imported channels": outputs.imported_channels,
+    "units of columns": outputs.units_of_columns,
     "channels": outputs.channels,
     "measures": lambda: outputs.measures(further=False),
     "further measures": lambda: outputs.measures(further=True),

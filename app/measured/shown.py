@@ -9,7 +9,17 @@ from typing import Any
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.recordings.measured import Column, Examined, Finding, Mapping, Measured, MeasuredChannel, Signal, same_motion
+from rths_engine.recordings.measured import (
+    Column,
+    Examined,
+    Finding,
+    Mapping,
+    Measured,
+    MeasuredChannel,
+    Signal,
+    same_motion,
+    stated,
+)
 from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, shown
 from rths_engine.results.decimate import extremes
 
@@ -28,10 +38,15 @@ def roles() -> dict[str, Any]:
 
 
 def column(one: Column) -> dict[str, Any]:
-    """A column of a file with its unit, its number of samples and its statistics."""
+    """A column of a file with its unit, its number of samples and its statistics.
+
+    `unit` is as the file writes it, `stated` the unit of the table that it names, `problem` why it names none.
+    """
     known = one.values[np.isfinite(one.values)]
     missing = len(one.values) - len(known)
-    return {"name": one.name, "unit": one.unit, "samples": len(one.values), "missing": missing, **_statistics(known)}
+    written = stated.unit_of(one)
+    unit = {"unit": one.unit, "stated": written.plain, "problem": written.problem}
+    return {"name": one.name, **unit, "samples": len(one.values), "missing": missing, **_statistics(known)}
 
 
 def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:

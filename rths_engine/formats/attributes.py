@@ -14,10 +14,9 @@ from typing import Any
 import numpy as np
 
 from rths_engine.formats.statement import Statement
-from rths_engine.foundation import units
+from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
-from rths_engine.foundation.unit_names import written_unit
 
 _KEYS = {
     "step": r"(?:dt|delta_?t|time_?step|sampl(?:e|ing)_?(?:interval|period|time)|ts)(?:_in)?(?:_(?P<unit>s|sec|ms|us))?",
@@ -197,12 +196,12 @@ def _fits(factor: Array, values: Array) -> bool:
 
 def _ratio(given: str, wanted: str) -> float | None:
     """How many `wanted` one `given` is; None where their dimensions differ. Equal words are one unit: counts, count."""
-    one, other = written_unit(given), written_unit(wanted)
-    if not one and given.strip() and given.strip().lower().rstrip("s") == wanted.strip().lower().rstrip("s"):
+    one, other = unit_names.read(given), unit_names.read(wanted)
+    if not one.unit and given.strip() and given.strip().lower().rstrip("s") == wanted.strip().lower().rstrip("s"):
         return 1.0
-    if one not in units.UNITS or other not in units.UNITS or units.UNITS[one][0] != units.UNITS[other][0]:
+    if not one.unit or not other.unit or one.dimension != other.dimension:
         return None
-    return units.factor(one) / units.factor(other)
+    return one.scale * units.factor(one.unit) / (other.scale * units.factor(other.unit))
 
 
 def _text(values: Array) -> str:

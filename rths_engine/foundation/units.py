@@ -1,7 +1,8 @@
-"""Conversion of units at the edge of the engine: `si = factor * shown`. Inside the engine every number is SI."""
+"""Conversion of units at the edge of the engine: `si = factor * shown + zero`. Inside the engine every number is SI."""
 
 from __future__ import annotations
 
+import math
 import re
 
 from rths_engine.foundation import unit_text
@@ -11,8 +12,10 @@ STANDARD_GRAVITY = 9.80665  # m/s^2, ISO 80000-3
 INCH = 0.0254
 POUND_FORCE = 4.4482216152605  # N
 KIP = 1e3 * POUND_FORCE
+KILOGRAM_FORCE = STANDARD_GRAVITY  # N
+US_TON_FORCE = 2e3 * POUND_FORCE
 
-# unit -> (dimension, factor to SI), ISO 80000 and by definition
+# unit -> (dimension, factor to SI), ISO 80000 and by definition; `mg` is a thousandth of g, never a mass
 UNITS: dict[str, tuple[str, float]] = {
     "1": ("number", 1.0),
     "%": ("number", 1e-2),
@@ -20,6 +23,7 @@ UNITS: dict[str, tuple[str, float]] = {
     "ms": ("time", 1e-3),
     "us": ("time", 1e-6),
     "min": ("time", 60.0),
+    "h": ("time", 3600.0),
     "Hz": ("frequency", 1.0),
     "kHz": ("frequency", 1e3),
     "m": ("length", 1.0),
@@ -33,6 +37,7 @@ UNITS: dict[str, tuple[str, float]] = {
     "cm/s": ("velocity", 1e-2),
     "in/s": ("velocity", INCH),
     "ft/s": ("velocity", 12 * INCH),
+    "um/s": ("velocity", 1e-6),
     "m/s^2": ("acceleration", 1.0),
     "mm/s^2": ("acceleration", 1e-3),
     "cm/s^2": ("acceleration", 1e-2),
@@ -40,6 +45,8 @@ UNITS: dict[str, tuple[str, float]] = {
     "in/s^2": ("acceleration", INCH),
     "ft/s^2": ("acceleration", 12 * INCH),
     "g": ("acceleration", STANDARD_GRAVITY),
+    "mg": ("acceleration", 1e-3 * STANDARD_GRAVITY),
+    "g/10": ("acceleration", 0.1 * STANDARD_GRAVITY),
     "m/s^3": ("jerk", 1.0),
     "mm/s^3": ("jerk", 1e-3),
     "kg": ("mass", 1.0),
@@ -47,6 +54,11 @@ UNITS: dict[str, tuple[str, float]] = {
     "N": ("force", 1.0),
     "kN": ("force", 1e3),
     "MN": ("force", 1e6),
+    "mN": ("force", 1e-3),
+    "daN": ("force", 10.0),
+    "kgf": ("force", KILOGRAM_FORCE),
+    "tf": ("force", 1e3 * KILOGRAM_FORCE),
+    "tonf(US)": ("force", US_TON_FORCE),
     "lb": ("force", POUND_FORCE),
     "lbf": ("force", POUND_FORCE),
     "kip": ("force", KIP),
@@ -62,8 +74,11 @@ UNITS: dict[str, tuple[str, float]] = {
     "kN*s/mm": ("damping", 1e6),
     "N/m^2": ("stress", 1.0),
     "Pa": ("stress", 1.0),
+    "kPa": ("stress", 1e3),
     "MPa": ("stress", 1e6),
     "GPa": ("stress", 1e9),
+    "bar": ("stress", 1e5),
+    "psi": ("stress", POUND_FORCE / INCH**2),
     "ksi": ("stress", KIP / INCH**2),
     "J": ("energy", 1.0),
     "kN*m": ("energy", 1e3),
@@ -89,12 +104,25 @@ UNITS: dict[str, tuple[str, float]] = {
     "mA": ("current", 1e-3),
     "V": ("voltage", 1.0),
     "mV": ("voltage", 1e-3),
+    "V/V": ("voltage ratio", 1.0),
+    "mV/V": ("voltage ratio", 1e-3),
     "m/(s*V)": ("velocity per voltage", 1.0),
     "mm/(s*V)": ("velocity per voltage", 1e-3),
     "K": ("temperature", 1.0),
+    "degC": ("temperature", 1.0),
+    "degF": ("temperature", 5 / 9),
+    "m/m": ("strain", 1.0),
+    "um/m": ("strain", 1e-6),
+    "rad": ("angle", 1.0),
+    "mrad": ("angle", 1e-3),
+    "deg": ("angle", math.pi / 180),
+    "count": ("count", 1.0),
     "N*(s/m)^n": ("power-law damping", 1.0),
     "kN*(s/m)^n": ("power-law damping", 1e3),
 }
+
+# SI value of the unit's zero, for units with a zero of their own (by definition): `si = factor * shown + zero`
+ZEROS = {"degC": 273.15, "degF": 459.67 * 5 / 9}
 
 # chosen; see docs/decisions/0023
 LONGEST = 40  # characters of a unit; longer text is not parsed
@@ -121,14 +149,29 @@ def factor(unit: str) -> float:
     return _lookup(unit)[1]
 
 
+def zero(unit: str) -> float:
+    """SI value at zero of `unit`: 273.15 for degC, 0 for units that share the zero of their SI unit."""
+    return ZEROS.get(unit, 0.0)
+
+
+def dimension(unit: str) -> str:
+    """Dimension of `unit`, such as `force`. Raises RthsError for an unknown unit."""
+    return _lookup(unit)[0]
+
+
+def of_dimension(dimension: str) -> tuple[str, ...]:
+    """The units of a dimension, in the order of the table."""
+    return tuple(unit for unit, (kind, _) in UNITS.items() if kind == dimension)
+
+
 def to_si(value: float, unit: str) -> float:
     """A value in `unit`, converted to SI."""
-    return value * factor(unit)
+    return value * factor(unit) + zero(unit)
 
 
 def from_si(value: float, unit: str) -> float:
     """A value in SI, converted to `unit`."""
-    return value / factor(unit)
+    return (value - zero(unit)) / factor(unit)
 
 
 def parse(text: str, unit: str) -> float:

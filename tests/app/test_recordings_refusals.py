@@ -78,7 +78,9 @@ def test_a_file_larger_than_other_requests_may_be_is_taken(client: TestClient, s
     ("mapping", "where", "message"),
     [
         (changed(unit="furlong"), "mapping.channels.1.unit", "not a known unit"),
-        (changed(unit="V"), "mapping.channels.1", "give a gain"),
+        (changed(unit="V"), "mapping.channels.1.gain", "give a gain"),
+        (changed(unit=""), "mapping.channels.1.unit", "choose the unit"),
+        (changed(unit="µstr"), "mapping.channels.1.unit", "the unit 'µstr' is not known"),
         (changed(column="Desp (mm)"), "mapping.channels.1", "Disp (mm)"),
         (changed(label="\0"), "mapping.channels.1.label", "can't be stored"),
         (changed(gain="1e999"), "mapping.channels.1", "finite"),

@@ -38,7 +38,9 @@ def test_a_wrong_unit_is_seen_corrected_and_the_recording_imported_and_listed(op
     velocity = page.locator("tr", has=page.get_by_label("Role of Vel (mm/s)"))
     expect(velocity).to_contain_text("Error: does not have the magnitude of the derivative of x_meas.1")
     page.get_by_label("Unit of Disp (m)").select_option("mm")
-    expect(page.get_by_text("400 samples at 100 Hz, 3.99 s: no errors or warnings")).to_be_visible()
+    expect(page.get_by_text("400 samples at 100 Hz, 3.99 s: 1 warning")).to_be_visible()
+    displacement = page.locator("tr", has=page.get_by_label("Role of Disp (m)"))
+    expect(displacement).to_contain_text("Warning: the file states m for column 'Disp (m)'; the mapping says mm")
     expect(velocity).not_to_contain_text("Error")
     expect(page.get_by_role("img", name="Force against displacement, station 1")).to_be_visible()
     expect_accessible(page)
@@ -76,6 +78,22 @@ def test_an_earlier_mapping_is_offered_and_can_be_used_and_a_recording_deleted(o
     page.wait_for_url("**/recordings")
     expect(page.get_by_role("link", name="first", exact=True)).to_be_visible()
     expect(page.get_by_role("link", name="second", exact=True)).to_have_count(0)
+
+
+def test_a_unit_that_the_file_does_not_state_is_chosen_before_the_import(opened: Opener, tmp_path: Path) -> None:
+    page = opened("/recordings", allow=("422",))
+    chosen(page, csv(tmp_path, "Disp", "unstated.csv"))
+    unit = page.get_by_label("Unit of Disp")
+    expect(unit).to_have_value("")
+    row = page.locator("tr", has=unit)
+    expect(row).to_contain_text("a guess by its name alone; the file states no unit: choose it; mm would fit its magnitude")
+    expect(row).to_contain_text("Error: the unit of column 'Disp' is not stated: choose the unit")
+    page.get_by_role("button", name="Import the recording").click()
+    expect(page.get_by_label("Role of Disp")).to_be_focused()
+    unit.select_option("mm")
+    expect(page.get_by_text("no errors or warnings")).to_be_visible()
+    page.get_by_role("button", name="Import the recording").click()
+    expect(page.get_by_role("heading", name="unstated", exact=True)).to_be_visible()
 
 
 def expected_offer(page: Page) -> str:

@@ -45,7 +45,13 @@ def json_nested() -> bytes:
 
 def json_matrix() -> bytes:
     return json.dumps(
-        {"data": COLUMNS.tolist(), "sampling freq": RATE, "displacement units": "mm", "force units": "kN"}
+        {
+            "data": COLUMNS.tolist(),
+            "sampling freq": RATE,
+            "displacement units": "mm",
+            "velocity units": "mm/s",
+            "force units": "kN",
+        }
     ).encode()
 
 
@@ -55,14 +61,14 @@ def json_records() -> bytes:
 
 def matlab5() -> bytes:
     file = io.BytesIO()
-    scipy.io.savemat(file, {"t": T, "test": {"disp_mm": X, "vel_mm_s": V[:, None], "force_kN": F}, "note": "sine"})
+    scipy.io.savemat(file, {"t_s": T, "test": {"disp_mm": X, "vel_mm_s": V[:, None], "force_kN": F}, "note": "sine"})
     return file.getvalue()
 
 
 def matlab73() -> bytes:
     file = io.BytesIO()
     with h5py.File(file, "w", userblock_size=512) as written:
-        for name, values in (("t", T), ("disp_mm", X), ("vel_mm_s", V), ("force_kN", F)):
+        for name, values in (("t_s", T), ("disp_mm", X), ("vel_mm_s", V), ("force_kN", F)):
             written.create_dataset(name, data=values[None, :]).attrs["MATLAB_class"] = np.bytes_("double")
         note = written.create_dataset("note", data=np.frombuffer("sine".encode("utf-16-le"), np.uint16)[:, None])
         note.attrs["MATLAB_class"] = np.bytes_("char")

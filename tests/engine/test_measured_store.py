@@ -57,10 +57,10 @@ def test_a_rate_in_no_simple_ratio_is_reached_in_phase() -> None:
 
 def test_channels_of_different_clocks_share_one_step_and_what_all_measured() -> None:
     fast, slow = np.arange(4001) / 800, 0.25 + np.arange(501) / 100
-    signals = (Column("tx", fast), Column("x", np.sin(fast)), Column("tf", slow), Column("f", np.sin(slow)))
+    signals = (Column("tx (s)", fast), Column("x", np.sin(fast)), Column("tf (s)", slow), Column("f", np.sin(slow)))
     channels = [
-        {"column": "x", "role": "x_meas", "unit": "m", "time": "tx"},
-        {"column": "f", "role": "f_meas", "unit": "N", "time": "tf"},
+        {"column": "x", "role": "x_meas", "unit": "m", "time": "tx (s)"},
+        {"column": "f", "role": "f_meas", "unit": "N", "time": "tf (s)"},
     ]
     found = imported(table(*signals), Mapping.read({"channels": channels}))
     assert found.dt == 1 / 800 and found.start == pytest.approx(0.25)

@@ -8,14 +8,12 @@ from typing import Any
 import pytest
 
 from rths_engine.formats.units_in_text import ACCELERATION_UNITS, checked_unit
-from rths_engine.foundation import unit_text, units
+from rths_engine.foundation import unit_names, unit_text, units
 from rths_engine.foundation.errors import PlanError, RthsError
 from rths_engine.foundation.part import validated
 from rths_engine.parts.physics.wording import said
 from rths_engine.planning.plan import Plan
-from rths_engine.recordings.measured.names import written_unit
 from rths_engine.recordings.measured.roles import UNITS as MEASURED
-from rths_engine.recordings.measured.roles import WITH_ZERO
 from rths_engine.results.channels import CHANNELS
 from rths_engine.results.measures import MEASURES
 
@@ -37,8 +35,8 @@ def quantities(schema: Any) -> Iterator[tuple[str, str]]:
 
 
 def put_out() -> Iterator[tuple[str, str]]:
-    """Unit and unit shown of every channel and every measure; temperatures, with a zero of their own, are in columns only."""
-    yield from ((one.unit, one.shown) for one in CHANNELS.values() if one.shown not in WITH_ZERO)
+    """Unit and unit shown of every channel and every measure."""
+    yield from ((one.unit, one.shown) for one in CHANNELS.values())
     yield from ((one.unit, one.shown) for one in MEASURES)
 
 
@@ -108,7 +106,7 @@ def test_no_two_units_are_shown_or_read_as_one_another() -> None:
 
 def test_the_units_of_columns_and_records_are_read_as_they_are_shown() -> None:
     for unit in MEASURED:
-        assert written_unit(unit_text.shown(unit) or "-") == unit
+        assert unit_names.known(unit_text.shown(unit) or "-") == unit
     for unit in ACCELERATION_UNITS:
         assert checked_unit(unit_text.shown(unit)) == unit
 

@@ -10,14 +10,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from rths_engine.formats import units_row
 from rths_engine.formats.format import Format
 from rths_engine.formats.lines import check_text, decoded, value
 from rths_engine.formats.numeric_block import Layout, line_number, read_block
 from rths_engine.formats.plain.record import header_step
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column, Table, distinct
+from rths_engine.foundation import unit_names
 from rths_engine.foundation.errors import FileError, Issue
-from rths_engine.foundation.unit_names import written_unit
 
 # chosen; see docs/decisions/0023
 _COMMENT = re.compile(r"[#%!]+|//")
@@ -75,7 +76,8 @@ def read(source: Source) -> Table:
     used = [k for k, holds in enumerate(numeric) if holds]
     columns = [Column(names[k] if names else f"column {k + 1}", values[j], units[k], dt) for j, k in enumerate(used)]
     left = tuple(f"{names[k] if names else f'column {k + 1}'} holds text" for k, holds in enumerate(numeric) if not holds)
-    return Table("columns of text", distinct(columns), named=bool(names), notes=left)
+    notes = (*left, evidence) if (evidence := units_row.evidence(units)) else left
+    return Table("columns of text", distinct(columns), named=bool(names), notes=notes)
 
 
 def _filled(source: Source, start: int, size: int) -> list[Line]:
@@ -141,8 +143,8 @@ def _heading(header: list[str], form: Form, width: int) -> tuple[list[str], list
     if not fitting:
         return [], [""] * width
     for above, below in pairwise(fitting[-2:]):
-        if all(written_unit(field.strip("()[]")) or not field.strip("()[] -") for field in below):
-            return above, [field.strip("()[] ") for field in below]
+        if units_row.is_units_row(below):
+            return above, [unit_names.read(field).text for field in below]
     return [name or f"column {k}" for k, name in enumerate(fitting[-1], start=1)], [""] * width
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rths_engine.formats.table import MOST_SAMPLES, Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue, MeasuredError
-from rths_engine.recordings.measured import checks, clock, mapping_yaml, pairs
+from rths_engine.recordings.measured import checks, clock, mapping_yaml, pairs, stated
 from rths_engine.recordings.measured.clock import Clock
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
@@ -57,7 +57,7 @@ def imported(table: Table, mapping: Mapping, source: str = "", sha256: str = "")
 def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Examined:
     """The recording with all findings, errors included. Raises MeasuredError where the mapping does not fit the file."""
     _check_columns(table, mapping)
-    findings: list[Finding] = []
+    findings = stated.differing(table, mapping)
     clocks: dict[str, Clock | None] = {}
     signals: list[Signal] = []
     for index, channel in enumerate(mapping.channels):
@@ -92,6 +92,8 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
 def _check_columns(table: Table, mapping: Mapping) -> None:
     issues: list[Issue] = []
     for index, channel in enumerate(mapping.channels):
+        if lacks := channel.lacks:
+            issues.append(replace(lacks, where=f"mapping.channels.{index}.{lacks.where}"))
         for name in (channel.column, channel.time):
             try:
                 if name is not None:
@@ -108,7 +110,7 @@ def _clock(
     """The clock of a channel: its own clock, else the file's time column, else the mapping's step, else the file's step."""
     column = table.column(channel.column, "")
     count = len(column.values)
-    stamps = _stamps(mapping, channel)
+    stamps = _stamps(table, mapping, channel, index)
     if stamps is not None and channel.rate is None:
         times = table.column(stamps.column, "")
         if times.name not in clocks:
@@ -132,11 +134,20 @@ def _clock(
     return clock.of_step(step, count, column.start)
 
 
-def _stamps(mapping: Mapping, channel: ColumnMap) -> ColumnMap | None:
-    if channel.time is not None:
-        own = next((one for one in mapping.times if str(one.column) == channel.time), None)
-        return own or ColumnMap(column=channel.time, role="t", unit="s")
-    return mapping.times[0] if mapping.times else None
+def _stamps(table: Table, mapping: Mapping, channel: ColumnMap, index: int) -> ColumnMap | None:
+    """The time column of a channel. Raises MeasuredError where it is not mapped as t and the file does not state its unit."""
+    if channel.time is None:
+        return mapping.times[0] if mapping.times else None
+    own = next((one for one in mapping.times if str(one.column) == channel.time), None)
+    if own is not None:
+        return own
+    written = stated.unit_of(table.column(channel.time, ""))
+    if written.dimension != "time":
+        problem = "the file does not state the unit of this time column"
+        fix = f"map the column as t with its unit: {{column: '{channel.time}', role: t, unit: s}}"
+        raise MeasuredError(Issue(f"mapping.channels.{index}.time", written.problem or problem, channel.time, fix))
+    gain = None if written.scale == 1.0 else repr(written.scale)
+    return ColumnMap(column=channel.time, role="t", unit=written.unit, gain=gain)
 
 
 def _si(values: Array, channel: ColumnMap) -> Array:

@@ -12,16 +12,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
+from rths_engine.foundation import unit_names
 from rths_engine.foundation.errors import Issue, MeasuredError, PlanError
 from rths_engine.foundation.part import Value, quantity, validated
 from rths_engine.planning import plan_yaml
-from rths_engine.recordings.measured.names import written_unit
-from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension, key
+from rths_engine.recordings.measured.roles import RAW, ROLES, UNITS, dimension, key, units_of
 
 # chosen; see docs/decisions/0023
 SCHEMA: Literal["rths-mapping/1"] = "rths-mapping/1"
 MOST_CHANNELS = 200
 LARGEST_NUMBER = 999  # of a station or floor
+_RAW_UNITS = tuple(unit for unit in UNITS if dimension(unit) in RAW)
 _GAIN = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 
 RoleName = Literal[
@@ -35,12 +36,16 @@ def _gain(value: Any) -> Any:
 
 
 class ColumnMap(Value):
-    """The mapping of one column, given by its name or its number from 1, to a channel."""
+    """The mapping of one column, given by its name or its number from 1, to a channel.
+
+    A proposal leaves `unit` empty where the file states none, and `gain` where the unit is that of a reading (V, count):
+    `lacks` says so, and the import refuses it.
+    """
 
     column: Annotated[str, Field(max_length=300)] | int = Field(title="Column")
     role: RoleName = Field(title="Role")
     number: int | None = Field(None, ge=1, le=LARGEST_NUMBER, title="Station or floor")
-    unit: str = Field(title="Unit of the column", max_length=20)
+    unit: str = Field(title="Unit of the column", max_length=40, description="empty: not chosen yet")
     gain: Annotated[str | None, BeforeValidator(_gain)] = Field(
         None, title="Gain", max_length=60, description="a factor, or with units: 35.15 N/V"
     )
@@ -56,24 +61,18 @@ class ColumnMap(Value):
     @field_validator("unit")
     @classmethod
     def _known(cls, unit: str) -> str:
-        found = written_unit(unit)
-        if not found:
-            raise ValueError(f"is not a known unit; the known units are {', '.join(UNITS)}")
-        return found
+        return _unit(unit) if unit.strip() else ""
 
     @model_validator(mode="after")
     def _fits(self) -> ColumnMap:
         role, counts = ROLES[self.role], ROLES[self.role].counts
         if self.number is not None and not counts:
             raise ValueError(f"{self.role} takes no number: a recording has only one {self.role}")
-        factor, result = self.scale
+        factor, result = self.scale if self.unit else (1.0, "")
         if factor == 0 or not math.isfinite(factor):
             raise ValueError(f"gain {self.gain} needs a finite factor other than 0")
-        if dimension(result) not in role.dimensions:
-            hint = (
-                f"; for a voltage give a gain such as '2.5 {_example(role.dimensions[0])}/V'" if result in {"V", "mV"} else ""
-            )
-            raise ValueError(f"needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {result}{hint}")
+        if result and not self.lacks and dimension(result) not in role.dimensions:
+            raise ValueError(f"needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {result}")
         if self.time is not None and self.rate is not None:
             raise ValueError("has both a time column and a rate; give only one of them")
         return self
@@ -88,13 +87,23 @@ class ColumnMap(Value):
             raise ValueError(f"gain {self.gain!r} needs a factor, optionally with units, such as '35.15 N/V'")
         if not found[2]:
             return float(found[1]), self.unit
-        above, _, below = found[2].rpartition("/")
-        result, own = written_unit(above), written_unit(below)
-        if not result or own != self.unit:
-            raise ValueError(
-                f"gain {self.gain!r} needs units such as '35.15 N/{self.unit}', because the column is in {self.unit}"
-            )
-        return float(found[1]), result
+        for result, own in _quotients(found[2]):
+            if own == self.unit:
+                return float(found[1]), result
+        raise ValueError(f"gain {self.gain!r} needs units such as '35.15 N/{self.unit}', because the column is in {self.unit}")
+
+    @property
+    def lacks(self) -> Issue | None:
+        """What is missing before the column can be imported: its unit, or the gain of a reading in V, mV, mV/V or counts."""
+        role = ROLES[self.role]
+        if not self.unit:
+            fix = f"choose one of {', '.join(units_of(self.role))}; a reading in {', '.join(_RAW_UNITS)} needs a gain too"
+            return Issue("unit", f"the unit of column '{self.column}' is not stated: choose the unit", fix=fix)
+        kind = dimension(self.unit)
+        if self.gain is None and kind in RAW and kind not in role.dimensions:
+            problem = f"column '{self.column}' needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {self.unit}"
+            return Issue("gain", problem, fix=f"give a gain such as '2.5 {_example(role.dimensions[0])}/{self.unit}'")
+        return None
 
     @property
     def key(self) -> str:
@@ -162,6 +171,24 @@ class Mapping(Value):
 
     def as_dict(self) -> dict[str, Any]:
         return self.model_dump(mode="json", by_alias=True)
+
+
+def _unit(text: str) -> str:
+    """The unit of UNITS that `text` names. Raises ValueError where it names none, or a unit that is not known."""
+    written = unit_names.read(text)
+    if written.plain in UNITS:
+        return written.plain
+    if written.unit and written.scale != 1.0:
+        raise ValueError(f"is {written.scale:g} of {written.unit}: give the unit {written.unit} and the gain {written.scale:g}")
+    problem = f"{written.problem}; " if written.problem else ""
+    raise ValueError(f"is not a known unit of a column; {problem}the known units are {', '.join(UNITS)}")
+
+
+def _quotients(text: str) -> list[tuple[str, str]]:
+    """Every reading of `above/below` as two units: `kN/V`, and `kN/mV/V` as kN over mV/V."""
+    cuts = [at for at, sign in enumerate(text) if sign == "/"]
+    read = [(unit_names.known(text[:at]), unit_names.known(text[at + 1 :])) for at in cuts]
+    return [(above, below) for above, below in read if above and below]
 
 
 def _under(issue: Issue) -> Issue:

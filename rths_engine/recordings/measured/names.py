@@ -3,105 +3,96 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+import unicodedata
+from dataclasses import dataclass, field
 
 from rths_engine.foundation import unit_names
-from rths_engine.recordings.measured.roles import ROLES, UNITS, dimension
+from rths_engine.foundation.unit_names import Written
+from rths_engine.recordings.measured import words
+from rths_engine.recordings.measured.roles import RAW, ROLES
 
-_FLOOR = "(floor|storey|story|level|roof|mass|dof)"
-
-# role -> pattern of its column names; the first match counts
-_ROLES: tuple[tuple[str, str], ...] = (
-    ("t", r"^(t|time|times|timestamp|elapsed|zeit|temps|tiempo|sec|seconds|clock)$|^(time|elapsed)\b|\btime$"),
-    ("temperature", r"\btemp(erature)?s?\b|\btherm|\btc\b"),
-    ("ag", r"\bag\b|\b(ground|base|table|input|shake)\b.*\bacc|\bacc\w*\b.*\b(ground|base|table|input)\b|\beq acc"),
-    ("a_floor", r"\ba floor\b|\bacc?\w*"),
-    ("force_ext", r"\bforce ext\b|\b(external|ext|applied|hammer|exciter|shaker)\b.*\b(force|load)|\bhammer\b"),
-    ("x_comp", r"\bx comp\b|\bcompensated\b|\bcomp\b"),
-    ("x_cmd", r"\bx cmd\b|\bx ?c\b|\b(cmd|command\w*|target|ref|reference|setpoint|set point|desired|qg|demand)\b"),
-    ("f_meas", r"\bf meas\b|\b(force|load|kraft|restoring|lc|loadcell|fmeas|f)\b"),
-    ("v_floor", rf"\bv floor\b|\b{_FLOOR}\b.*\bvel\w*|\bvel\w*\b.*\b{_FLOOR}\b"),
-    ("v_meas", r"\bv meas\b|\bvel\w*|\bspeed\b|\b(v|xdot|dx|qdot)\b"),
-    ("current", r"\bcurrent\w*|\bcurr\b|\bamp(s|ere\w*)?\b|\bi\b"),
-    ("drive", r"\bdrive\b|\bcontrol\w*|\bexcit\w*|\bvalve\b|\bservo\b|\binput\b|\bvoltage\b|\bu\b|\bvir\b"),
-    ("x_floor", rf"\bx floor\b|\b{_FLOOR}\b"),
-    ("x_meas", r"\bx meas\b|\b(disp\w*|position|pos|stroke|lvdt|travel|extension|weg|actuator|qm|x|d|y|q)\b"),
-)  # fmt: skip
-_WORDS = tuple((role, re.compile(pattern)) for role, pattern in _ROLES)
-_BY_UNIT = {
-    "time": "t",
-    "length": "x_meas",
-    "velocity": "v_meas",
-    "acceleration": "a_floor",
-    "force": "f_meas",
-    "current": "current",
-    "temperature": "temperature",
-    "voltage": "drive",
-}
+_BRACKETS = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)|\[([^\[\]]*)\]|\{([^{}]*)\}")
+_LONGEST_UNIT = 12  # characters of a bracket that is reported as an unknown unit; chosen, see docs/decisions/0023
+_NO_TAIL = re.compile(r"[-%\d]+|[cCFfkvaMThSJKn]", re.IGNORECASE)  # ends of names that are more often a letter of a channel
+_IS_TAIL = {"s", "m", "g", "N", "V", "A"}
+_NONE = Written("")
 
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """Role, number and unit in a name; empty or None where the name does not state them."""
+    """What a name states: role, number and unit; empty or None where it does not state them.
+
+    `written` is the unit as the file writes it, known or not. `by_name`: words of the name mean the role. `aside`: why the
+    column is not a measurement.
+    """
 
     role: str = ""
     number: int | None = None
     unit: str = ""
+    written: Written = field(default=_NONE, compare=False)
+    by_name: bool = field(default=False, compare=False)
+    aside: str = field(default="", compare=False)
+
+    @property
+    def scale(self) -> float:
+        """One unit of the column in `unit`: 0.05 for a column in `0.05 g`."""
+        return self.written.scale
 
 
-def written_unit(text: str) -> str:
-    """The unit of a measurement that the text names; empty where it names no such unit."""
-    found = unit_names.written_unit(text)
-    return found if found in UNITS else ""
+def read(name: str, unit: str = "", quantity: str = "") -> Named:
+    """Role, number and unit of the column `name`.
+
+    `unit` is its unit where the file states it separately, `quantity` the dimension where the format states it.
+    """
+    written, rest, certain = stated_unit(name, unit)
+    spoken, number = bare(rest)
+    roles = [role for role, pattern in words.ROLES if pattern.search(spoken)]
+    if not certain and written.unit and not _fits(written.dimension, roles):
+        written, rest = _NONE, name
+        spoken, number = bare(rest)
+        roles = [role for role, pattern in words.ROLES if pattern.search(spoken)]
+    kind = written.dimension or quantity
+    fitting = [role for role in roles if not kind or kind in ROLES[role].dimensions or (kind in RAW and role != "t")]
+    if not kind and (aside := _aside(spoken)):
+        return Named(written=written, aside="; ".join(part for part in (aside, written.problem) if part))
+    role = fitting[0] if fitting else _by_dimension(kind, roles)
+    if not role and kind == "mass":
+        role = next((one for one in roles if "force" in ROLES[one].dimensions), "")
+    aside = f"is in {written.unit}, a unit of {kind}: no role is a {kind}" if kind and not role else ""
+    return Named(role, number if role and ROLES[role].counts else None, _usable(written, role), written, bool(fitting), aside)
 
 
-def read(name: str, unit: str = "") -> Named:
-    """Role, number and unit of the column `name`; `unit` is its unit where the file states it separately."""
-    found, rest = _split_unit(name)
-    unit = written_unit(unit) or found
-    words, number = _words(rest if unit else name)
-    roles = [role for role, pattern in _WORDS if pattern.search(words)]
-    if unit:
-        kind = dimension(unit)
-        fitting = [role for role in roles if kind in ROLES[role].dimensions]
-        of_other = [
-            role for role in roles if kind == "voltage" and role != "t"
-        ]  # a quantity measured in volts: its gain is missing
-        if fitting or of_other:
-            role = (fitting or of_other)[0]
-        else:
-            on_floor = "x_floor" in roles or "v_floor" in roles
-            by_unit = {"length": "x_floor", "velocity": "v_floor"} if on_floor else {}
-            role = by_unit.get(kind) or _BY_UNIT.get(kind, "")
-    else:
-        role = roles[0] if roles else ""
-    return Named(role, number if role and ROLES[role].counts else None, unit)
+def stated_unit(name: str, unit: str = "") -> tuple[Written, str, bool]:
+    """The unit of a column, its name without the unit, and whether the text is certainly a unit.
 
-
-def _split_unit(name: str) -> tuple[str, str]:
-    """The unit in a name, `Force (kN)`, `force_kN`, `Disp, mm`, `v mm/s`, and the name without it."""
-    for match in re.finditer(r"[(\[{]([^()\[\]{}]*)[)\]}]", name):
-        if unit := written_unit(match[1]):
-            return unit, name[: match.start()] + " " + name[match.end() :]
+    The unit stands separately in the file, in brackets (`Force (kN)`), or at the end of the name (`force_kN`, `Disp, mm`,
+    `v mm/s`). A unit in brackets that is not known is returned with its problem.
+    """
+    name = words.AZIMUTH.sub(" ", name)
+    own = unit_names.read(unit)
+    unknown = _NONE
+    for match in _BRACKETS.finditer(name):
+        inside = next(text for text in match.groups() if text is not None)
+        found = unit_names.read(inside)
+        if found.unit and not re.fullmatch(r"[-\d]+", inside.strip()):
+            rest = name[: match.start()] + " " + name[match.end() :]
+            return (found if own.none else own), rest, True
+        if unknown.none and found.problem and len(inside) <= _LONGEST_UNIT and not re.fullmatch(r"[\d\s.,:;#-]+", inside):
+            unknown = found
+    if not own.none:
+        return own, name, True
     parts = re.split(r"[,_\s]+", name.strip())
     for count in (3, 2, 1):
-        if len(parts) > count and (unit := _tail(parts[-count:])):
-            return unit, " ".join(parts[:-count])
-    return "", name
+        if len(parts) > count and (tail := _tail(parts[-count:])).unit:
+            return tail, " ".join(parts[:-count]), False
+    return unknown, name, True
 
 
-def _tail(parts: list[str]) -> str:
-    """The unit at the end of a name: `[mm, s]` is mm/s, `[m, s2]` m/s^2. Letters that are also parts of names count by case."""
-    if len(parts) == 1:
-        return "" if parts[0] in {"c", "C", "F", "f", "k", "v", "a", "-", "1", "%", "M", "T"} else written_unit(parts[0])
-    if parts[-1].lower() in {"s2", "s^2"} or (len(parts) == 3 and parts[1:] == ["s", "2"]):
-        return written_unit(f"{parts[0]}/s^2")
-    return written_unit(f"{parts[0]}/s") if len(parts) == 2 and parts[-1].lower() in {"s", "sec"} else ""
-
-
-def _words(name: str) -> tuple[str, int | None]:
-    """The name in lower-case words, and its station or floor: `s2.x_cmd`, `Disp 2`, `floor1.x`, `x_meas.1`."""
-    spaced = re.sub(r"([a-z])([A-Z])", r"\1 \2", re.sub(r"[(\[{].*?[)\]}]", " ", name))
+def bare(name: str) -> tuple[str, int | None]:
+    """The name in lower-case words without accents, and its station or floor: `s2.x_cmd`, `Disp 2`, `floor1.x`, `x_meas.1`."""
+    plain = unicodedata.normalize("NFKD", name.replace("ß", "ss"))
+    plain = "".join(sign for sign in plain if not unicodedata.combining(sign))
+    spaced = re.sub(r"([a-z])([A-Z])", r"\1 \2", _BRACKETS.sub(" ", plain))
     spaced = re.sub(r"[^0-9A-Za-z]+", " ", spaced).strip()
     product = re.fullmatch(r"s(\d{1,3}) (.+)", spaced)
     if product:
@@ -110,3 +101,35 @@ def _words(name: str) -> tuple[str, int | None]:
     numbers = re.findall(r"\b\d{1,3}\b", apart)
     number = int(numbers[-1]) if numbers and 0 < int(numbers[-1]) < 1000 else None
     return re.sub(r"\s+", " ", re.sub(r"\b\d+\b", " ", apart)).strip().lower(), number
+
+
+def _fits(kind: str, roles: list[str]) -> bool:
+    """Whether the end of a name can be a unit of this dimension, beside the roles that the other words mean."""
+    if not roles:
+        return kind in words.BY_DIMENSION
+    return kind in RAW or any(kind in ROLES[role].dimensions for role in roles)
+
+
+def _by_dimension(kind: str, roles: list[str]) -> str:
+    on_floor = "x_floor" in roles or "v_floor" in roles
+    of_floor = {"length": "x_floor", "velocity": "v_floor"} if on_floor else {}
+    return of_floor.get(kind) or words.BY_DIMENSION.get(kind, "")
+
+
+def _usable(written: Written, role: str) -> str:
+    """The unit where the role takes it, with a gain if need be; empty for a mass, which is not a force."""
+    kind = written.dimension
+    return written.unit if role and (kind in ROLES[role].dimensions or kind in RAW) else ""
+
+
+def _aside(spoken: str) -> str:
+    return next((why for pattern, why in words.ASIDE if pattern.search(spoken)), "")
+
+
+def _tail(parts: list[str]) -> Written:
+    """The unit at the end of a name: `[mm, s]` is mm/s, `[m, s2]` m/s^2. Letters that are also parts of names count by case."""
+    if len(parts) == 1:
+        return _NONE if parts[0] not in _IS_TAIL and _NO_TAIL.fullmatch(parts[0]) else unit_names.read(parts[0])
+    if parts[-1].lower() in {"s2", "s^2"} or (len(parts) == 3 and parts[1:] == ["s", "2"]):
+        return unit_names.read(f"{parts[0]}/s^2")
+    return unit_names.read(f"{parts[0]}/s") if len(parts) == 2 and parts[-1].lower() in {"s", "sec"} else _NONE

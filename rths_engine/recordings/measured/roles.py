@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from rths_engine.foundation import units
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.unit_names import WITH_ZERO
+from rths_engine.foundation.units import dimension
 from rths_engine.results.channels import CHANNELS, key
 
-__all__ = ["ROLES", "SHOWN", "SI", "UNITS", "WITH_ZERO", "dimension", "key", "shown", "to_si"]
+__all__ = ["RAW", "ROLES", "SHOWN", "SI", "UNITS", "dimension", "key", "shown", "to_si", "units_of"]
 
 ROLES = {name: role for name, role in CHANNELS.items() if not role.derived}
 _ALSO = {units.UNITS[unit][0]: unit for role in ROLES.values() for unit in role.also}
@@ -16,17 +16,19 @@ _ALSO = {units.UNITS[unit][0]: unit for role in ROLES.values() for unit in role.
 SI = _ALSO | {role.dimensions[0]: role.unit for role in ROLES.values()}
 SHOWN = _ALSO | {role.dimensions[0]: role.shown for role in ROLES.values()}
 
-UNITS = (*(name for name, (dimension, _) in units.UNITS.items() if dimension in SI), *WITH_ZERO)
+RAW = ("voltage", "voltage ratio", "count")  # readings of a transducer before its calibration: a gain converts them
+_NO_ROLE = ("strain", "angle", "stress", "mass")  # measured quantities; a gain can convert them to a quantity of a role
+UNITS = tuple(unit for unit, (kind, _) in units.UNITS.items() if kind in {*SI, *RAW, *_NO_ROLE})
 
 
-def dimension(unit: str) -> str:
-    """Dimension of a unit of UNITS."""
-    return "temperature" if unit in WITH_ZERO else units.UNITS[unit][0]
+def units_of(role: str) -> tuple[str, ...]:
+    """The units that a column with this role can have, without a gain."""
+    return tuple(unit for kind in ROLES[role].dimensions for unit in units.of_dimension(kind) if unit in UNITS)
 
 
 def to_si(unit: str) -> tuple[float, float]:
     """Factor and zero of a unit: SI = factor * value + zero."""
-    return WITH_ZERO.get(unit) or (units.UNITS[unit][1], 0.0)
+    return units.factor(unit), units.zero(unit)
 
 
 def shown(values: Array, unit: str) -> tuple[Array, str]:

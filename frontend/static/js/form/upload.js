@@ -5,7 +5,7 @@ import { withinLimit } from "../limit.js";
 import { labelled } from "./field.js";
 import { previewOf } from "./preview.js";
 
-const UNITS = ["g", "m/s^2", "cm/s^2", "mm/s^2", "in/s^2"];
+const UNITS = ["g", "g/10", "mg", "m/s^2", "cm/s^2", "mm/s^2", "in/s^2", "ft/s^2"];
 
 const QUIET_MS = 400;
 

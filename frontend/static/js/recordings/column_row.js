@@ -3,12 +3,9 @@ import { el } from "../dom.js";
 import { number } from "../format.js";
 
 /**
- * @typedef {{name: string, unit: string, samples: number, missing: number, smallest: number | null, largest: number | null, mean: number | null}} Column
+ * @typedef {{name: string, unit: string, stated: string, samples: number, missing: number, smallest: number | null, largest: number | null, mean: number | null}} Column
  * @typedef {{roles: Record<string, {label: string, counts: string, dimensions: string[]}>, units: Record<string, string[]>}} Roles
  */
-
-/** Default units of the roles, for columns without a unit. @type {Record<string, string>} */
-const USUAL = { length: "mm", velocity: "mm/s", acceleration: "g", force: "kN", temperature: "degC" };
 
 /** One column of the file with its role, station or floor, unit, gain, offset and sign, the reason for the proposal and the problems. */
 export class ColumnRow {
@@ -49,7 +46,7 @@ export class ColumnRow {
     this.kept = kept;
     this.role.value = role;
     this.number.value = at ?? "";
-    this.#offerUnits(unit ?? this.column.unit);
+    this.#offerUnits(unit ?? "");
     this.gain.value = gain ?? "";
     this.offset.value = offset ? String(offset) : "";
     this.reverse.checked = Boolean(reverse);
@@ -88,11 +85,11 @@ export class ColumnRow {
     if (role && this.roles.roles[role].counts) this.number.value = String(free(role));
     this.why.textContent = role ? "your choice" : "";
     this.kept = {};
-    this.#offerUnits(this.unit.value || this.column.unit);
+    this.#offerUnits(this.unit.value || this.column.stated);
     this.#show();
   }
 
-  /** Offer the units that match the role first, then the units that need a gain. @param {string} wanted */
+  /** Offer the units that match the role first, then the units that need a gain; no unit is chosen for the person. @param {string} wanted */
   #offerUnits(wanted) {
     if (!this.role.value) return this.unit.replaceChildren();
     const { dimensions } = this.roles.roles[this.role.value];
@@ -100,11 +97,11 @@ export class ColumnRow {
     const others = Object.values(this.roles.units).flat().filter((unit) => !fitting.includes(unit));
     const options = (/** @type {string[]} */ units) => units.map((unit) => el("option", { value: unit }, unit));
     this.unit.replaceChildren(
+      el("option", { value: "" }, "choose the unit"),
       el("optgroup", { label: "units of this role" }, ...options(fitting)),
       el("optgroup", { label: "units that need a gain" }, ...options(others)),
     );
-    const kept = fitting.includes(wanted) || (others.includes(wanted) && (this.gain.value || ["V", "mV"].includes(wanted)));
-    this.unit.value = kept ? wanted : (USUAL[dimensions[0]] ?? fitting[0] ?? "");
+    this.unit.value = fitting.includes(wanted) || others.includes(wanted) ? wanted : "";
   }
 
   #show() {

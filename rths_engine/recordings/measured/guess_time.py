@@ -1,0 +1,72 @@
+"""The time column of a file: by name, else by equal steps; a sample number is never time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured.guess_progress import MARK, Progress
+from rths_engine.recordings.measured.roles import to_si
+
+# chosen; see docs/decisions/0023
+_AGREES = 1e-3  # between the step of the column and the step that the file states
+
+
+def choose(progress: Progress) -> None:
+    """Take one time column, and leave out further time columns and sample numbers."""
+    for column in progress.table.columns:
+        said = progress.said.get(column.name)
+        timed = said is not None and not said.unit and (said.role == "t" or not said.role)
+        if timed and column.name not in progress.left and counts(column.values):
+            first = ", ".join(f"{value:.0f}" for value in column.values[:3])
+            progress.taken.pop(column.name, None)
+            progress.left[column.name] = f"counts {first} ...: a sample number, not a time with a unit"
+    called = progress.of("t")
+    rising = [name for name in called if _rises(progress.table.names[name].values)]
+    for name in called:
+        if name != (rising or called)[0]:
+            progress.left[name] = "a second time column"
+    if not called and len(progress.table.columns) > 1:
+        found = next((one for one in progress.unclear() if _rises(one.values, equally=True)), None)
+        if found is not None:
+            progress.take(found.name, "t", f"{MARK}: increases by equal steps")
+            called = [found.name]
+    if called:
+        _steps(progress, (rising or called)[0])
+    else:
+        progress.step = progress.seconds = next((one.dt for one in progress.table.columns if one.dt), 0.0)
+
+
+def unit_of(progress: Progress, name: str) -> tuple[str, str]:
+    """The unit of a time column by the rate that the file states, and why; else empty, with the rates of s and ms."""
+    stated = progress.table.names[name].dt
+    if progress.step <= 0:
+        return "", "the file states no unit of time: choose it"
+    rates = {unit: 1 / (progress.step * to_si(unit)[0]) for unit in ("s", "ms")}
+    for unit, rate in rates.items():
+        if stated and abs(rate * stated - 1) < _AGREES:
+            return unit, f"in {unit} it has the rate of {rate:.6g} Hz that the file states"
+    offered = ", ".join(f"{unit} would give {rate:.6g} Hz" for unit, rate in rates.items())
+    return "", f"the file states no unit of time: choose it; {offered}"
+
+
+def counts(values: Array) -> bool:
+    """Whether the values are whole numbers that increase by one, from 0 or 1."""
+    return len(values) > 2 and values[0] in (0, 1) and bool((np.diff(values) == 1).all())
+
+
+def _steps(progress: Progress, name: str) -> None:
+    times, taken = progress.table.names[name].values, progress.taken[name]
+    steps = np.diff(times[np.isfinite(times)])
+    progress.step = float(np.median(steps)) if len(steps) else 0.0
+    progress.seconds = progress.step * taken.scale * to_si(taken.unit)[0] if taken.unit else 0.0
+    for column in progress.table.columns:
+        if len(column.values) != len(times) and column.dt is None and column.name not in progress.left:
+            progress.left[column.name] = f"has {len(column.values)} samples, the time {len(times)}"
+
+
+def _rises(values: Array, equally: bool = False) -> bool:
+    steps = np.diff(values)
+    if len(steps) < 2 or not np.isfinite(steps).all() or (steps <= 0).any():
+        return False
+    return not equally or float(np.ptp(steps)) < 0.5 * float(np.median(steps))
