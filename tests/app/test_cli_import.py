@@ -10,7 +10,7 @@ import pytest
 
 from app.cli.main import main
 from rths_engine.recordings import measured, opening
-from tests.engine.measurements import COLUMNS, F, csv
+from tests.engine.measurements import COLUMNS, F, csv, text
 
 
 @pytest.fixture
@@ -30,6 +30,33 @@ def test_the_proposed_mapping_imports_its_file(folder: Path, capsys: pytest.Capt
     np.testing.assert_allclose(found.get("f_meas", 1), 1e3 * F, rtol=1e-8, atol=1e-4)  # nine digits were written
     assert found.source == str(folder / "sine.csv")
     assert found.source_sha256 == hashlib.sha256(csv()).hexdigest()
+
+
+def test_a_proposal_with_an_unstated_unit_is_refused_until_the_unit_is_chosen(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "bare.csv").write_bytes(text(head=("t (s),disp (mm),vel (mm/s),Kraft",)))
+    assert main(["import", "bare.csv", "--guess"]) == 0
+    proposed = capsys.readouterr().out
+    assert "unit: ''" in proposed and "a guess by its name alone; the file states no unit: choose it; kN would fit" in proposed
+    (folder / "map.yaml").write_text(proposed, encoding="utf-8")
+    assert main(["import", "bare.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 2
+    told = capsys.readouterr().err
+    assert "mapping.channels.3.unit: the unit of column 'Kraft' is not stated: choose the unit" in told
+    assert "choose one of N, kN, MN, mN, daN, kgf, tf, tonf(US), lb, lbf, kip" in told
+    (folder / "map.yaml").write_text(proposed.replace("unit: ''", "unit: kN"), encoding="utf-8")
+    assert main(["import", "bare.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0
+
+
+def test_the_programs_own_recording_needs_no_unit_and_no_step(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "map.yaml").write_text(_mapping(), encoding="utf-8")
+    assert main(["import", "sine.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0
+    capsys.readouterr()
+    assert main(["import", "rec.h5", "--guess"]) == 0
+    (folder / "again.yaml").write_text(capsys.readouterr().out, encoding="utf-8")
+    assert main(["import", "rec.h5", "--map", "again.yaml", "--out", "again.h5"]) == 0
+    found = opening.load(folder / "again.h5")
+    np.testing.assert_array_equal(found.get("f_meas", 1), opening.load(folder / "rec.h5").get("f_meas", 1))
 
 
 def test_warnings_are_told_and_kept(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -246,6 +246,14 @@ def test_a_time_without_a_unit_is_asked_for_with_the_rates_that_s_and_ms_would_g
     assert found.mapping.channels[0].unit == "ms" and "the rate of 200 Hz that the file states" in found.reasons["Time"]
 
 
+def test_units_that_the_file_states_for_quantities_are_used_where_they_agree() -> None:
+    columns = (Column("time", T), Column("disp", X), Column("force", V))
+    hints = {"displacement": "in", "time": "s", "friction force": "kip", "actuator force": "lb"}
+    found = guess(Table("test", columns, hints=hints))
+    assert [one.unit for one in found.mapping.channels] == ["s", "in", ""]
+    assert "the file gives kip for friction force, lb for actuator force: choose it" in found.reasons["force"]
+
+
 def test_a_velocity_without_a_unit_names_the_unit_of_the_derivative() -> None:
     found = guess(Table("test", (Column("t (s)", T), Column("disp (mm)", X), Column("vel", V))))
     assert found.mapping.measurements[1].unit == "" and "mm/s would fit" in found.reasons["vel"]

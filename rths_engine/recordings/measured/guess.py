@@ -101,13 +101,12 @@ def _unit(progress: Progress, column: Column, one: Taken) -> str:
     if one.written.dimension == "mass":
         return f"{one.written.unit} is a unit of mass: choose the unit of force, such as {_WEIGHT[one.written.unit]}"
     if one.role == "t":
-        one.unit, why = guess_time.unit_of(progress, column.name)
-        return why
+        return ""  # guess_time has said it
     one.unit, why = by_hint("voltage" if one.role == "drive" else kind, progress.table.hints)
     if not one.unit:
         fits = "V would fit, as for most drives" if one.role == "drive" else _derived(progress, column, one)
         fits = fits or fitting(kind, column.values)
-        why = f"the file states no unit: choose it{fits and f'; {fits}'}"
+        why = f"{why or 'the file states no unit'}: choose it{fits and f'; {fits}'}"
     return why
 
 
@@ -119,7 +118,7 @@ def _derived(progress: Progress, column: Column, one: Taken) -> str:
     if not unit or dimension(unit) != "length" or len(values) != len(column.values):
         return ""
     found = derivative_unit(values * progress.taken[x].scale, unit, column.values, progress.seconds)
-    return f"{found} would fit: in {found} it is the derivative of column {x}" if found else ""
+    return f"{found} would fit: it is then the derivative of column {x}" if found else ""
 
 
 def _test(channels: list[ColumnMap]) -> str | None:

@@ -6,6 +6,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.guess_progress import MARK, Progress
+from rths_engine.recordings.measured.guess_units import by_hint
 from rths_engine.recordings.measured.roles import to_si
 
 # chosen; see docs/decisions/0023
@@ -39,6 +40,9 @@ def choose(progress: Progress) -> None:
 
 def unit_of(progress: Progress, name: str) -> tuple[str, str]:
     """The unit of a time column by the rate that the file states, and why; else empty, with the rates of s and ms."""
+    unit, why = by_hint("time", progress.table.hints)
+    if unit:
+        return unit, why
     stated = progress.table.names[name].dt
     if progress.step <= 0:
         return "", "the file states no unit of time: choose it"
@@ -59,6 +63,9 @@ def _steps(progress: Progress, name: str) -> None:
     times, taken = progress.table.names[name].values, progress.taken[name]
     steps = np.diff(times[np.isfinite(times)])
     progress.step = float(np.median(steps)) if len(steps) else 0.0
+    if not taken.unit and not taken.written.problem:
+        taken.unit, why = unit_of(progress, name)
+        taken.why = f"{taken.why}; {why}"
     progress.seconds = progress.step * taken.scale * to_si(taken.unit)[0] if taken.unit else 0.0
     for column in progress.table.columns:
         if len(column.values) != len(times) and column.dt is None and column.name not in progress.left:

@@ -28,13 +28,11 @@ _MAGNITUDES: dict[str, tuple[tuple[float, str], ...]] = {
 
 
 def by_hint(kind: str, hints: Mapping[str, str]) -> tuple[str, str]:
-    """The unit that the file states for a quantity of this dimension, and the reason; empty where it states none or several."""
+    """The unit that the file states for a quantity of this dimension, and what it states; no unit where it states several."""
     found = {what: written for what, text in hints.items() if (written := unit_names.read(text)).dimension == kind}
+    said = "the file gives " + ", ".join(f"{written.text} for {what}" for what, written in found.items()) if found else ""
     stated = {written.plain for written in found.values()}
-    if len(stated) != 1 or "" in stated:
-        return "", ""
-    unit = stated.pop()
-    return unit, f"the file gives {unit} for {next(iter(found))}"
+    return (stated.pop() if len(stated) == 1 else ""), said
 
 
 def derivative_unit(x: Array, x_unit: str, v: Array, dt: float) -> str:
