@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rths_engine.formats import apart, recognised
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import hdf5, lvm, matlab, parquet
+from rths_engine.formats.laboratory import hdf5, lvm, matlab, mts, parquet
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import at2, cosmos
@@ -17,6 +17,7 @@ FORMATS: tuple[Format, ...] = (
     matlab.FORMAT,
     json_file.FORMAT,
     lvm.FORMAT,
+    mts.FORMAT,
     cosmos.FORMAT,
     at2.FORMAT,
 )
