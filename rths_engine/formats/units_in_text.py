@@ -14,39 +14,41 @@ _CHOICES = "choose one of " + ", ".join(ACCELERATION_UNITS)
 _PER_SECOND_SQUARED = (
     r"(?:\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*(?:2|²)|\s*/\s*s(?:ec)?\s*/\s*s(?:ec)?|\s*\.?\s*s(?:\^|\*\*)?\s*[-⁻−]\s*[2²])"
 )
-_FACTOR = r"(?:(?:\d+\.?\d*|\.\d+)?(?:e[-+]?\d+|\s*[*x]?\s*10\s*(?:\^|\*\*)?\s*[-+]?\d+)?\s*[*x]?\s*)"
+_POWER = r"(?:(?:1e[-+]?\d+|[x*]?\s*10\s*(?:\^|\*\*)?\s*[-+]\d+|10\s*(?:\^|\*\*)\s*\d+)\s*[*x]?\s*)"
+_FACTOR = rf"(?:{_POWER}|(?:\d+\.?\d*|\.\d+)\s*[*x]?\s*)"
 _LENGTHS = r"(?:[cm]?m|in|ft)"
 _PHRASES = (
     re.compile(rf"(?<![a-z])({_LENGTHS}{_PER_SECOND_SQUARED})(?![a-z])", re.IGNORECASE),
     re.compile(r"(?<![a-z])(gals?)(?![a-z])", re.IGNORECASE),
-    re.compile(rf"[(\[]\s*({_FACTOR}m?g(?:'s)?(?:\s*/\s*10+)?)\s*[)\]]", re.IGNORECASE),
+    re.compile(rf"[(\[]\s*({_POWER}?m?g(?:'s)?(?:\s*/\s*10+)?)\s*[)\]]", re.IGNORECASE),
     re.compile(
-        rf"\b(?:units?\s*(?:of|in|are|is|[:=]|\s)*|in\s+(?:units?\s+of\s+)?)({_FACTOR}m?g(?:'s)?(?:\s*/\s*10+)?)(?![\w/%])",
+        rf"\b(?:units?\s*(?:of|in|are|is|[:=]|\s)*|in\s+(?:units?\s+of\s+)?)({_FACTOR}?m?g(?:'s)?(?:\s*/\s*10+)?)(?![\w/%])",
         re.IGNORECASE,
     ),
 )
 
 
 def acceleration_in(text: str) -> Written:
-    """The unit of acceleration in a sentence. It states none where the text names none, or several different units."""
-    found: dict[float | str, Written] = {}
+    """The unit of acceleration in a sentence. It states none where the text names none, or several different units.
+
+    `(0.35 g)` is a value, not a unit; `in 0.1 g` and `(10^-3 g)` are units. A text such as `(MG)`, which has several meanings,
+    can be the code of a station, and states no unit.
+    """
+    found: dict[float, Written] = {}
     for pattern in _PHRASES:
         for match in pattern.finditer(text):
             written = unit_names.read(match[1])
-            if written.none or (written.unit and written.dimension != "acceleration"):
-                continue
-            found.setdefault(written.scale * units.factor(written.unit) if written.unit else written.text, written)
+            if written.dimension == "acceleration":
+                found.setdefault(written.scale * units.factor(written.unit), written)
     return next(iter(found.values())) if len(found) == 1 else Written("")
 
 
 def unit_in(text: str) -> str | None:
     """The acceleration unit that `text` names; None where it names no unit or several units.
 
-    Raises FileError where the unit in the text is not known, or is scaled by a number that no unit of the table has.
+    Raises FileError where the unit is scaled by a number that no unit of the table has.
     """
     found = acceleration_in(text)
-    if found.problem:
-        raise FileError(Issue("unit", found.problem, found.text, _CHOICES))
     if found.unit and not found.plain:
         fix = f"multiply the values by {found.scale:g} and state {found.unit} in the header"
         raise FileError(Issue("unit", f"values in {found.scale:g} of {found.unit} cannot be read", found.text, fix))
