@@ -81,6 +81,7 @@ UNITS: dict[str, tuple[str, float]] = {
     "psi": ("stress", POUND_FORCE / INCH**2),
     "ksi": ("stress", KIP / INCH**2),
     "J": ("energy", 1.0),
+    "N*m": ("energy", 1.0),
     "kN*m": ("energy", 1e3),
     "kNm": ("energy", 1e3),
     "m^2": ("area", 1.0),

@@ -152,6 +152,10 @@ def test_a_file_without_any_time_says_what_is_missing() -> None:
         ("Geschwindigkeit (mm/s)", "v_meas", "mm/s"),
         ("Beschleunigung", "a_floor", ""),
         ("Dehnung", "", ""),
+        ("Kraft Sollwert (kN)", "", ""),
+        ("MX840 CH 6 [V]", "", ""),
+        ("Force (column 11)", "f_meas", ""),
+        ("Torque (N·m)", "", ""),
         ("Spannung", "", ""),
         ("Spannung [MPa]", "", ""),
         ("Spannung [V]", "drive", "V"),
@@ -271,6 +275,8 @@ def test_u_beside_the_columns_of_a_recorder_is_a_displacement() -> None:
     named = ("U", "Udot", "Pr", "Um")
     found = guess(Table("test", (Column("t (s)", T), *(Column(name, X) for name in named))))
     assert [one.role for one in found.mapping.measurements] == ["x_cmd", "v_meas", "f_meas", "x_meas"]
+    found = guess(Table("test", (Column("t (s)", T), *(Column(f"Response/{name}", X) for name in named))))
+    assert [one.role for one in found.mapping.measurements] == ["x_cmd", "v_meas", "f_meas", "x_meas"]
     found = guess(Table("test", (Column("t (s)", T), Column("U", X))))
     assert [one.role for one in found.mapping.measurements] == ["drive"]
 
@@ -278,7 +284,7 @@ def test_u_beside_the_columns_of_a_recorder_is_a_displacement() -> None:
 def test_a_strain_or_a_cycle_count_is_left_out_with_the_reason() -> None:
     columns = (Column("disp (mm)", X), Column("Gauge", X, "µε"), Column("N_cycles", X), Column("Gauge 2", X, "µstr"))
     found = guess(Table("test", (Column("t (s)", T), *columns)))
-    assert found.left_out["Gauge"] == "is in um/m, a unit of strain: no role is a strain"
+    assert found.left_out["Gauge"] == "is in um/m, a unit of strain, which is the quantity of no role"
     assert "counts cycles" in found.left_out["N_cycles"]
     assert "the unit 'µstr' is not known" in found.left_out["Gauge 2"]
 

@@ -30,7 +30,7 @@ def by_name(progress: Progress) -> None:
 
 def of_recorders(progress: Progress) -> None:
     """Take the column U beside Udot, Pr or Um for the command or the displacement of a recorder."""
-    spoken = {name: names.bare(name)[0] for name in progress.taken}
+    spoken = {name: names.bare(name)[0].rpartition(" ")[2] for name in progress.taken}
     beside = _RECORDERS & set(spoken.values())
     for name, word in spoken.items():
         if word == "u" and beside and progress.said[name].written.dimension in ("", "length"):

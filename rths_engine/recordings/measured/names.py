@@ -13,6 +13,7 @@ from rths_engine.recordings.measured.roles import RAW, ROLES
 
 _BRACKETS = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)|\[([^\[\]]*)\]|\{([^{}]*)\}")
 _LONGEST_UNIT = 12  # characters of a bracket that is reported as an unknown unit; chosen, see docs/decisions/0023
+_NO_UNIT = re.compile(r"[\d\s.,:;#-]+|column \d+")  # numbers in brackets, and the number by which equal names are told apart
 _NO_TAIL = re.compile(r"[-%\d]+|[cCFfkvaMThSJKn]", re.IGNORECASE)  # ends of names that are more often a letter of a channel
 _IS_TAIL = {"s", "m", "g", "N", "V", "A"}
 _NONE = Written("")
@@ -53,12 +54,14 @@ def read(name: str, unit: str = "", quantity: str = "") -> Named:
         roles = [role for role, pattern in words.ROLES if pattern.search(spoken)]
     kind = written.dimension or quantity
     fitting = [role for role in roles if not kind or kind in ROLES[role].dimensions or (kind in RAW and role != "t")]
+    if kind == "force" and roles and roles[0] in ("x_cmd", "x_comp"):
+        return Named(written=written, aside="is the command of a force by its name: no role is a commanded force")
     if not kind and (aside := _aside(spoken)):
         return Named(written=written, aside="; ".join(part for part in (aside, written.problem) if part))
     role = fitting[0] if fitting else _by_dimension(kind, roles)
     if not role and kind == "mass":
         role = next((one for one in roles if "force" in ROLES[one].dimensions), "")
-    aside = f"is in {written.unit}, a unit of {kind}: no role is a {kind}" if kind and not role else ""
+    aside = "" if role or not kind else _without_role(written.unit, kind)
     return Named(role, number if role and ROLES[role].counts else None, _usable(written, role), written, bool(fitting), aside)
 
 
@@ -74,10 +77,10 @@ def stated_unit(name: str, unit: str = "") -> tuple[Written, str, bool]:
     for match in _BRACKETS.finditer(name):
         inside = next(text for text in match.groups() if text is not None)
         found = unit_names.read(inside)
-        if found.unit and not re.fullmatch(r"[-\d]+", inside.strip()):
+        if found.unit and not _NO_UNIT.fullmatch(inside):
             rest = name[: match.start()] + " " + name[match.end() :]
             return (found if own.none else own), rest, True
-        if unknown.none and found.problem and len(inside) <= _LONGEST_UNIT and not re.fullmatch(r"[\d\s.,:;#-]+", inside):
+        if unknown.none and found.problem and len(inside) <= _LONGEST_UNIT and not _NO_UNIT.fullmatch(inside):
             unknown = found
     if not own.none:
         return own, name, True
@@ -106,7 +109,7 @@ def bare(name: str) -> tuple[str, int | None]:
 def _fits(kind: str, roles: list[str]) -> bool:
     """Whether the end of a name can be a unit of this dimension, beside the roles that the other words mean."""
     if not roles:
-        return kind in words.BY_DIMENSION
+        return kind in words.BY_DIMENSION or kind == "voltage"
     return kind in RAW or any(kind in ROLES[role].dimensions for role in roles)
 
 
@@ -120,6 +123,12 @@ def _usable(written: Written, role: str) -> str:
     """The unit where the role takes it, with a gain if need be; empty for a mass, which is not a force."""
     kind = written.dimension
     return written.unit if role and (kind in ROLES[role].dimensions or kind in RAW) else ""
+
+
+def _without_role(unit: str, kind: str) -> str:
+    if kind in RAW:
+        return f"is in {unit}, and its name does not say what it measures: give it a role and a gain"
+    return f"is in {unit}, a unit of {kind}, which is the quantity of no role"
 
 
 def _aside(spoken: str) -> str:

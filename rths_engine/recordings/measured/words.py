@@ -48,7 +48,10 @@ ROLES: tuple[tuple[str, re.Pattern[str]], ...] = tuple(
         ("v_floor", rf"\bv floor\b|\b{FLOOR}\b.*\b{_VELOCITY}\b|\b{_VELOCITY}\b.*\b{FLOOR}\b"),
         ("v_meas", rf"\bv meas\b|\b{_VELOCITY}\b|\b(v|xdot|udot|dx|qdot)\b"),
         ("current", r"\bcurrent\w*|\bcurr\b|\bamp(s|ere\w*)?\b|\bi\b|\b(strom|courant|corriente|corrente)\b"),
-        ("drive", r"\bdrive\b|\bcontrol\w*|\bexcit\w*|\bvalve\b|\bservo\b|\binput\b|\bvoltage\b|\bu\b|\bvir\b"),
+        (
+            "drive",
+            r"\bdrive\b|\bcontrol\w*|\bexcit\w*|\bvalve\b|\bservo\b|\binput\b|\b(voltage|spannung|tension)\b|\bu\b|\bvir\b",
+        ),
         ("x_floor", rf"\bx floor\b|\b{FLOOR}\b"),
         ("x_meas", rf"\bx meas\b|\b{_DISPLACEMENT}\b|\b(ist\w*|actuator|qm|um|x|d|y|q)\b"),
     )
@@ -62,7 +65,6 @@ BY_DIMENSION = {
     "force": "f_meas",
     "current": "current",
     "temperature": "temperature",
-    "voltage": "drive",
 }
 
 # words of columns that no unit explains and that are no measurement, with the reason
