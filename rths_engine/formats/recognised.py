@@ -12,11 +12,19 @@ _SIGNATURES = (
     (b"PK\x03\x04", "is a ZIP archive", "import its files, or unpack it first"),
     (b"\xd0\xcf\x11\xe0", "is an old Office document (OLE), such as .xls", "save it as .xlsx or CSV"),
 )
+# first bytes of text, likewise
+_TEXTS = (
+    (
+        b"Response and Fourier amplitude spectra",
+        "contains response spectra (CSMIP volume 3), not a record",
+        "give the corrected record (volume 2, .V2)",
+    ),
+)
 
 
 def rows() -> list[tuple[str, str]]:
     """What each such file is, and how to get its numbers."""
-    return [(problem, fix) for _, problem, fix in _SIGNATURES]
+    return [(problem, fix) for _, problem, fix in (*_SIGNATURES, *_TEXTS)]
 
 
 def refuse(source: Source) -> None:
@@ -25,3 +33,6 @@ def refuse(source: Source) -> None:
         if source.head.startswith(signature):
             told = f"{problem}, which is binary and not read here"
             raise FileError(Issue("file", told, fix=f"{fix}, or give the record as text"))
+    for signature, problem, fix in _TEXTS:
+        if source.head.lstrip().startswith(signature):
+            raise FileError(Issue("file", problem, fix=fix))

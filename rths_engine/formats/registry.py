@@ -7,7 +7,7 @@ from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import hdf5, lvm, matlab, mts, parquet
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
-from rths_engine.formats.strong_motion import at2, cosmos
+from rths_engine.formats.strong_motion import at2, cosmos, csmip, csmip_raw, smc
 from rths_engine.formats.table import Table, checked
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -19,6 +19,9 @@ FORMATS: tuple[Format, ...] = (
     lvm.FORMAT,
     mts.FORMAT,
     cosmos.FORMAT,
+    csmip.FORMAT,
+    csmip_raw.FORMAT,
+    smc.FORMAT,
     at2.FORMAT,
 )
 COLUMNS, RECORD = columns.FORMAT, record.FORMAT  # text of no known format: rows of a table, or samples of one record

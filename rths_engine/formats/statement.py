@@ -83,3 +83,9 @@ def peak_time(stated: Written, values: Array, dt: float, start: float = 0.0, of:
     times = start + np.flatnonzero(size >= np.max(size) * (1 - 1e-9)) * dt
     read = float(times[np.argmin(np.abs(times - stated.value))])
     return Statement(f"time of the peak{of and f' of {of}'}", stated.where, stated.value, read, "s", stated.within + dt)
+
+
+def duration(stated: Written, samples: int, dt: float, of: str = "") -> Statement:
+    """The duration (s) of a header: `samples` * dt, or (`samples` - 1) * dt as some networks count it; within half a step."""
+    read = min((samples * dt, (samples - 1) * dt), key=lambda one: abs(one - stated.value))
+    return Statement(f"duration{of and f' of {of}'}", stated.where, stated.value, read, "s", stated.within + dt / 2)

@@ -18,8 +18,12 @@ LEAST_PGA, LARGEST_PGA = 0.001, 5.0  # g
 _SAME_STEP = 1e-3
 
 
-def checked(column: Column, unit: str | None, dt: float | None) -> tuple[Array, float]:
-    """Acceleration (m/s^2) and step (s); a given `unit` overrides that of the file. Raises MotionError with every issue."""
+def checked(column: Column, unit: str | None, dt: float | None, peak_agrees: bool = False) -> tuple[Array, float]:
+    """Acceleration (m/s^2) and step (s). Raises MotionError with every issue.
+
+    A given `unit` or `dt` is used where the file states none, and must not contradict the file. `peak_agrees`: the header
+    states the peak that was read.
+    """
     issues: list[Issue] = []
     chosen_unit, step = _unit(column, unit, issues), _step(column, dt, issues)
     count = len(column.values)
@@ -34,20 +38,30 @@ def checked(column: Column, unit: str | None, dt: float | None) -> tuple[Array, 
     if issues or chosen_unit is None or step is None:
         raise MotionError(issues)
     acceleration: Array = column.values * units.factor(chosen_unit)
-    _check_peak(acceleration, chosen_unit)
+    _check_peak(acceleration, chosen_unit, stated=bool(column.unit and column.quantity), peak_agrees=peak_agrees)
     return acceleration, step
 
 
 def _unit(column: Column, unit: str | None, issues: list[Issue]) -> str | None:
-    if unit:
-        try:
-            return checked_unit(unit)
-        except FileError as error:
-            issues += error.issues
-    elif not column.unit:
-        fix = "choose one of " + ", ".join(ACCELERATION_UNITS)
-        issues.append(Issue("unit", "the file does not state its unit of acceleration", fix=fix))
-    return column.unit
+    known = ", ".join(ACCELERATION_UNITS)
+    try:
+        given = checked_unit(unit) if unit else None
+    except FileError as error:
+        issues += error.issues
+        return None
+    if not column.unit:
+        if given is None:
+            issues.append(Issue("unit", "the file does not state its unit of acceleration", fix=f"choose one of {known}"))
+        return given
+    try:
+        stated = checked_unit(column.unit)
+    except FileError:
+        problem = "the file states a unit that is not a unit of acceleration"
+        issues.append(Issue("unit", problem, column.unit, f"give the record in one of {known}"))
+        return None
+    if given and units.factor(given) != units.factor(stated):
+        issues.append(Issue("unit", f"the file states {stated}", given, "leave the unit empty, or correct the file"))
+    return stated
 
 
 def _step(column: Column, dt: float | None, issues: list[Issue]) -> float | None:
@@ -61,9 +75,14 @@ def _step(column: Column, dt: float | None, issues: list[Issue]) -> float | None
     return step
 
 
-def _check_peak(acceleration: Array, unit: str) -> None:
+def _check_peak(acceleration: Array, unit: str, stated: bool, peak_agrees: bool) -> None:
+    """Raises MotionError for a record of zeros, and for a peak that points to a wrong unit.
+
+    A peak that the header states too is right at any size. Where the format states quantity and unit, a small peak is an
+    aftershock or a far station.
+    """
     pga = float(np.max(np.abs(acceleration))) / STANDARD_GRAVITY
-    if LEAST_PGA <= pga <= LARGEST_PGA:
+    if pga > 0 and (peak_agrees or (0 if stated else LEAST_PGA) <= pga <= LARGEST_PGA):
         return
     problem = f"given as {unit} the record peaks at {pga:.3g} g, outside {LEAST_PGA} to {LARGEST_PGA:g} g"
     if pga == 0:

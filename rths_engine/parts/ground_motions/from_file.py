@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import PurePath
 
+import numpy as np
+
 from rths_engine.formats import registry
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column, Table
@@ -13,6 +15,8 @@ from rths_engine.foundation.errors import FileError, Issue, MotionError
 from rths_engine.parts.ground_motions.checks import checked
 from rths_engine.parts.ground_motions.record import Motion, slug
 
+_PEAKS = ("peak", "maximum", "minimum")  # as statements call them
+_ROUNDING = 1e-9  # of the peak, one number converted twice; chosen, see docs/decisions/0023
 _LARGEST_FILE = 100_000_000  # bytes: ten channels of a million samples; chosen, see docs/decisions/0023
 
 
@@ -44,7 +48,7 @@ def read(
     table = _table(raw, filename, format)
     offered = _channels(table)
     chosen = _chosen(offered, channel)
-    acceleration, step = checked(chosen.column, unit, dt)
+    acceleration, step = checked(chosen.column, unit, dt, _peak_agrees(table, chosen.column))
     file = filename.replace("\\", "/").rsplit("/", 1)[-1]
     which = f", channel {chosen.number} of {len(offered)}" if len(offered) > 1 else ""
     component = chosen.name if table.named else ""
@@ -88,6 +92,13 @@ def _channels(table: Table) -> tuple[Channel, ...]:
         names = "; ".join(f"{one.name} ({one.quantity or one.unit})" for one in table.columns)
         raise MotionError(Issue("file", "has no channel of acceleration", names, "give the acceleration record"))
     return tuple(Channel(number, column) for number, column in enumerate(possible, start=1))
+
+
+def _peak_agrees(table: Table, column: Column) -> bool:
+    """Whether the header states the peak of the column; a statement that does not agree has refused the file before."""
+    pga = float(np.max(np.abs(column.values), initial=0.0))
+    stated = (abs(one.read) for one in table.statements if one.what.startswith(_PEAKS))
+    return any(abs(one - pga) <= _ROUNDING * pga for one in stated)
 
 
 def _can_be_acceleration(unit: str) -> bool:
