@@ -41,8 +41,8 @@ def csmip(*scales: float) -> str:
     return text
 
 
-def cosmos(form: str = "(8f10.5)", dt: str = f"{DT:10.5f}") -> str:
-    reals = [f"{-999:10.1f}"] * 33 + [dt] + [f"{-999:10.1f}"] * 66
+def cosmos(form: str = "(8f10.5)", dt: str = f"{DT * 1000:10.5f}") -> str:
+    reals = [f"{-999:10.1f}"] * 61 + [dt] + [f"{-999:10.1f}"] * 38
     per_line, width, digits = {"(8f10.5)": (8, 10, 5), "(10F8.3)": (10, 8, 3), "(1E15.6)": (1, 15, 6)}[form]
     letter = "E" if "E" in form else "f"
     block = rows(SI * 100, per_line, f"%{width}.{digits}{letter}")
@@ -110,16 +110,16 @@ def test_csmip_v2_gives_each_channel_by_its_number() -> None:
     first, third = read(raw, "a.v2", channel=1), read(raw, "a.v2", channel=3)
     np.testing.assert_allclose(first.acceleration, SI, atol=0.51e-5)  # written to 0.001 cm/s^2
     np.testing.assert_allclose(third.acceleration, 2 * SI, atol=0.51e-5)
-    assert (first.dt, first.component, third.component) == (DT, "90 Deg", "270 Deg")
-    assert channels(raw, "a.v2") == ("90 Deg", "180 Deg", "270 Deg")
-    raises(raw, "channel = 4", "3 channels", "2: 180 Deg", channel=4)
+    assert (first.dt, first.component, third.component) == (DT, "24278 90 deg", "24278 270 deg")
+    assert channels(raw, "a.v2") == ("24278 90 deg", "24278 180 deg", "24278 270 deg")
+    raises(raw, "channel = 4", "3 channels", "2: 24278 180 deg", channel=4)
 
 
 @pytest.mark.parametrize(("form", "written_to"), [("(8f10.5)", 1e-5), ("(10F8.3)", 1e-3), ("(1E15.6)", 1e-4)])
 def test_cosmos_v2_takes_step_unit_and_columns_from_its_headers(form: str, written_to: float) -> None:
     motion = read(cosmos(form).encode(), "CE47380.V2")
     np.testing.assert_allclose(motion.acceleration, SI, atol=0.51e-2 * written_to)
-    assert (motion.dt, motion.component, motion.station) == (DT, "90 deg", "Petaluma;FS 2")
+    assert (motion.dt, motion.component, motion.station) == (DT, "NP-1743 90 deg", "Petaluma;FS 2")
 
 
 def test_cosmos_v2_without_a_step_asks_for_it() -> None:
@@ -189,9 +189,28 @@ def test_units_are_recognised_as_headers_write_them(written: str) -> None:
     np.testing.assert_allclose(motion.acceleration, SI, atol=1e-6)
 
 
-def test_a_given_unit_overrides_the_header_and_another_step_than_the_files_is_refused() -> None:
-    assert read(at2(values=SI).encode(), "a.at2", unit="m/s^2").pga == pytest.approx(np.max(np.abs(SI)), rel=1e-6)
+def test_a_given_unit_or_step_that_differs_from_the_files_is_refused() -> None:
+    raises(at2(), "unit = m/s^2", "the file states g", unit="m/s^2")
     raises(at2(), "dt = 0.02", "the file says 0.01 s", dt=0.02)
+    assert read(csmip(1.0).encode(), "a.v2", unit="gal", dt=DT).pga == pytest.approx(np.max(np.abs(SI)), rel=1e-4)  # as cm/s^2
+
+
+@pytest.mark.parametrize("scale", [1e-4, 50.0])
+def test_a_peak_of_any_size_is_read_where_the_header_states_it_too(scale: float) -> None:
+    peak = np.argmax(np.abs(SHAPE))
+    stated = f"Peak acceleration = {SI[peak] * 100 * scale:.3f} cm/sec/sec at {peak * DT:.3f} sec.\nStation No."
+    raw = csmip(scale).replace("Station No.", stated).encode()
+    assert read(raw, "a.v2").pga == pytest.approx(np.max(np.abs(SI)) * scale, abs=0.51e-5)
+    if scale > 1:
+        raises(csmip(scale), "outside 0.001 to 5 g")
+    else:
+        assert read(csmip(scale).encode(), "a.v2").pga > 0  # an aftershock in the unit of the format
+
+
+def test_a_unit_that_is_no_acceleration_is_refused() -> None:
+    raises(csmip(1.0).replace("in cm/sec2.", "in kN."), "unit = kN", "not a unit of acceleration")
+    raw = cosmos().replace("units=cm/sec2(04)", "units=volts (51)")
+    raises(raw, "unit = V", "not a unit of acceleration", unit="g")
 
 
 def test_text_that_calls_itself_at2_is_refused_with_line_and_remedy() -> None:
@@ -228,10 +247,9 @@ def test_at2_of_velocity_or_without_a_uniform_step_is_refused() -> None:
     raises(at2("NPTS 123 DT .01"), "line 4", "known format")
 
 
-def test_uncorrected_records_and_cut_blocks_are_refused() -> None:
-    raises(cosmos().replace("Corrected acc", "Uncorrected acc"), "uncorrected")
+def test_cut_blocks_are_refused() -> None:
     cut = csmip(1.0).replace("123 points of accel", "130 points of accel")
-    raises(cut, "states a number of samples of 90 Deg of 130; the data have 123")
+    raises(cut, "states a number of samples of 24278 90 deg acceleration of 130; the data have 123")
 
 
 @pytest.mark.parametrize("bad", ["NaN", "inf", "-Infinity", "1e999"])

@@ -141,4 +141,6 @@ FORMAT = Format(
     compared="number of samples",
     looks_like=looks_like,
     read=read,
+    public=291,
+    public_check="number of samples in the files; an independent parse of 289 of them",
 )

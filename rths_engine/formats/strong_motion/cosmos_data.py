@@ -20,10 +20,10 @@ from rths_engine.foundation.errors import FileError, Issue
 _QUANTITIES = {1: "acceleration", 2: "velocity", 3: "displacement"}
 _UNITS = {
     2: "g", 4: "cm/s^2", 5: "cm/s", 6: "cm", 7: "in/s^2", 8: "in/s", 9: "in", 10: "cm/s^2",
-    11: "mg", 12: "micro g", 25: "deg", 24: "deg/s", 23: "deg/s^2", 50: "counts", 51: "V", 52: "mV", 60: "psi",
+    11: "mg", 12: "micro g", 25: "deg", 24: "deg/s", 23: "deg/s^2", 50: "count", 51: "V", 52: "mV", 60: "psi",
 }  # fmt: skip
-_PARTS_OF_G = {"mg": 1e-3, "micro g": 1e-6}
-_COUNTS = "counts"
+_MICRO_G = "micro g"
+_COUNTS = "count"
 _RAW, _UNCORRECTED = 0, 1  # integer header 1
 _WHOLE_CIRCLE = 360  # deg, by definition
 _MAXIMUM = rf"(?<!Uncor )\bMax\s*=\s*({NUMBER})\s*(\S*?)\s*,?\s*at\s+({NUMBER})\s*sec"
@@ -125,12 +125,9 @@ def _check_azimuth(section: Section) -> None:
 
 
 def _scaled(section: Section, column: Column) -> Column:
-    """The column in a unit that is read: parts of g in g, and raw counts in g where their sensitivity is stated."""
-    if column.unit in _PARTS_OF_G:
-        applied = f"{column.unit} x {_PARTS_OF_G[column.unit]:g} g"
-        return Column(
-            column.name, column.values * _PARTS_OF_G[column.unit], "g", column.dt, quantity=column.quantity, applied=applied
-        )
+    """The column in a unit of the table: raw counts become g where their sensitivity is stated."""
+    if column.unit == _MICRO_G:
+        return replace(column, values=column.values * 1e-6, unit="g", applied="micro g x 1e-6 g")
     bit, sensor, gain = section.real(22), section.real(42), section.real(47)
     if column.unit != _COUNTS or column.quantity != "acceleration" or bit is None or sensor is None:
         return column

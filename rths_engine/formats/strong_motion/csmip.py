@@ -141,4 +141,6 @@ FORMAT = Format(
     compared="number of samples, step, duration, peak and its time of each block, unit, azimuth",
     looks_like=looks_like,
     read=read,
+    public=26,
+    public_check="counts, steps, peaks and their times of every block in the files; an independent parse by fixed columns",
 )

@@ -35,11 +35,9 @@ _TEXT_LINES, _VALUE_LINES, _REAL_LINES = 13, 14, 7  # of a channel; 7 lines of i
 _VALUES = fortran.Columns(8, 9)
 _PAIRS = (fortran.Columns(10, 7), fortran.Columns(10, 7, 1))  # CSMIP; USC with a blank in front
 _COUNT, _LENGTH, _PEAK, _PEAK_TIME = 28, 3, 7, 8  # integer header; real headers (s, g, s)
-_UNITS = re.compile(
-    r"\bunits\b.*?\b(?:are|is)\s+(?:sec and\s+)?(g/10|g)\s*(?:\.|$|\s{2,})|\bsec and\s+(g/10|g)\b", re.IGNORECASE
-)
+_UNITS = re.compile(r"\bunits\b.*?\b(?:are|is)\s+(?:sec and\s+)?(g/10|g)(?:\s*\.|\s*$|\s{2})", re.IGNORECASE)
 _BLOCK_UNIT = re.compile(r"units?\s*(?:of|:)\s*(\S+)", re.IGNORECASE)
-_TENTH_OF_G = "g/10"
+_IN_G = {"g": 1.0, "g/10": 0.1}  # by definition
 
 
 def looks_like(source: Source) -> bool:
@@ -105,13 +103,11 @@ def _paired(about: Header, lines: list[fortran.Line]) -> tuple[Column, list[Stat
 
 
 def _column(about: Header, values: Array, unit: str, dt: float | None) -> Column:
-    if unit == _TENTH_OF_G:
-        return Column(about.name, values / 10, "g", dt, quantity="acceleration", applied="g/10 x 0.1 g")
     return Column(about.name, values, unit, dt, quantity="acceleration")
 
 
 def _text_unit(about: Header) -> str:
-    return next((found[1].lower() for _, line in about.text if (found := _UNITS.search(line))), "")
+    return next((unit_named(found[1]) for _, line in about.text if (found := _UNITS.search(line))), "")
 
 
 def _counts(about: Header) -> Iterator[Written]:
@@ -132,7 +128,7 @@ def _compared(about: Header, data: fortran.Series, unit: str, dt: float) -> list
     found += [duration(one, samples, dt, name) for one in [*lengths, *([length] if length else [])]]
     for where, one in about.find(rf"\bat\s+({NUMBER})\s*samples/sec"):
         found.append(step(Written(1 / float(one[1]), 0.0, where), dt))
-    if not (factor := {"g": 1.0, _TENTH_OF_G: 0.1}.get(unit)):
+    if not (factor := _IN_G.get(unit)):
         return found
     in_g, rounding, later = data.values * factor, data.rounding * factor, _later(about)
     stated = [
@@ -171,4 +167,6 @@ FORMAT = Format(
     compared="number of samples, step, duration, peak and its time, unit, azimuth; times of pairs are uniform",
     looks_like=looks_like,
     read=read,
+    public=16,
+    public_check="counts, steps, peaks and their times in the files; an independent parse by fixed columns",
 )

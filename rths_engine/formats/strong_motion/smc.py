@@ -14,7 +14,7 @@ import numpy as np
 from rths_engine.formats.format import Format
 from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
-from rths_engine.formats.statement import Statement, Written, count, peak, peak_time
+from rths_engine.formats.statement import Statement, Written, count, peak
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.pairs import uniform_step
 from rths_engine.formats.table import Column, Table
@@ -123,18 +123,19 @@ def _direction(head: _Header) -> str:
 
 def _compared(head: _Header, values: Array, rounding: float, unit: str, dt: float) -> Iterator[Statement]:
     """Maximum and minimum with their times, and the peak in the text."""
-    for (time_at, value_at), read_at in zip(_EXTREMES, (int(np.argmax(values)), int(np.argmin(values))), strict=True):
+    extremes = zip(("maximum", "minimum"), _EXTREMES, (float(np.max(values)), float(np.min(values))), strict=True)
+    for what, (time_at, value_at), read in extremes:
         value, time = head.real(value_at), head.real(time_at)
-        read = float(values[read_at])
         if value is not None:
             within = value.within + rounding
-            yield Statement("maximum" if value_at == 30 else "minimum", value.where, value.value, read, unit, within)
+            yield Statement(what, value.where, value.value, read, unit, within)
         if value is not None and time is not None:
-            one_sided = np.maximum(np.sign(value.value) * values, 0) if value.value else values
-            yield peak_time(time, one_sided, dt)
-    for at, line in enumerate(head.text, start=1):
+            times = np.flatnonzero(values == read) * dt
+            at = float(times[np.argmin(np.abs(times - time.value))])
+            yield Statement(f"time of the {what}", time.where, time.value, at, "s", time.within + dt)
+    for number, line in enumerate(head.text, start=1):
         if found := re.search(rf"\bpk(?: \w+)?\s*=\s*({NUMBER})", line):
-            yield peak(Written.of(found[1], f"line {at}"), values, unit, rounding)
+            yield peak(Written.of(found[1], f"line {number}"), values, unit, rounding)
 
 
 FORMAT = Format(
@@ -147,4 +148,6 @@ FORMAT = Format(
     compared="number of values, maximum, minimum and their times, peak, azimuth; times of pairs are uniform",
     looks_like=looks_like,
     read=read,
+    public=10,
+    public_check="number of values, maximum, minimum and their times in the files; an independent parse of 8 of them",
 )
