@@ -10,7 +10,7 @@ import math
 import re
 import unicodedata
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 
 from rths_engine.foundation import unit_text, units
 from rths_engine.foundation.unit_spellings import AMBIGUOUS, AMBIGUOUS_IN_ANY_CASE, NO_UNIT, SPELLINGS
@@ -56,7 +56,7 @@ class Written:
         return units.dimension(self.unit) if self.unit else ""
 
 
-@cache
+@lru_cache(maxsize=4096)
 def read(text: str) -> Written:
     """The unit that `text` names, in any of its spellings, with or without brackets around it."""
     plain, typed = _plain(text), _without_brackets(text)
