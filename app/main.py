@@ -22,6 +22,7 @@ from app.jobs import queue as durable
 from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.measured.endpoints import router as measured
+from app.measured.mapping_endpoints import router as mappings
 from app.motions.endpoints import router as motions
 from app.pages.diagnoses import router as diagnoses_page
 from app.pages.recordings import router as recordings_page
@@ -52,7 +53,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.hub = Hub()
     problems.install(app)
     openapi.install(app)
-    for router in (runs, motions, plans, diagnoses, stability, table4, health, live):
+    for router in (runs, motions, plans, mappings, diagnoses, stability, table4, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")

@@ -112,6 +112,22 @@ class MeasuredRecording(Base):
         return (self.samples - 1) * self.dt_s
 
 
+class SavedMapping(Base):
+    """A mapping saved under a name for files of one layout: of the same format, column names and units."""
+
+    __tablename__ = "saved_mapping"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    name: Mapped[str] = mapped_column(sa.String(200), unique=True)
+    layout: Mapped[str] = mapped_column(sa.String(64), index=True)
+    format: Mapped[str] = mapped_column(sa.String(200))
+    columns: Mapped[list[dict[str, Any]]] = mapped_column(sa.JSON)
+    mapping: Mapped[dict[str, Any]]
+    saved_by: Mapped[str] = mapped_column(sa.String(80))
+    saved_at: Mapped[datetime]
+
+
 class Diagnosis(Job, Base):
     """A diagnosis: a job that compares a recording with the models of a plan, and its result after it has completed."""
 

@@ -21,6 +21,13 @@ PlanData = Annotated[dict[str, Any], PLAN]  # checked by the engine, whose error
 Responses = dict[int | str, dict[str, Any]]
 
 
+class FileLine(BaseModel):
+    """A line of an uploaded text file."""
+
+    number: int
+    text: str
+
+
 class Issue(BaseModel):
     """One thing wrong with a request."""
 
@@ -28,6 +35,7 @@ class Issue(BaseModel):
     problem: str = Field(description="the bound or the rule that is broken")
     value: str | None = Field(description="what was given")
     fix: str | None = Field(description="how to mend it")
+    lines: list[FileLine] = Field([], description="the line that `where` names, with two lines before and after it")
 
 
 class Problem(BaseModel):

@@ -24,6 +24,8 @@ def main(arguments: list[str] | None = None) -> int:
     except RthsError as error:
         for issue in error.issues:
             print(f"rths {given.command}: {issue}", file=sys.stderr)
+            for line in issue.lines:
+                print(f"  {line.number:>6} | {line.text}", file=sys.stderr)
         return UNUSABLE
     except KeyboardInterrupt:
         return INTERRUPTED

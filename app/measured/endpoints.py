@@ -9,10 +9,11 @@ from fastapi.responses import FileResponse, PlainTextResponse, Response
 
 from app.measured import shown
 from app.measured.dependency import Recordings
-from app.measured.schemas import EarlierMapping, Import, Mapped, RecordingDetail, RecordingList, RecordingOut, Uploaded
+from app.measured.schemas import EarlierMapping, Import, Preview, RecordingDetail, RecordingList, RecordingOut, Uploaded
 from app.openapi import file, told
 
 router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
+Seconds = Annotated[float | None, Query(allow_inf_nan=False)]
 
 
 @router.post("/files", status_code=201)
@@ -43,8 +44,11 @@ def mappings(recordings: Recordings) -> dict[str, list[EarlierMapping]]:
 
 
 @router.post("/preview", responses=told(404))
-def preview(asked: Annotated[Mapped, Body()], recordings: Recordings) -> dict[str, Any]:
-    """Read an uploaded file by a mapping: decimated channels and the findings of the checks. Nothing is stored."""
+def preview(asked: Annotated[Preview, Body()], recordings: Recordings) -> dict[str, Any]:
+    """Read an uploaded file by a mapping: decimated channels, the findings of the checks, and lags. Nothing is stored.
+
+    With `from_s` and `to_s`, the channels show that part of the time, and lags are not computed.
+    """
     return recordings.preview(asked)
 
 
@@ -72,9 +76,9 @@ def one(recording_id: str, recordings: Recordings) -> RecordingDetail:
 
 
 @router.get("/{recording_id}/preview", responses=told(409))
-def channels(recording_id: str, recordings: Recordings) -> dict[str, Any]:
-    """The channels of a recording, decimated, in the units shown."""
-    return recordings.channels(recording_id)
+def channels(recording_id: str, recordings: Recordings, from_s: Seconds = None, to_s: Seconds = None) -> dict[str, Any]:
+    """The channels of a recording in the units shown: all of its time, or a part of it, decimated to its extremes."""
+    return recordings.channels(recording_id, shown.Part(from_s, to_s))
 
 
 @router.get("/{recording_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))

@@ -19,6 +19,28 @@ class Mapped(BaseModel):
     mapping: dict[str, Any] | str
 
 
+class Preview(Mapped):
+    """A preview: file, mapping, and the part of the time to show; by default all of it."""
+
+    from_s: float | None = Field(None, allow_inf_nan=False, description="start of the part to show, s")
+    to_s: float | None = Field(None, allow_inf_nan=False, description="end of the part to show, s")
+
+
+class NewMapping(Mapped):
+    """A mapping to save: a file that has the layout, the mapping, its name, and the person who saves it."""
+
+    name: Storable = Field(min_length=1, max_length=200)
+    saved_by: Storable = Field("", max_length=80)
+
+
+class NewName(BaseModel):
+    """A new name."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: Storable = Field(min_length=1, max_length=200)
+
+
 class Import(Mapped):
     """An import: file, mapping, name of the recording, and the person who imports."""
 
@@ -72,16 +94,57 @@ class EarlierMapping(BaseModel):
     mapping: dict[str, Any]
 
 
+class SavedMappingOut(BaseModel):
+    """A saved mapping, and the layout of the files for which it is proposed."""
+
+    model_config = ConfigDict(from_attributes=True)
+
+    id: str
+    name: str
+    layout: str = Field(description="fingerprint of the format, and of the names and units of the columns")
+    format: str
+    columns: list[dict[str, str]]
+    mapping: dict[str, Any]
+    saved_by: str
+    saved_at: datetime
+
+
+class SavedMappingList(BaseModel):
+    """All saved mappings."""
+
+    mappings: list[SavedMappingOut]
+
+
+class Stated(BaseModel):
+    """A number that the header of a file states, beside the number that was read from its data."""
+
+    what: str
+    where: str
+    stated: float
+    read: float
+    unit: str
+    within: float = Field(description="the difference that rounding explains")
+    agrees: bool
+
+
 class Uploaded(BaseModel):
-    """The columns of an uploaded file, the proposed mapping, and the mappings of earlier imports that fit its columns."""
+    """An uploaded file: what stands in it, the proposed mapping with its reasons and doubts, and mappings that fit it."""
 
     sha256: str
     size: int
     filename: str
     format: str
+    about: dict[str, str] = Field(description="title, event, station and the like, where the format has them")
+    header: str = Field(description="the header as it stands in the file; at most 20 000 characters")
+    header_characters: int = Field(description="length of the whole header")
+    statements: list[Stated] = Field(description="what the header states, beside what was read")
+    first_rows: list[list[float | None]] = Field(description="the first rows of numbers, one value for each column")
     columns: list[dict[str, Any]]
     guess: dict[str, Any] | None
     reasons: dict[str, str]
+    doubtful: list[str] = Field(description="columns whose role is a guess from a name or a relation alone")
     left_out: dict[str, str]
     notes: list[str]
-    mappings: list[EarlierMapping]
+    layout: str = Field(description="fingerprint of the format, and of the names and units of the columns")
+    saved: list[SavedMappingOut] = Field(description="mappings saved for files of this layout, newest first")
+    mappings: list[EarlierMapping] = Field(description="mappings of earlier imports whose columns this file has")

@@ -13,17 +13,18 @@ from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
 from app.db import afterwards
-from app.measured import shown
+from app.measured import contents, shown
 from app.measured.raw_files import RawFiles
 from app.measured.repository import MeasuredRepository
-from app.measured.schemas import EarlierMapping, Import, Mapped, Uploaded
-from app.models import MeasuredRecording, RawFile
+from app.measured.saved_mappings import SavedMappings
+from app.measured.schemas import EarlierMapping, Import, NewMapping, Preview, SavedMappingOut, Uploaded
+from app.models import MeasuredRecording, RawFile, SavedMapping
 from app.problems import Conflict, NotFound
 from app.text import refuse_unstorable
 from rths_engine import __version__
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import MeasuredError
-from rths_engine.recordings.measured import Mapping, Table, examine, guess, imported, mapping_yaml, save
+from rths_engine.recordings.measured import Mapping, Table, examine, fingerprint, guess, imported, mapping_yaml, save
 from rths_engine.recordings.opening import load
 
 KEPT_UNUSED = timedelta(days=1)  # a file from which nothing is imported
@@ -37,6 +38,7 @@ class MeasuredService:
     def __init__(self, session: Session, folder: Path):
         self.session, self.folder = session, folder
         self.rows, self.raw_files = MeasuredRepository(session), RawFiles(folder / "raw")
+        self.saved = SavedMappings(session)
 
     def upload(self, stream: BinaryIO, filename: str) -> Uploaded:
         """Store a file that can be read. Raises MeasuredError for any other file, and stores nothing of it."""
@@ -54,10 +56,17 @@ class MeasuredService:
         raw = self._raw(sha256)
         return self._described(sha256, raw.size, raw.filename, self.raw_files.table(sha256, raw.filename))
 
-    def preview(self, asked: Mapped) -> dict[str, Any]:
+    def preview(self, asked: Preview) -> dict[str, Any]:
         """The channels by a mapping, decimated, with all findings. Raises MeasuredError for a mapping that does not fit."""
         raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
-        return shown.examined(examine(self.raw_files.table(raw.sha256, raw.filename), mapping), mapping)
+        found = examine(self.raw_files.table(raw.sha256, raw.filename), mapping)
+        return shown.examined(found, mapping, shown.Part(asked.from_s, asked.to_s))
+
+    def save_mapping(self, asked: NewMapping) -> SavedMapping:
+        """Save a mapping under a name for files of the layout of an uploaded file."""
+        raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
+        table = self.raw_files.table(raw.sha256, raw.filename)
+        return self.saved.save(asked.name, mapping, table, asked.saved_by.strip() or NOBODY)
 
     def import_(self, asked: Import) -> MeasuredRecording:
         """Write the recording, then its row. Raises MeasuredError with every error."""
@@ -100,12 +109,12 @@ class MeasuredService:
     def listed(self, limit: int, offset: int) -> tuple[list[MeasuredRecording], int]:
         return self.rows.listed(limit, offset)
 
-    def channels(self, recording_id: str) -> dict[str, Any]:
-        """The channels of a recording, decimated, in the order of its mapping."""
+    def channels(self, recording_id: str, part: shown.Part) -> dict[str, Any]:
+        """The channels of a recording in a part of its time, decimated, in the order of its mapping."""
         order = [one["key"] for one in self.get(recording_id).channels]
         measured = load(self.hdf5(recording_id))
         channels = sorted(measured.channels, key=lambda one: order.index(one.key))
-        return shown.preview(replace(measured, channels=tuple(channels)))
+        return shown.preview(replace(measured, channels=tuple(channels)), part=part)
 
     def hdf5(self, recording_id: str) -> Path:
         return _there(self.path(self.get(recording_id).id))
@@ -160,8 +169,10 @@ class MeasuredService:
             sha256=sha256,
             size=size,
             filename=filename,
-            format=table.format,
+            **contents.of(table),
             columns=[shown.column(one) for one in table.columns],
+            layout=fingerprint(table),
+            saved=[SavedMappingOut.model_validate(one) for one in self.saved.fitting(table)],
             mappings=[one for one in self.mappings() if _fits(one.mapping, table)],
             **_guessed(table),
         )
@@ -171,8 +182,13 @@ def _guessed(table: Table) -> dict[str, Any]:
     try:
         found = guess(table)
     except MeasuredError as error:
-        return {"guess": None, "reasons": {}, "left_out": {}, "notes": [*table.notes, f"{error}."]}
-    explained = {"reasons": found.reasons, "left_out": found.left_out, "notes": list(found.notes)}
+        return {"guess": None, "reasons": {}, "doubtful": [], "left_out": {}, "notes": [*table.notes, f"{error}."]}
+    explained = {
+        "reasons": found.reasons,
+        "doubtful": list(found.doubtful),
+        "left_out": found.left_out,
+        "notes": list(found.notes),
+    }
     return {"guess": found.mapping.as_dict(), **explained}
 
 

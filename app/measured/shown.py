@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,27 @@ LOOP_POINTS = 4000
 DIGITS = 7
 
 
+@dataclass(frozen=True)
+class Part:
+    """A part of the time, from `start` to `stop` (s); None: without limit."""
+
+    start: float | None = None
+    stop: float | None = None
+
+    @property
+    def whole(self) -> bool:
+        return self.start is None and self.stop is None
+
+    def within(self, times: Array) -> slice:
+        """The samples at these times; `times` increase."""
+        first = 0 if self.start is None else int(np.searchsorted(times, self.start))
+        after = len(times) if self.stop is None else int(np.searchsorted(times, self.stop, side="right"))
+        return slice(first, max(first, after))
+
+
+WHOLE = Part()
+
+
 def roles() -> dict[str, Any]:
     """The roles that a column can have, each with its dimensions, and all units by dimension."""
     units: dict[str, list[str]] = {}
@@ -45,19 +67,24 @@ def column(one: Column) -> dict[str, Any]:
     known = one.values[np.isfinite(one.values)]
     missing = len(one.values) - len(known)
     written = stated.unit_of(one)
-    unit = {"unit": one.unit, "stated": written.plain, "problem": written.problem}
-    return {"name": one.name, **unit, "samples": len(one.values), "missing": missing, **_statistics(known)}
+    unit = {"unit": one.unit, "stated": written.plain, "problem": written.problem, "applied": one.applied}
+    clock = {"samples": len(one.values), "missing": missing, "dt_s": one.dt, "start_s": one.start}
+    return {"name": one.name, "quantity": one.quantity, **unit, **clock, **_statistics(known)}
 
 
-def examined(found: Examined, mapping: Mapping) -> dict[str, Any]:
-    """The channels by a mapping, and the findings about them. There are no channels if the time or the values are invalid."""
+def examined(found: Examined, mapping: Mapping, part: Part = WHOLE) -> dict[str, Any]:
+    """The channels by a mapping, and the findings about them. There are no channels if the time or the values are invalid.
+
+    Lags between channels are found for the whole of the time only.
+    """
     findings = [{**one.as_dict(), "column": _column(one, mapping)} for one in found.findings]
-    lags = [] if found.measured is None else [one.as_dict() for one in same_motion.found(found.measured, mapping)]
+    measured = found.measured if part.whole else None
+    lags = [] if measured is None else [one.as_dict() for one in same_motion.found(measured, mapping)]
     about = {"mapping": mapping.as_dict(), "findings": findings, "lags": lags}
-    return {**about, **preview(found.measured, found.signals)}
+    return {**about, **preview(found.measured, found.signals, part)}
 
 
-def preview(measured: Measured | None, signals: Sequence[Signal] = ()) -> dict[str, Any]:
+def preview(measured: Measured | None, signals: Sequence[Signal] = (), part: Part = WHOLE) -> dict[str, Any]:
     """Decimated channels and force-displacement loops of a recording; empty without a recording.
 
     Where `signals` are given, a channel shows the samples of the file at their own times, not those of the common clock.
@@ -65,7 +92,7 @@ def preview(measured: Measured | None, signals: Sequence[Signal] = ()) -> dict[s
     own = {one.channel.key: one for one in signals}
     if measured is None:
         return {"channels": [], "loops": [], "samples": None, "dt_s": None, "start_s": None}
-    channels = [_decimated(one, measured, own.get(one.key)) for one in measured.channels]
+    channels = [_decimated(one, measured, own.get(one.key), part) for one in measured.channels]
     loops = [_loop(measured, number) for number in measured.numbers("station") if _moved(measured, number)]
     clock = {"samples": measured.samples, "dt_s": measured.dt, "start_s": measured.start}
     return {"channels": channels, "loops": loops, **clock}
@@ -78,11 +105,14 @@ def described(one: MeasuredChannel) -> dict[str, Any]:
     return {**named, "moved": one.moved, "unit": unit, **_statistics(values)}
 
 
-def _decimated(one: MeasuredChannel, measured: Measured, own: Signal | None) -> dict[str, Any]:
-    values, _ = shown(one.values if own is None else own.values, one.unit)
-    kept = extremes(values[:, None], BUCKETS)
-    times = measured.start + kept * measured.dt if own is None else own.clock.times[kept]
-    return {**described(one), "time": _rounded(times, 9), "values": _rounded(values[kept], DIGITS)}
+def _decimated(one: MeasuredChannel, measured: Measured, own: Signal | None, part: Part) -> dict[str, Any]:
+    """A channel with its samples in a part of the time: all of them, or the extremes of equal parts where there are many."""
+    times, values = (measured.time, one.values) if own is None else (own.clock.times, own.values)
+    inside = part.within(times)
+    times, values = times[inside], shown(values, one.unit)[0][inside]
+    kept = extremes(values[:, None], BUCKETS) if len(values) else np.arange(0)
+    told = {"samples": len(values), "time": _rounded(times[kept], 9), "values": _rounded(values[kept], DIGITS)}
+    return {**described(one), **told}
 
 
 def _moved(measured: Measured, number: int) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rths_engine.formats import apart, recognised
+from rths_engine.formats import apart, recognised, surroundings
 from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import hdf5, lvm, matlab, mts, parquet
 from rths_engine.formats.plain import columns, json_file, record
@@ -30,7 +30,14 @@ BY_KEY = {one.key: one for one in (*FORMATS, COLUMNS, RECORD)}
 
 
 def read(source: Source, otherwise: Format = COLUMNS, format: str | None = None) -> Table:
-    """The table in a file; `otherwise` reads text of no known format. Raises FileError."""
+    """The table in a file; `otherwise` reads text of no known format. Raises FileError, with the lines that it names."""
+    try:
+        return _read(source, otherwise, format)
+    except FileError as error:
+        raise FileError(surroundings.shown(error.issues, source)) from None
+
+
+def _read(source: Source, otherwise: Format, format: str | None) -> Table:
     if not source.head.strip():
         raise FileError(Issue("file", "is empty", fix="choose a file of measurements or a record"))
     if format is not None and format not in BY_KEY:

@@ -3,8 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of a text file: its number from 1 and its text, which may be cut."""
+
+    number: int
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -12,13 +20,15 @@ class Issue:
     """One problem of an input.
 
     `where` is a dotted path into the input (`stations.0.actuator.alpha`, indices from 0; empty for the whole input). `value`
-    is the value given, `problem` the bound or rule that it breaks, and `fix` how to mend it.
+    is the value given, `problem` the bound or rule that it breaks, and `fix` how to mend it. `lines` is the line of a text file
+    that `where` names, with its neighbours.
     """
 
     where: str
     problem: str
     value: Any = None
     fix: str | None = None
+    lines: tuple[Line, ...] = field(default=(), compare=False)
 
     def __str__(self) -> str:
         given = "" if self.value is None else f" = {_short(self.value)}"
@@ -26,7 +36,8 @@ class Issue:
         return f"{self.where}{given}: {self.problem}{fix}" if self.where else f"{self.problem}{fix}"
 
     def as_dict(self) -> dict[str, Any]:
-        return {**asdict(self), "value": None if self.value is None else _short(self.value)}
+        found = {**asdict(self), "value": None if self.value is None else _short(self.value)}
+        return found if self.lines else {name: value for name, value in found.items() if name != "lines"}
 
 
 class RthsError(Exception):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from rths_engine.formats.table import Column, Table
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.guess import Guess, guess
-from rths_engine.recordings.measured.importing import Examined, Signal, examine, imported
+from rths_engine.recordings.measured.importing import Examined, Signal, check, examine, imported
+from rths_engine.recordings.measured.layout import fingerprint
 from rths_engine.recordings.measured.mapping import Mapping
 from rths_engine.recordings.measured.reading import read
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
@@ -21,7 +22,9 @@ __all__ = [
     "MeasuredChannel",
     "Signal",
     "Table",
+    "check",
     "examine",
+    "fingerprint",
     "guess",
     "imported",
     "read",

@@ -13,7 +13,7 @@ import numpy as np
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured import guess_roles, guess_time
-from rths_engine.recordings.measured.guess_progress import Progress, Taken
+from rths_engine.recordings.measured.guess_progress import MARK, Progress, Taken
 from rths_engine.recordings.measured.guess_units import by_hint, derivative_unit, fitting
 from rths_engine.recordings.measured.mapping import LARGEST_NUMBER, MOST_CHANNELS, ColumnMap, Mapping
 from rths_engine.recordings.measured.roles import RAW, ROLES, dimension, key
@@ -29,6 +29,11 @@ class Guess:
     reasons: dict[str, str]
     left_out: dict[str, str]
     notes: tuple[str, ...] = ()
+
+    @property
+    def doubtful(self) -> tuple[str, ...]:
+        """The columns whose role is a guess from a name or a relation alone: neither a unit nor the format confirms it."""
+        return tuple(name for name, why in self.reasons.items() if why.startswith(MARK))
 
 
 @np.errstate(over="ignore", invalid="ignore")  # columns can contain any number

@@ -56,7 +56,7 @@ def imported(table: Table, mapping: Mapping, source: str = "", sha256: str = "")
 @np.errstate(over="ignore", invalid="ignore")
 def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") -> Examined:
     """The recording with all findings, errors included. Raises MeasuredError where the mapping does not fit the file."""
-    _check_columns(table, mapping)
+    check(table, mapping)
     findings = stated.differing(table, mapping)
     clocks: dict[str, Clock | None] = {}
     signals: list[Signal] = []
@@ -89,7 +89,8 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
     return Examined(measured, tuple(findings), tuple(signals))
 
 
-def _check_columns(table: Table, mapping: Mapping) -> None:
+def check(table: Table, mapping: Mapping) -> None:
+    """Raises MeasuredError where the mapping is incomplete or names columns that the file does not have."""
     issues: list[Issue] = []
     for index, channel in enumerate(mapping.channels):
         if lacks := channel.lacks:

@@ -1,0 +1,85 @@
+"""Rules of saved mappings: save under a name, propose for files of the same layout, rename and delete."""
+
+from __future__ import annotations
+
+import uuid
+from datetime import UTC, datetime
+
+from sqlalchemy.exc import IntegrityError
+from sqlalchemy.orm import Session
+
+from app.measured.mapping_rows import MappingRows
+from app.models import SavedMapping
+from app.problems import Conflict, NotFound
+from rths_engine.foundation.errors import Issue, MeasuredError
+from rths_engine.recordings.measured import Mapping, Table, check, fingerprint, mapping_yaml
+
+
+class SavedMappings:
+    """Rules of saved mappings."""
+
+    def __init__(self, session: Session):
+        self.session, self.rows = session, MappingRows(session)
+
+    def save(self, name: str, mapping: Mapping, table: Table, saved_by: str) -> SavedMapping:
+        """Save a mapping for files of the layout of `table`.
+
+        Raises MeasuredError where the mapping is incomplete or does not fit the table, Conflict where the name is taken.
+        """
+        check(table, mapping)
+        saved = SavedMapping(
+            id=str(uuid.uuid4()),
+            name=self._free(name),
+            layout=fingerprint(table),
+            format=table.format,
+            columns=[{"name": one.name, "unit": one.unit} for one in table.columns],
+            mapping={**mapping.as_dict(), "title": ""},
+            saved_by=saved_by,
+            saved_at=datetime.now(UTC),
+        )
+        try:
+            self.rows.add(saved)
+        except IntegrityError:
+            raise _taken(name) from None
+        return saved
+
+    def listed(self) -> list[SavedMapping]:
+        return self.rows.listed()
+
+    def fitting(self, table: Table) -> list[SavedMapping]:
+        """The mappings that were saved for files of the layout of `table`, newest first."""
+        return self.rows.listed(fingerprint(table))
+
+    def get(self, mapping_id: str) -> SavedMapping:
+        saved = self.rows.get(mapping_id)
+        if saved is None:
+            raise NotFound(f"There is no saved mapping {mapping_id}.")
+        return saved
+
+    def text(self, mapping_id: str) -> str:
+        return mapping_yaml.write(Mapping.read(self.get(mapping_id).mapping))
+
+    def rename(self, mapping_id: str, name: str) -> SavedMapping:
+        saved = self.get(mapping_id)
+        if name.strip() != saved.name:
+            saved.name = self._free(name)
+            try:
+                self.session.flush()
+            except IntegrityError:
+                raise _taken(name) from None
+        return saved
+
+    def remove(self, mapping_id: str) -> None:
+        self.rows.remove(self.get(mapping_id))
+
+    def _free(self, name: str) -> str:
+        plain = name.strip()
+        if not plain:
+            raise MeasuredError(Issue("name", "is empty", fix="give the mapping a name, such as the rig and its recorder"))
+        if self.rows.named(plain) is not None:
+            raise _taken(plain)
+        return plain
+
+
+def _taken(name: str) -> Conflict:
+    return Conflict(f"A saved mapping is named {name.strip()} already. Choose another name, or rename or delete that mapping.")
