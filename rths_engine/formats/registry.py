@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rths_engine.formats import apart, recognised, surroundings
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import hdf5, lvm, matlab, mts, parquet
+from rths_engine.formats.laboratory import hdf5, lvm, matlab, mts, parquet, toa5, tracerdaq
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import at2, cosmos, csmip, csmip_raw, smc
@@ -18,6 +18,8 @@ FORMATS: tuple[Format, ...] = (
     json_file.FORMAT,
     lvm.FORMAT,
     mts.FORMAT,
+    toa5.FORMAT,
+    tracerdaq.FORMAT,
     cosmos.FORMAT,
     csmip.FORMAT,
     csmip_raw.FORMAT,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rths_engine.formats.laboratory.lvm_segments import File, Segment
-from rths_engine.formats.laboratory.rows import Line, decimal_sign, fields, up_to_last, values
+from rths_engine.formats.laboratory.rows import Line, decimal_sign, fields, number, up_to_last, values
 from rths_engine.formats.statement import Statement, Written, count, step
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
@@ -58,9 +58,8 @@ def channels_of(segment: Segment, file: File) -> Channels:
     table, empty = values(rows, file.separator, decimal, used, range(min(used[-1], 1) + 1, len(labels) + 2), names)
     found = Channels(notes=_comments(rows, file.separator, last))
     place = {k: column for column, k in enumerate(used)}
-    if (stated := segment.stated("Channels", 1))[0]:
-        number = Written.of(stated[0], stated[1]).value
-        found.statements.append(Statement("number of channels", stated[1], number, len(ys)))
+    if (announced := _written(segment, "Channels", 1, decimal)) is not None:
+        found.statements.append(Statement("number of channels", announced.where, announced.value, len(ys)))
     for k in ys:
         own = up_to_last(table[:, place[k]], empty[:, place[k]], rows, labels[k])
         x_at = max((x for x in xs if x < k), default=None)
@@ -86,9 +85,9 @@ def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: A
         found.notes.append(f"{name} has no samples")
         return
     if samples is not None and several:
-        number = f"{len(own) / samples.value:g} packets of {samples.value:g} samples under one header"
+        packed = f"{len(own) / samples.value:g} packets of {samples.value:g} samples under one header"
         unstated = "whether time goes on between them is not stated; give the rate where it does"
-        found.notes.append(f"{number}: " + (f"their times are in {_X}" if packets else unstated))
+        found.notes.append(f"{packed}: " + (f"their times are in {_X}" if packets else unstated))
     elif samples is not None:
         found.statements.append(count(int(samples.value), len(own), samples.where, name))
     if x is not None and len(x) > 1 and not _rises(x):
@@ -108,8 +107,8 @@ def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: A
         within = x0.within + _DIGIT
         found.statements.append(Statement(f"time of the first sample of {name}", x0.where, x0.value, float(x[0]), "s", within))
     if x is None and dt is not None and delta is not None and delta.within * len(own) > 0.5 * dt:
-        off = f"{delta.within * len(own):.2g} s at the end of the record: give the rate where it is known"
-        found.notes.append(f"Delta_X = {delta.value:g} is rounded, so that time is uncertain by {off}")
+        off = f"{delta.within * len(own):.2g} s at the end of the record"
+        found.notes.append(f"Delta_X = {delta.value:g} is rounded, so that time is uncertain by {off}: {_rate(delta)}")
     start = float(x[0]) if x is not None and len(x) and x0 is None else first
     unit = segment.stated("Y_Unit_Label", k)[0]
     found.channels.append(Channel(name, unit, own, dt, start, segment.began(k), times))
@@ -151,6 +150,13 @@ def _holds(samples: float, count: int) -> bool:
     return samples >= 1 and count > samples and count % samples == 0
 
 
+def _rate(delta: Written) -> str:
+    """What to do about a rounded step: it can be that of one whole rate only, `0.000977` that of 1024 Hz."""
+    first, last = np.ceil(1 / (delta.value + delta.within)), np.floor(1 / max(delta.value - delta.within, 1e-12))
+    only = f"; the only whole rate that is written so is {first:g} Hz" if first == last else ""
+    return f"give the rate where it is known{only}"
+
+
 def _rises(x: Array) -> bool:
     return bool(np.all(np.diff(x) > 0))
 
@@ -158,5 +164,8 @@ def _rises(x: Array) -> bool:
 def _comments(rows: list[Line], separator: str, last: int) -> list[str]:
     """A note on texts in the column of comments."""
     found = [(at, given[last]) for at, text in rows if len(given := fields(text, separator)) > last and given[last]]
+    if separator == "," and (counted := next((at for at, text in found if number(text) is not None), 0)):
+        fix = "correct the line; the decimal sign cannot be the separator"
+        raise FileError(Issue(f"line {counted}", "has a number in the column of comments", fix=fix))
     more = f" and {len(found) - 1} more" if len(found) > 1 else ""
     return [f"line {found[0][0]} has the comment {found[0][1]!r}{more}"] if found else []

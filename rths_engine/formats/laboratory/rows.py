@@ -48,6 +48,8 @@ def values(
     `widths`: the numbers of fields that a row can have. Raises FileError with the line for a row of another width and for text.
     """
     refuse_many(len(lines) * len(wanted))
+    if not lines:
+        return np.empty((0, len(wanted))), np.empty((0, len(wanted)), dtype=bool)
     for at, text in lines:
         width = len(text.split(separator or None))
         if width not in widths:

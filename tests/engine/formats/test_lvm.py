@@ -113,6 +113,7 @@ def test_a_rounded_step_is_named_where_it_moves_the_end_by_half_a_sample() -> No
     table = read(written([[signal]]))
     assert table.columns[0].dt == 0.000977
     assert "Delta_X = 0.000977 is rounded, so that time is uncertain by 0.0041 s at the end" in table.notes[0]
+    assert "the only whole rate that is written so is 1024 Hz" in table.notes[0]
     assert read(written([[signal]], x_columns="One")).columns[0].dt == pytest.approx(1 / 1024, rel=1e-7)
 
 
@@ -127,6 +128,7 @@ CONTRADICTIONS = [
     ("\t8431.460100", "\t1.501.51", "line 25 = 1.501.51: column Force is not a number"),
     ("0.004000\t8431", "0.014000\t8431", "X_Value goes from 0.014 to 0.008: a new part starts here, whose time is not stated"),
     ("\r\n0.008000\t", "\r\n9.008000\t", "X_Value goes from 9.008 to 0.012"),
+    ("Channels\t2", "Channels\ttwo", "line 14 = two: Channels is not a number"),
     ("Separator\tTab", "Separator\tBar", "Separator = Bar: is not a known separator"),
 ]  # fmt: skip
 
@@ -136,6 +138,11 @@ def test_what_contradicts_its_header_is_refused(old: str, new: str, told: str) -
     content = written([[FORCE, DISP]], x_columns="One").decode()
     assert old in content
     assert told in refusal(content.replace(old, new, 1).encode())
+
+
+def test_a_decimal_comma_between_commas_is_refused() -> None:
+    content = written([[FORCE, DISP]], x_columns="One", separator=",").replace(b"8431.460100", b"8431,460100")
+    assert "line 25: has a number in the column of comments" in refusal(content)
 
 
 def test_a_segment_whose_date_contradicts_its_x0_is_refused() -> None:
