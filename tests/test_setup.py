@@ -43,7 +43,11 @@ def test_every_python_package_is_pinned_to_one_version() -> None:
     assert len(PINS) == len(LOCK)
 
 
-@pytest.mark.parametrize("wanted", [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["test"]])
+EXTRAS = PROJECT["optional-dependencies"]
+WANTED = [*PROJECT["dependencies"], *EXTRAS["formats"], *(one for one in EXTRAS["test"] if not one.startswith(PROJECT["name"]))]
+
+
+@pytest.mark.parametrize("wanted", WANTED)
 def test_what_the_project_needs_is_in_the_lock(wanted: str) -> None:
     requirement = Requirement(wanted)
     assert requirement.specifier.contains(PINS[canonicalize_name(requirement.name)])

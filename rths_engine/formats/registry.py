@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rths_engine.formats import apart, recognised, surroundings
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import hdf5, lvm, matlab, mts, parquet, toa5, tracerdaq
+from rths_engine.formats.laboratory import catman, famos, hdf5, lvm, matlab, mdf, mts, parquet, tdms, toa5, tracerdaq, uff
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import at2, cosmos, csmip, csmip_raw, smc
@@ -15,6 +15,11 @@ FORMATS: tuple[Format, ...] = (
     parquet.FORMAT,
     hdf5.FORMAT,
     matlab.FORMAT,
+    tdms.FORMAT,
+    mdf.FORMAT,
+    famos.FORMAT,
+    catman.FORMAT,
+    uff.FORMAT,
     json_file.FORMAT,
     lvm.FORMAT,
     mts.FORMAT,

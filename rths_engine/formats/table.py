@@ -27,7 +27,8 @@ class Column:
 
     `unit` as the file writes it; `dt` (s) where the file states a step for the values, and `start` (s) the time of the first
     value. `quantity` is what the format itself says that the values are (`acceleration`); empty where it does not.
-    `applied` says which scale, gain or offset of the file the values contain: `counts x 3920/6000000 gal`.
+    `applied` says which scale, gain or offset of the file the values contain: `counts x 3920/6000000 gal`. `time` names the
+    column with the time stamps of the values, where the file assigns such a column to them.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Column:
     start: float = 0.0
     quantity: str = ""
     applied: str = ""
+    time: str = ""
 
 
 @dataclass(frozen=True, eq=False)

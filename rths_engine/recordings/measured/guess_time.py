@@ -68,7 +68,7 @@ def _steps(progress: Progress, name: str) -> None:
         taken.why = f"{taken.why}; {why}"
     progress.seconds = progress.step * taken.scale * to_si(taken.unit)[0] if taken.unit else 0.0
     for column in progress.table.columns:
-        if len(column.values) != len(times) and column.dt is None and column.name not in progress.left:
+        if len(column.values) != len(times) and not (column.dt or column.time) and column.name not in progress.left:
             progress.left[column.name] = f"has {len(column.values)} samples, the time {len(times)}"
 
 

@@ -108,7 +108,7 @@ def check(table: Table, mapping: Mapping) -> None:
 def _clock(
     table: Table, mapping: Mapping, channel: ColumnMap, index: int, clocks: dict[str, Clock | None], findings: list[Finding]
 ) -> Clock | None:
-    """The clock of a channel: its own clock, else the file's time column, else the mapping's step, else the file's step."""
+    """The clock of a channel: its own time column, else that of the mapping, else the mapping's step, else the file's step."""
     column = table.column(channel.column, "")
     count = len(column.values)
     stamps = _stamps(table, mapping, channel, index)
@@ -136,19 +136,26 @@ def _clock(
 
 
 def _stamps(table: Table, mapping: Mapping, channel: ColumnMap, index: int) -> ColumnMap | None:
-    """The time column of a channel. Raises MeasuredError where it is not mapped as t and the file does not state its unit."""
-    if channel.time is None:
-        return mapping.times[0] if mapping.times else None
-    own = next((one for one in mapping.times if str(one.column) == channel.time), None)
+    """The time column of a channel: its own of the mapping, else its own of the file, else the mapping's first one.
+
+    The mapping's first one is not taken where the file assigns it to other columns only. Raises MeasuredError where a column of
+    its own is not mapped as t and the file does not state its unit.
+    """
+    name = channel.time or table.column(channel.column, "").time
+    if not name:
+        first = mapping.times[0] if mapping.times else None
+        assigned = first is not None and any(one.time == table.column(first.column, "").name for one in table.columns)
+        return None if assigned else first
+    own = next((one for one in mapping.times if table.column(one.column, "").name == name), None)
     if own is not None:
         return own
-    written = stated.unit_of(table.column(channel.time, ""))
+    written = stated.unit_of(table.column(name, ""))
     if written.dimension != "time":
         problem = "the file does not state the unit of this time column"
-        fix = f"map the column as t with its unit: {{column: '{channel.time}', role: t, unit: s}}"
-        raise MeasuredError(Issue(f"mapping.channels.{index}.time", written.problem or problem, channel.time, fix))
+        fix = f"map the column as t with its unit: {{column: '{name}', role: t, unit: s}}"
+        raise MeasuredError(Issue(f"mapping.channels.{index}.time", written.problem or problem, name, fix))
     gain = None if written.scale == 1.0 else repr(written.scale)
-    return ColumnMap(column=channel.time, role="t", unit=written.unit, gain=gain)
+    return ColumnMap(column=name, role="t", unit=written.unit, gain=gain)
 
 
 def _si(values: Array, channel: ColumnMap) -> Array:
