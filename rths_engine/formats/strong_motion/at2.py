@@ -49,7 +49,8 @@ def read(source: Source) -> Table:
     quantity, unit = _quantity(header)
     samples, rest = _samples(lines, at, count)
     described = header[1].strip() if len(header) > 1 else ""
-    event, station, component = _described(described)
+    peer = "STRONG MOTION" in header[0].upper() or "STRONG-MOTION" in header[0].upper() if header else False
+    event, station, component = _described(described) if peer else (described, "", "")
     column = Column(component or quantity, samples, unit, dt, quantity=quantity)
     return Table(
         "PEER AT2",
@@ -62,19 +63,24 @@ def read(source: Source) -> Table:
 
 
 def _counts(lines: list[str]) -> tuple[int, int, float]:
-    """Line number of the NPTS line, NPTS and DT (s)."""
+    """Line number of the NPTS line, NPTS and DT (s): of the last such line, where a header contains an older header."""
+    counts: tuple[int, int, float] | None = None
     for at, line in enumerate(lines[:_HEADER_LINES], start=1):
         found = _NAMED.search(line) or _LISTED.search(line)
         if found:
             try:
-                return at, int(found[1]), float(found[2])
+                counts = at, int(found[1]), float(found[2])
             except ValueError:
                 raise FileError(
                     Issue(f"line {at}", "needs a uniform step DT in seconds", found[2], "give a record with a uniform step")
                 ) from None
-        if "NPTS" in line.upper():
+        elif "NPTS" in line.upper():
             fix = "write it as 'NPTS= 4000, DT= .0100 SEC'"
             raise FileError(Issue(f"line {at}", "does not state NPTS and DT in a known format", line.strip(), fix))
+        elif counts is not None and line.strip() and not _is_text(line):
+            break
+    if counts is not None:
+        return counts
     first = lines[0].strip()
     fix = "an AT2 file has 'NPTS= 4000, DT= .0100 SEC' in line 4; for plain columns choose the format, the unit and the step"
     raise FileError(Issue("line 1", "the header has no NPTS and DT, so this is not an AT2 record", first, fix))
@@ -141,6 +147,6 @@ FORMAT = Format(
     compared="number of samples",
     looks_like=looks_like,
     read=read,
-    public=291,
-    public_check="number of samples in the files; an independent parse of 289 of them",
+    public=292,
+    public_check="number of samples in the files; an independent parse of 290 of them",
 )

@@ -52,6 +52,6 @@ FORMAT = Format(
     compared="number of samples, step, duration, peak, time of the peak, mean, unit, quantity, azimuth",
     looks_like=looks_like,
     read=read,
-    public=5,
+    public=20,
     public_check="count, step, peak, its time and mean in the files; an independent parse by fixed columns",
 )

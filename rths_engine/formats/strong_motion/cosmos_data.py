@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from rths_engine.formats.lines import NUMBER
-from rths_engine.formats.statement import Statement, Written, count, duration, peak, peak_time
+from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.cosmos_header import Section
 from rths_engine.formats.strong_motion.orientation import degrees, of_channel
@@ -105,12 +105,13 @@ def _peaks(section: Section, found: fortran.Series, unit: str, dt: float | None,
     texts = [_MAXIMUM] + ([_UNCORRECTED_MAXIMUM] if section.integer(1) == _UNCORRECTED else [])
     for pattern in texts:
         line = section.line(pattern)
-        if line is None or (line[1][2] and unit_named(line[1][2]) != unit):
+        raw = pattern == _UNCORRECTED_MAXIMUM  # in counts where it has no unit
+        if line is None or ((raw or line[1][2]) and unit_named(line[1][2]) != unit):
             continue
         where, match = line
-        statements.append(peak(Written.of(match[1], where), found.values, unit, rounding, name, signed))
+        statements.append(peak(fortran.stated(match[1], where), found.values, unit, rounding, name, signed))
         if dt is not None:
-            statements.append(peak_time(Written.of(match[3], where), found.values, dt, of=name))
+            statements.append(peak_time(fortran.stated(match[3], where), found.values, dt, of=name))
     return statements
 
 

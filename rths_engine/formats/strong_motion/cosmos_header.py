@@ -43,7 +43,7 @@ class Section:
         if number > len(self.reals) or fortran.number(self.reals[number - 1]) in self.unknown:
             return None
         where = f"real header {number} (from line {self.reals_at})"
-        written = Written.of(self.reals[number - 1], where)
+        written = fortran.stated(self.reals[number - 1], where)
         return Written(written.value, max(written.within, 1e-6 * abs(written.value)), where)
 
     def line(self, pattern: str) -> tuple[str, re.Match[str]] | None:

@@ -72,12 +72,14 @@ def _block(about: Header, opening: fortran.Line, rows: list[fortran.Line]) -> tu
     data = fortran.series(rows, fortran.Columns.written(rest) or _STANDARD)
     label = f"{name} {quantity}".strip()
     statements = [count(stated, len(data.values), f"line {at}", label)]
-    written = about.real(_STEP)
+    own = quantity != "acceleration" and _by_usc(about)  # whose velocity and displacement can have steps of their own
+    written = None if own else about.real(_STEP)
     dt = written.value if written is not None and written.value > 0 else float(found[3])
     unit = _unit(about, rest, quantity, f"line {at}")
     column = Column(name, data.values, unit, dt, quantity=quantity)
     if stated == len(data.values):
-        statements += [*_steps(about, Written.of(found[3], f"line {at}"), dt), *_counts(about, quantity, stated, label)]
+        if not own:
+            statements += [*_steps(about, Written.of(found[3], f"line {at}"), dt), *_counts(about, quantity, stated, label)]
         statements += [duration(length, stated, dt, label) for length in _lengths(about)]
         statements += _peaks(about, column, data.rounding, label)
     return column, statements
@@ -117,17 +119,20 @@ def _lengths(about: Header) -> Iterator[Written]:
         yield length
 
 
+def _by_usc(about: Header) -> bool:
+    return any(about.find(r"OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I"))
+
+
 def _peaks(about: Header, column: Column, rounding: float, label: str) -> Iterator[Statement]:
     """Peak and its time in text and reals. USC's volume 2 states peaks with the sign of film, so that the sign is not held."""
     assert column.dt is not None
     _, time_at, peak_at = _NUMBERS[column.quantity]
-    film = any(about.find(r"OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I"))
-    stated = [(Written.of(found[1], where), Written.of(found[3], where)) for where, found in _texts(about, column.quantity)]
+    stated = [(fortran.stated(found[1], where), Written.of(found[3], where)) for where, found in _texts(about, column.quantity)]
     largest, time = about.real(peak_at), about.real(time_at)
     if largest is not None and time is not None and (largest.value or time.value):
         stated.append((largest, time))
     for one, at in stated:
-        yield peak(one, column.values, column.unit, rounding, label, signed=not film)
+        yield peak(one, column.values, column.unit, rounding, label, signed=not _by_usc(about))
         yield peak_time(at, column.values, column.dt, of=label)
 
 
@@ -141,6 +146,6 @@ FORMAT = Format(
     compared="number of samples, step, duration, peak and its time of each block, unit, azimuth",
     looks_like=looks_like,
     read=read,
-    public=26,
+    public=35,
     public_check="counts, steps, peaks and their times of every block in the files; an independent parse by fixed columns",
 )

@@ -44,7 +44,7 @@ class Header:
     def _of(self, values: list[str], number: int, kind: str) -> Written | None:
         if number > len(values) or fortran.number(values[number - 1]) == _UNKNOWN:
             return None
-        written = Written.of(values[number - 1], f"{kind} header {number} (from line {self.at})")
+        written = fortran.stated(values[number - 1], f"{kind} header {number} (from line {self.at})")
         return None if kind == "integer" and written.value == 0 else written
 
     def find(self, pattern: str) -> Iterator[tuple[str, re.Match[str]]]:

@@ -132,7 +132,7 @@ def _compared(about: Header, data: fortran.Series, unit: str, dt: float) -> list
         return found
     in_g, rounding, later = data.values * factor, data.rounding * factor, _later(about)
     stated = [
-        (Written.of(one[1], where), Written.of(one[2], where))
+        (fortran.stated(one[1], where), Written.of(one[2], where))
         for where, one in about.find(rf"\bMax\s*=\s*({NUMBER})\s*g\s*,\s*at\s+({NUMBER})\s*sec")
     ]
     largest, time = about.real(_PEAK), about.real(_PEAK_TIME)

@@ -12,12 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rths_engine.formats.statement import last_digit
+from rths_engine.formats.statement import Written, last_digit
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
 _WRITTEN = re.compile(r"\(\s*(?:(\d+)\s*X\s*,\s*)?(\d+)\s*[FEGID]\s*(\d+)(?:\.\d+)?\s*\)", re.IGNORECASE)
 _NOT_A_NUMBER = re.compile(r"[^-+.\deEdD\s]")
+
+_FOUR_DIGITS = 5e-4  # rounding to four digits; chosen, see docs/decisions/0023
 
 Line = tuple[int, str]  # line number from 1, and the line
 
@@ -69,6 +71,13 @@ def _is_number(text: str) -> bool:
 def number(text: str) -> float:
     """The value of a number as Fortran writes it, also with a D exponent."""
     return float(text.replace("D", "E").replace("d", "e"))
+
+
+def stated(text: str, where: str) -> Written:
+    """A number of a header, also where Fortran filled it up with zeros: `-29.340` of a program that keeps four digits."""
+    written = Written.of(text, where)
+    filled = last_digit(text.strip().rstrip("0")) / 2 if "." in text and text.strip().endswith("0") else 0.0
+    return Written(written.value, max(written.within, min(filled, _FOUR_DIGITS * abs(written.value))), where)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

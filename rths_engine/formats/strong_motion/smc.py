@@ -148,6 +148,6 @@ FORMAT = Format(
     compared="number of values, maximum, minimum and their times, peak, azimuth; times of pairs are uniform",
     looks_like=looks_like,
     read=read,
-    public=10,
-    public_check="number of values, maximum, minimum and their times in the files; an independent parse of 8 of them",
+    public=11,
+    public_check="number of values, maximum, minimum and their times in the files; an independent parse of 9 of them",
 )

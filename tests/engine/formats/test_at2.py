@@ -53,6 +53,15 @@ def test_text_below_the_last_sample_is_noted_and_between_the_samples_refused() -
     refused(written(WAVE, count=130) + b"*** End Data ***\n", "line 30", "is not a number")
 
 
+def test_of_two_headers_the_last_counts_and_prose_names_no_component() -> None:
+    old = b"TIME-DOMAIN CORRECTION, OLD HEADER BELOW\nNPTS= 400, DT= .0200 SEC\n"
+    column = table(old + written(WAVE)).columns[0]
+    assert (column.dt, len(column.values)) == (0.01, 123)
+    prose = b"Data for El Centro\n1559 points, listed i.e., 8 points across\n(in units of g)\nNPTS= 123, DT= .01 SEC\n"
+    plain = table(prose + b"\n".join(written(WAVE).split(b"\n")[4:])).columns[0]
+    assert (plain.name, plain.unit) == ("acceleration", "g")
+
+
 def test_a_mark_of_missing_samples_and_stars_are_refused() -> None:
     gap = WAVE.copy()
     gap[7] = -999.0

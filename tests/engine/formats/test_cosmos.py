@@ -83,6 +83,16 @@ def test_a_header_that_contradicts_the_data_refuses_the_file(channel: Channel, w
     refused(written(channel), *words)
 
 
+def test_the_peak_of_the_raw_record_is_compared_only_in_the_unit_of_the_data() -> None:
+    lines = written(Channel(WAVE, stage=1)).decode().splitlines()
+    for raw, agrees in [("Uncor max =   1033406, at  45.580 sec.", True), ("Uncor max =  99.0 cm/sec2, at  .040 sec.", False)]:
+        changed = "\n".join([*lines[:9], f"Raw record length = 210.000 sec, {raw}", *lines[10:]]).encode()
+        if agrees:
+            assert len(table(changed).columns[0].values) == 123
+        else:
+            refused(changed, "line 10", "99 cm/s^2")
+
+
 def test_nothing_in_the_data_is_skipped_or_split() -> None:
     lines = written(Channel(WAVE)).decode().splitlines()
     first = next(at for at, line in enumerate(lines) if " pts, approx" in line) + 1

@@ -61,6 +61,26 @@ def test_film_at_uneven_times_is_refused_with_its_steps() -> None:
     refused(file(lines), "line 28", "uneven times", "0.002 to 0.011 s")
 
 
+def test_a_peak_that_the_program_kept_with_four_digits_agrees() -> None:
+    wave = WAVE.copy()
+    wave[4] = 96.534 * 2
+    line = "Peak acceleration =    193.100    cm/sec/sec  at     .040   sec."
+    assert table(file(corrected(Channel(wave, text={18: line}, reals={66: 193.1})))).columns[0].values[4] == 193.068
+    refused(file(corrected(Channel(wave, text={18: line.replace("193.100", "193.200")}))), "line 18", "193.2")
+
+
+def test_usc_states_peaks_with_the_sign_of_film_and_can_have_a_step_for_each_block() -> None:
+    coarse = np.round(WAVE[::2] / 20, 5)
+    lines = corrected(Channel(WAVE, velocity=coarse, reals={68: -float(coarse[2]), 67: 0.04}, integers={53: 123}))
+    lines[0] = "CORRECTED ACCELEROGRAM  IIBB127  94.610.0 COMP N08W   FILE   0"
+    lines[1] = "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:"
+    lines[4], lines[5], lines[7] = "STATION USC# 0061   34 17 11N", "BIG TUJUNGA STATION", "COMP N08W"
+    lines = ["" if line.startswith("Peak velocity") else line or " " for line in lines]
+    lines = [line.replace("veloc data equally spaced at  0.010", "VEL DATA EQUALLY SPACED AT  0.020") for line in lines]
+    read = table(file(lines))
+    assert [(one.name, one.dt) for one in read.columns] == [("0061 N08W", 0.01), ("0061 N08W velocity", 0.02)]
+
+
 @pytest.mark.parametrize(
     ("channel", "words"),
     [

@@ -11,7 +11,7 @@ const QUIET_MS = 400;
 
 /** The upload of a record: first a preview, then the entry in the library. @param {(motion: any) => void} added @returns {HTMLElement} */
 export function uploadBox(added) {
-  const file = el("input", { type: "file", accept: ".at2,.AT2,.v2,.V2,.txt,.csv,.dat,.tsv,.acc,text/*" });
+  const file = el("input", { type: "file", accept: ".at2,.v0,.v1,.v2,.v0c,.v1c,.v2c,.raw,.smc,.txt,.csv,.dat,.tsv,.acc,text/*" });
   const unit = el("select", {}, el("option", { value: "" }, "from the file"), ...UNITS.map((name) => el("option", { value: name }, name)));
   const dt = el("input", { type: "text", inputmode: "decimal", placeholder: "from the file", autocomplete: "off" });
   const name = el("input", { type: "text", placeholder: "from the file's name", autocomplete: "off" });
