@@ -31,7 +31,7 @@ def lines_of(raw: bytes) -> list[str]:
 
 def check_text(raw: bytes) -> None:
     """Raises FileError for content that is not text, or not in an encoding that is read."""
-    if not raw.strip():
+    if not raw.strip(b" \t\r\n\x0b\x0c\x1a"):
         raise FileError(Issue("file", "is empty", fix="choose a record file"))
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise FileError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))

@@ -4,7 +4,23 @@ from __future__ import annotations
 
 from rths_engine.formats import apart, recognised, surroundings
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import catman, famos, hdf5, lvm, matlab, mdf, mts, parquet, tdms, toa5, tracerdaq, uff
+from rths_engine.formats.laboratory import (
+    catman,
+    famos,
+    hdf5,
+    lvm,
+    matlab,
+    mdf,
+    mts,
+    opensees_binary,
+    opensees_text,
+    opensees_xml,
+    parquet,
+    tdms,
+    toa5,
+    tracerdaq,
+    uff,
+)
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import at2, cosmos, csmip, csmip_raw, smc
@@ -20,11 +36,14 @@ FORMATS: tuple[Format, ...] = (
     famos.FORMAT,
     catman.FORMAT,
     uff.FORMAT,
+    opensees_binary.FORMAT,
     json_file.FORMAT,
     lvm.FORMAT,
     mts.FORMAT,
     toa5.FORMAT,
     tracerdaq.FORMAT,
+    opensees_xml.FORMAT,
+    opensees_text.FORMAT,
     cosmos.FORMAT,
     csmip.FORMAT,
     csmip_raw.FORMAT,
@@ -55,7 +74,10 @@ def _read(source: Source, otherwise: Format, format: str | None) -> Table:
 
 def detected(source: Source, otherwise: Format = COLUMNS) -> Format:
     """The format of a file by its content. Raises FileError for a format that is recognised but not read."""
-    found = next((one for one in FORMATS if one.looks_like(source)), None)
+    skipped = (
+        opensees_text.FORMAT if otherwise is RECORD else None
+    )  # no file of it says that it is one; a record can end with .out
+    found = next((one for one in FORMATS if one is not skipped and one.looks_like(source)), None)
     if found is None:
         recognised.refuse(source)
     return found or otherwise

@@ -54,7 +54,7 @@ def values(
         width = len(text.split(separator or None))
         if width not in widths:
             usual = f"{widths[0]}" if len(widths) == 1 else f"{widths[0]} to {widths[-1]}"
-            problem = f"has {width} fields; the header announces {usual}"
+            problem = f"has {width} fields; {usual} are expected"
             raise FileError(Issue(f"line {at}", problem, text.strip(), "correct the line, or cut the file before it"))
     if decimal == "." or not any("." in text for _, text in lines):
         texts = (text.replace(",", ".") if decimal == "," else text for _, text in lines)
