@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from rths_engine.formats.lines import NUMBER
-from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
+from rths_engine.formats.statement import Statement, Written, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.cosmos_header import Section
 from rths_engine.formats.strong_motion.orientation import degrees, of_channel
@@ -47,8 +48,7 @@ def block(section: Section, opening: fortran.Line, rows: list[fortran.Line], nam
     dt = _step(section)
     _check_azimuth(section)
     if dt is not None:
-        if length := section.real(63):
-            statements.append(duration(length, stated, dt, name))
+        statements += [duration(length, stated, dt, name) for length in _lengths(section)]
         if about := re.search(rf"approx\.?\s*({NUMBER})\s*sec", line, re.IGNORECASE):
             statements.append(Statement("duration", where, float(about[1]), stated * dt, "s", 1.0 + dt))  # whole seconds
     own = _QUANTITIES.get(section.integer(2) or 0, quantity) == quantity
@@ -75,6 +75,10 @@ def _unit(section: Section, line: str, where: str) -> str:
     named = unit_named(written[1]) if written else ""
     code = int(written[2]) if written and written[2] else None
     coded = _UNITS.get(code, "") if code is not None else ""
+    stated = section.integer(3)
+    if code is not None and stated is not None and code != stated and len(section.blocks) == 1:
+        problem = f"states the code of unit {code}, integer header 3 the code {stated}"
+        raise FileError(Issue(where, problem, fix="correct the one that is wrong"))
     header = _UNITS.get(section.integer(3) or 0, "") if len(section.blocks) == 1 else ""
     units = {what: unit for what, unit in (("name", named), ("code", coded), ("integer header 3", header)) if unit}
     if len(set(units.values())) > 1:
@@ -92,6 +96,16 @@ def _step(section: Section) -> float | None:
     return raw.value if raw is not None and recorded and raw.value > 0 else None
 
 
+def _lengths(section: Section) -> Iterator[Written]:
+    """Durations (s): real header 63; of a record as it was recorded also real header 35 and line 10."""
+    recorded = section.integer(1) in (_RAW, _UNCORRECTED)
+    for number in (63, 35) if recorded else (63,):
+        if (length := section.real(number)) is not None and length.value > 0:
+            yield length
+    if recorded and (line := section.line(rf"Raw record length\s*=\s*({NUMBER})\s*sec")) is not None:
+        yield fortran.stated(line[1][1], line[0])
+
+
 def _peaks(section: Section, found: fortran.Series, unit: str, dt: float | None, name: str) -> list[Statement]:
     """Peaks, their times and the mean in text and real headers; the peak of raw counts is stated without its sign."""
     statements, signed, rounding = [], unit != _COUNTS, found.rounding
@@ -102,11 +116,11 @@ def _peaks(section: Section, found: fortran.Series, unit: str, dt: float | None,
     if (mean := section.real(66)) is not None:
         read = float(np.mean(found.values))
         statements.append(Statement(f"mean of {name}", mean.where, mean.value, read, unit, mean.within + rounding))
-    texts = [_MAXIMUM] + ([_UNCORRECTED_MAXIMUM] if section.integer(1) == _UNCORRECTED else [])
-    for pattern in texts:
+    recorded = section.integer(1) in (_RAW, _UNCORRECTED)
+    for pattern in (_MAXIMUM, _UNCORRECTED_MAXIMUM) if recorded else (_MAXIMUM,):
         line = section.line(pattern)
-        raw = pattern == _UNCORRECTED_MAXIMUM  # in counts where it has no unit
-        if line is None or ((raw or line[1][2]) and unit_named(line[1][2]) != unit):
+        without = _COUNTS if pattern == _UNCORRECTED_MAXIMUM else unit  # the unit that is meant where none is written
+        if line is None or (unit_named(line[1][2]) if line[1][2] else without) != unit:
             continue
         where, match = line
         statements.append(peak(fortran.stated(match[1], where), found.values, unit, rounding, name, signed))

@@ -117,6 +117,8 @@ def _lengths(about: Header) -> Iterator[Written]:
     """Durations (s) of the corrected record."""
     if (length := about.real(_LENGTH)) is not None and length.value > 0:
         yield length
+    for where, found in about.find(rf"record length\s*=\s*({NUMBER})\s*sec"):
+        yield Written.of(found[1], where)
 
 
 def _by_usc(about: Header) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from rths_engine.formats.statement import Written, last_digit
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
-_WRITTEN = re.compile(r"\(\s*(?:(\d+)\s*X\s*,\s*)?(\d+)\s*[FEGID]\s*(\d+)(?:\.\d+)?\s*\)", re.IGNORECASE)
+_WRITTEN = re.compile(r"\(\s*(?:(\d+)\s*X\s*,\s*)?(\d+)\s*[FEGID]\s*(\d+)(?:\.(\d+))?\s*\)", re.IGNORECASE)
 _NOT_A_NUMBER = re.compile(r"[^-+.\deEdD\s]")
 
 _FOUR_DIGITS = 5e-4  # rounding to four digits; chosen, see docs/decisions/0023
@@ -26,17 +26,23 @@ Line = tuple[int, str]  # line number from 1, and the line
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """Fields of `width` characters, `per_line` on each line, after `before` blanks."""
+    """Fields of `width` characters, `per_line` on each line, after `before` blanks.
+
+    `digits`: how many follow the point; by them a number that blanks separate is whole. None: any number of digits.
+    """
 
     per_line: int
     width: int
     before: int = 0
+    digits: int | None = None
 
     @classmethod
     def written(cls, text: str) -> Columns | None:
         """The columns of a format such as `(8F10.5)` in `text`; None where it contains no format."""
         found = _WRITTEN.search(text)
-        return cls(int(found[2]), int(found[3]), int(found[1] or 0)) if found and int(found[2]) and int(found[3]) else None
+        if found is None or not int(found[2]) or not int(found[3]):
+            return None
+        return cls(int(found[2]), int(found[3]), int(found[1] or 0), int(found[4]) if found[4] else None)
 
     def fields(self, line: str, where: str) -> list[str]:
         """The numbers of a line, as they are written. Raises FileError where the columns do not separate them."""
@@ -50,12 +56,15 @@ class Columns:
         if not text[: self.before].strip() and all(len(one) == self.width and _is_number(one) for one in parts):
             return [one.strip() for one in parts]
         tokens = text.split()
-        if len(tokens) <= self.per_line and all(_is_number(one) for one in tokens):
+        if len(tokens) <= self.per_line and all(_is_number(one) and self._is_whole(one) for one in tokens):
             return tokens
         form = f"{self.per_line} columns of {self.width} characters"
         raise FileError(
             Issue(where, f"does not follow the format of {form}", text.strip(), "write the numbers in these columns")
         )
+
+    def _is_whole(self, text: str) -> bool:
+        return self.digits is None or len(re.split("[eEdD]", text.partition(".")[2])[0]) == self.digits
 
 
 def _is_number(text: str) -> bool:
@@ -90,7 +99,8 @@ class Series:
 
 def header(lines: Sequence[Line], columns: Columns) -> list[str]:
     """All header values on the lines, as they are written."""
-    return [text for at, line in lines for text in columns.fields(line, f"line {at}")]
+    free = replace(columns, digits=None)
+    return [text for at, line in lines for text in free.fields(line, f"line {at}")]
 
 
 def series(lines: Iterable[Line], columns: Columns, missing: Sequence[float] = ()) -> Series:

@@ -75,7 +75,7 @@ def test_raw_counts_become_g_by_the_stated_sensitivity_without_their_mean() -> N
         (Channel(WAVE, reals={66: 20.0}), ("mean", "20 cm/s^2")),
         (Channel(WAVE, text_peak=99.0), ("line 11", "peak", "99 cm/s^2")),
         (Channel(WAVE, integers={2: 2}), ("integer header 2 states velocity", "acceleration")),
-        (Channel(WAVE, integers={3: 2}), ("several units", "cm/s^2", "integer header 3: g")),
+        (Channel(WAVE, integers={3: 2}), ("code of unit 4", "integer header 3 the code 2")),
         (Channel(WAVE, integers={54: 180}), ("azimuth of 180 deg", "the text states 90 deg")),
     ],
 )
@@ -86,11 +86,15 @@ def test_a_header_that_contradicts_the_data_refuses_the_file(channel: Channel, w
 def test_the_peak_of_the_raw_record_is_compared_only_in_the_unit_of_the_data() -> None:
     lines = written(Channel(WAVE, stage=1)).decode().splitlines()
     for raw, agrees in [("Uncor max =   1033406, at  45.580 sec.", True), ("Uncor max =  99.0 cm/sec2, at  .040 sec.", False)]:
-        changed = "\n".join([*lines[:9], f"Raw record length = 210.000 sec, {raw}", *lines[10:]]).encode()
+        changed = "\n".join([*lines[:9], f"Raw record length = 1.230 sec, {raw}", *lines[10:]]).encode()
         if agrees:
             assert len(table(changed).columns[0].values) == 123
         else:
             refused(changed, "line 10", "99 cm/s^2")
+    longer = "\n".join([*lines[:9], "Raw record length = 210.000 sec, Uncor max =", *lines[10:]]).encode()
+    refused(longer, "line 10", "duration", "210 s", "1.23 s")
+    raw = written(Channel(np.round(WAVE * 10), stage=0, form=(10, 8, 0, "I"))).decode()
+    refused(raw.replace("Raw record\n", "Raw record, Uncor max =   9999, at 1.0 sec.\n").encode(), "line 10", "9999 count")
 
 
 def test_nothing_in_the_data_is_skipped_or_split() -> None:
@@ -107,6 +111,12 @@ def test_nothing_in_the_data_is_skipped_or_split() -> None:
         changed = [*lines[:first], row, *lines[first + 1 :]]
         refused("\n".join(changed).encode(), f"line {first + 1}", *words)
     refused("\n".join([*lines, "more text"]).encode(), f"line {len(lines) + 1}", "is not the first line of a channel")
+
+
+def test_a_number_that_lost_its_end_is_refused() -> None:
+    lines = written(Channel(WAVE, form=(1, 15, 6, "E"))).decode().splitlines()
+    first = next(at for at, line in enumerate(lines) if " pts, approx" in line) + 3
+    refused("\n".join([*lines[:first], lines[first][:7], *lines[first + 1 :]]).encode(), f"line {first + 1}", "does not follow")
 
 
 def test_a_damaged_file_is_read_or_refused() -> None:

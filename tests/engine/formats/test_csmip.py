@@ -92,6 +92,7 @@ def test_usc_states_peaks_with_the_sign_of_film_and_can_have_a_step_for_each_blo
         (Channel(WAVE, reals={60: 9.0}), ("duration", "9 s", "1.23 s")),
         (Channel(WAVE, text={18: "Peak acceleration =   -140.000    cm/sec/sec  at     .040   sec."}), ("peak", "-140 cm/s^2")),
         (Channel(WAVE, text={18: "Peak acceleration =       .143    g  at     .040   sec."}), ("states cm/s^2", "states g")),
+        (Channel(WAVE, text={12: "Record length = 9.000 sec."}), ("line 12", "duration", "9 s")),
         (Channel(WAVE, reals={66: 200.0}), ("real header 66", "200 cm/s^2")),
         (Channel(WAVE, reals={65: 0.9}), ("time of the peak", "0.9 s", "0.04 s")),
         (Channel(WAVE, velocity=WAVE / 20, reals={68: 1.0}), ("90 deg velocity", "1 cm/s")),

@@ -51,7 +51,7 @@ def corrected(one: Channel) -> list[str]:
         6: f"Station No. {one.station}   34.471N, 118.196W   Etna    s/n 2500  (3 Chns of  3 at Sta)",
         7: "Castaic - Old Ridge Route                 CGS   Data: Acceleration",
         8: f"Chan {one.number:2d}: {one.direction}",
-        12: "                        Record length = 99.000 sec.",
+        12: f"                        Record length = {count * one.dt:.3f} sec.",
         13: "                                     Uncor Max  =   .286 g , at   1.000 sec.",
         16: f"{count:6d} points of instrument- and baseline-corrected accel, veloc and displ data",
         17: f"At equally-spaced intervals of    {one.dt:.3f}  sec.",
