@@ -345,3 +345,18 @@ def test_the_example_of_the_page_is_a_mapping() -> None:
     (text,) = re.findall(r"^```yaml\n(.*?)^```", page, re.M | re.S)
     assert Mapping.from_yaml(text).channels[2].scale == (2.5, "kN")
     assert all(f"`{role}`" in page for role in ROLES)
+
+
+def test_columns_that_were_measured_at_other_times_are_left_out_with_their_times() -> None:
+    x = np.arange(20.0)
+    own = {"t 1": np.arange(20.0), "t 2": np.arange(20.0) + 100.0}
+    columns = [Column(name, times, "s") for name, times in own.items()]
+    columns += [Column(f"Force (block {k})", x * k, "kN", time=f"t {k}") for k in (1, 2)]
+    found = guess(Table("test", tuple(columns)))
+    assert [one.column for one in found.mapping.channels] == ["t 1", "Force (block 1)"]
+    told = "was measured from 100 to 119, the first columns from 0 to 19: import it apart from them"
+    assert found.left_out["Force (block 2)"] == told
+    steps = [Column("Force (segment 1)", x, "kN", 0.01), Column("Force (segment 2)", x, "kN", 0.01, start=5.0)]
+    found = guess(Table("test", tuple(steps)))
+    assert [one.column for one in found.mapping.channels] == ["Force (segment 1)"]
+    assert "was measured from 5 to 5.19" in found.left_out["Force (segment 2)"]

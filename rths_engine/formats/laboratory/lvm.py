@@ -80,13 +80,16 @@ def _columns(channels: Sequence[Channel], offsets: Sequence[float], segment: int
     """Columns of the channels of a segment; time stamps with unequal steps become a column before their channel."""
     end = f" (segment {segment})" if segment else ""
     columns: list[Column] = []
-    last: Channel | None = None
+    stamps: list[Column] = []
     for one, offset in zip(channels, offsets, strict=True):
+        time = ""
         if one.times is not None and len(one.times) > 1:
-            if last is None or last.times is None or not np.array_equal(last.times, one.times):
-                columns.append(Column(f"X_Value{end}", one.times, "s"))
-            last = one
-        columns.append(Column(one.name + end, one.values, one.unit, one.dt, one.start + offset))
+            if not stamps or not np.array_equal(stamps[-1].values, one.times):
+                number = f" {len(stamps) + 1}" if stamps else ""
+                stamps.append(Column(f"X_Value{number}{end}", one.times, "s", quantity="time"))
+                columns.append(stamps[-1])
+            time = stamps[-1].name
+        columns.append(Column(one.name + end, one.values, one.unit, one.dt, one.start + offset, time=time))
     return columns
 
 
@@ -99,9 +102,9 @@ def _several(segments: Segments, relative: bool) -> tuple[list[Column], list[Sta
         times = np.array([row[0] for row in starts])
         apart = max((abs(row[k] - row[0]) for row in starts for k in range(len(row))), default=0.0)
         late = f"; the channels differ by up to {apart:.2g} s" if apart > _CLOCK else ""
-        columns = [Column("X_Value", times, "s")]
+        columns = [Column("X_Value", times, "s", quantity="time")]
         columns += [
-            Column(one.name, np.array([channels[k].values[0] for channels in segments]), one.unit)
+            Column(one.name, np.array([channels[k].values[0] for channels in segments]), one.unit, time="X_Value")
             for k, one in enumerate(segments[0])
         ]
         return columns, statements, f"{count} segments of one sample are read as rows at the times of their headers{late}"

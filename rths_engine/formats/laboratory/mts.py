@@ -6,6 +6,7 @@ Blocks of the same columns are joined where the time column goes on by its own s
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -136,10 +137,12 @@ def _goes_on(before: Part, part: Part) -> bool:
 
 def _columns(part: Part, several: bool) -> list[Column]:
     end = f" (block at line {part.first.at})" if several else ""
+    names = [(name or f"column {k + 1}") + end for k, name in enumerate(part.first.names)]
+    time = "" if part.time is None or Counter(names)[names[part.time]] > 1 else names[part.time]
     quantities = ["time" if unit.lower() in _SECONDS else "" for unit in part.first.units]
     return [
-        Column((name or f"column {k + 1}") + end, np.ascontiguousarray(part.columns[:, k]), unit, quantity=quantity)
-        for k, (name, unit, quantity) in enumerate(zip(part.first.names, part.first.units, quantities, strict=True))
+        Column(name, np.ascontiguousarray(part.columns[:, k]), unit, quantity=quantity, time="" if quantity else time)
+        for k, (name, unit, quantity) in enumerate(zip(names, part.first.units, quantities, strict=True))
     ]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -53,6 +54,8 @@ def read(source: Source) -> Table:
             notes.append(f"{name} holds times; it is not read")
         else:
             columns.append(Column(name, _numbers(name, texts, data, notes), unit.strip()))
+    if (time := next((one.name for one in columns if one.quantity == "time"), "")) != "":
+        columns = [one if one.quantity else replace(one, time=time) for one in columns]
     about = dict(zip(_STATION, station, strict=False))
     header = "\n".join(line for _, line in lines[:_HEADER_LINES])
     return Table("Campbell TOA5", distinct(columns), notes=tuple(notes), header=header, about=about)

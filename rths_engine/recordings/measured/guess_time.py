@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rths_engine.formats.table import Column
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.guess_progress import MARK, Progress
 from rths_engine.recordings.measured.guess_units import by_hint
@@ -36,6 +37,28 @@ def choose(progress: Progress) -> None:
         _steps(progress, (rising or called)[0])
     else:
         progress.step = progress.seconds = next((one.dt for one in progress.table.columns if one.dt), 0.0)
+    _other_times(progress, (rising or called)[0] if called else "")
+
+
+def _other_times(progress: Progress, name: str) -> None:
+    """Leave out columns that were measured at other times than the time column, or than the first column with a step."""
+    columns = [one for one in progress.table.columns if one.name not in progress.left]
+    spans = {one.name: span for one in columns if (span := _span(progress, one, name)) is not None}
+    first = next(iter(spans.values()), None)
+    for other, (begin, end) in spans.items():
+        if first is not None and (begin > first[1] or end < first[0]):
+            own, others = (f"from {a:.6g} to {b:.6g}" for a, b in ((begin, end), first))
+            progress.left[other] = f"was measured {own}, the first columns {others}: import it apart from them"
+
+
+def _span(progress: Progress, column: Column, name: str) -> tuple[float, float] | None:
+    """First and last time of a column, where the file states them on the clock of the time column `name`."""
+    if column.name == name or column.time:
+        times = progress.table.names.get(column.time or name)
+        if times is None or times.unit != (progress.table.names[name].unit if name else times.unit):
+            return None
+        return (float(np.min(times.values)), float(np.max(times.values))) if np.isfinite(times.values).all() else None
+    return None if name or not column.dt else (column.start, column.start + (len(column.values) - 1) * column.dt)
 
 
 def unit_of(progress: Progress, name: str) -> tuple[str, str]:

@@ -61,6 +61,7 @@ def test_blocks_with_a_pause_between_them_are_columns_of_their_own(seconds: floa
     table = read(written(ENGLISH, blocks))
     assert [one.name for one in table.columns][::3] == ["Running Time (block at line 3)", "Running Time (block at line 10)"]
     assert [len(one.values) for one in table.columns] == [3] * 6
+    assert [one.time for one in table.columns[3:]] == ["", *["Running Time (block at line 10)"] * 2]
     assert table.columns[3].values.tolist() == [row[0] + seconds for row in ROWS]
 
 
