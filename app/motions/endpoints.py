@@ -23,18 +23,21 @@ def listed(motions: Motions) -> dict[str, Any]:
 
 @router.post("", status_code=201)
 def upload(
-    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", name: Text = ""
+    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", channel: Text = "", name: Text = ""
 ) -> dict[str, Any]:
-    """Add a ground motion: PEER AT2, COSMOS V2 or columns. Give `unit` and `dt` (s) if the file does not state them."""
-    return motions.add(motions.read(file.file.read(), file.filename or "", unit, dt, name))
+    """Add a ground motion from a file of a known format. Give `unit` and `dt` (s) if the file does not state them.
+
+    `channel` is the name or the number of an acceleration channel, if the file has several.
+    """
+    return motions.add(motions.read(file.file.read(), file.filename or "", unit, dt, channel, name))
 
 
 @router.post("/preview")
 def look(
-    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", name: Text = ""
+    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", channel: Text = "", name: Text = ""
 ) -> dict[str, Any]:
     """Read a ground motion and return its samples and response spectrum. Nothing is stored."""
-    return preview(motions.read(file.file.read(), file.filename or "", unit, dt, name))
+    return preview(motions.read(file.file.read(), file.filename or "", unit, dt, channel, name))
 
 
 @router.get("/{name}")

@@ -33,9 +33,9 @@ class MotionService:
         self._known(name)
         return preview(self.library.get(name))
 
-    def read(self, raw: bytes, filename: str, unit: str, dt: str, name: str) -> Motion:
+    def read(self, raw: bytes, filename: str, unit: str, dt: str, channel: str, name: str) -> Motion:
         """Read a record from an uploaded file. Raises MotionError."""
-        motion = read(raw, filename or "record", unit=unit or None, dt=_step(dt))
+        motion = read(raw, filename or "record", unit=unit or None, dt=_step(dt), channel=channel.strip() or None)
         own = slug(name or filename.rsplit(".", 1)[0])
         return replace(motion, name=own, title=name or motion.title)
 

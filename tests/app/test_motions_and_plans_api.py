@@ -42,6 +42,15 @@ def test_an_uploaded_record_is_kept_previewed_planned_and_removed(client: TestCl
     assert client.get(f"{MOTIONS}/{name}").status_code == 404
 
 
+def test_a_file_of_several_channels_asks_for_one_by_name_or_number(client: TestClient) -> None:
+    text = "\n".join(f"{0.01 * i:.2f} {0.2 * np.sin(i / 9):.6f} {0.1 * np.sin(i / 7):.6f}" for i in range(400))
+    asked = upload(client, text, unit="g").json()["errors"][0]
+    assert asked["where"] == "channel" and "2: column 3" in asked["fix"]
+    for channel in ("2", "Column 3"):
+        shown = upload(client, text, path="/preview", unit="g", channel=channel).json()
+        assert shown["pga"] == pytest.approx(0.1 * 9.80665, rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("text", "filename"),
     [

@@ -38,12 +38,12 @@ def read(
     unit: str | None = None,
     dt: float | None = None,
     format: str | None = None,
-    channel: int | None = None,
+    channel: int | str | None = None,
 ) -> Motion:
     """The motion in a file, named after the file. `unit` and `dt` (s) are used where the file does not state them.
 
-    `format` is a key of the formats, `channel` the number of an acceleration channel from 1: needed where the file has several.
-    Raises MotionError with every issue: what, where, value, bound and how to mend it.
+    `format` is a key of the formats. `channel` is the name or the number (from 1) of an acceleration channel: needed where
+    the file has several. Raises MotionError with every issue: what, where, value, bound and how to mend it.
     """
     table = _table(raw, filename, format)
     offered = _channels(table)
@@ -106,11 +106,13 @@ def _can_be_acceleration(unit: str) -> bool:
     return known is None or units.UNITS[known][0] == "acceleration"
 
 
-def _chosen(offered: tuple[Channel, ...], channel: int | None) -> Channel:
+def _chosen(offered: tuple[Channel, ...], channel: int | str | None) -> Channel:
     if channel is None and len(offered) == 1:
         return offered[0]
-    if channel is not None and 1 <= channel <= len(offered):
-        return offered[channel - 1]
+    asked = str(channel).strip().lower()
+    named = [one for one in offered if isinstance(channel, str) and one.name.lower() == asked]
+    if channel is not None and (found := named or [one for one in offered if str(one.number) == asked]):
+        return found[0]
     listed = "; ".join(f"{one.number}: {one.name}" for one in offered)
     problem = "the file has 1 channel" if len(offered) == 1 else f"the file has {len(offered)} channels"
     raise MotionError(Issue("channel", problem, channel, f"choose one of {listed}"))

@@ -14,6 +14,7 @@ export function uploadBox(added) {
   const file = el("input", { type: "file", accept: ".at2,.v0,.v1,.v2,.v0c,.v1c,.v2c,.raw,.smc,.txt,.csv,.dat,.tsv,.acc,text/*" });
   const unit = el("select", {}, el("option", { value: "" }, "from the file"), ...UNITS.map((name) => el("option", { value: name }, name)));
   const dt = el("input", { type: "text", inputmode: "decimal", placeholder: "from the file", autocomplete: "off" });
+  const channel = el("input", { type: "text", placeholder: "name or number, if the file has several", autocomplete: "off" });
   const name = el("input", { type: "text", placeholder: "from the file's name", autocomplete: "off" });
   const told = el("p", { class: "error", role: "alert" });
   const shown = el("div");
@@ -23,15 +24,15 @@ export function uploadBox(added) {
   const form = () => {
     const data = new FormData();
     data.set("file", withinLimit(file.files[0]));
-    for (const [key, control] of Object.entries({ unit, dt, name })) if (control.value.trim()) data.set(key, control.value.trim());
+    for (const [key, control] of Object.entries({ unit, dt, channel, name })) if (control.value.trim()) data.set(key, control.value.trim());
     return data;
   };
   const refused = (/** @type {unknown} */ error) => {
     if (!(error instanceof ApiError)) throw error;
     shown.replaceChildren();
     told.textContent = error.errors.map(sentence).join("; ") || error.message;
-    const asked = error.errors.map((problem) => problem.where).find((where) => /(unit|dt)$/.test(where ?? ""));
-    if (asked) (asked.endsWith("dt") ? dt : unit).focus();
+    const asked = error.errors.map((problem) => problem.where).find((where) => /(unit|dt|channel)$/.test(where ?? ""));
+    if (asked) (asked.endsWith("dt") ? dt : asked.endsWith("unit") ? unit : channel).focus();
   };
   let looks = 0;
   const look = async () => {
@@ -66,18 +67,19 @@ export function uploadBox(added) {
     }
   };
   for (const control of [file, unit]) control.addEventListener("change", look);
-  dt.addEventListener("input", lookSoon);
+  for (const control of [dt, channel]) control.addEventListener("input", lookSoon);
 
   const box = el(
     "details",
     { class: "upload" },
-    el("summary", {}, "Upload a record: PEER AT2, COSMOS V2 or columns of numbers"),
+    el("summary", {}, "Upload a record: PEER AT2, COSMOS, CSMIP, SMC or columns of numbers"),
     el(
       "div",
       { class: "fields" },
       labelled("upload.file", "File", file),
       labelled("upload.unit", "Unit of the acceleration", unit),
       labelled("upload.dt", "Time step", dt, "", "s"),
+      labelled("upload.channel", "Channel", channel),
       labelled("upload.name", "Name in the library", name),
     ),
     told,
