@@ -6,6 +6,7 @@ from rths_engine.formats import apart, recognised, surroundings
 from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import (
     catman,
+    catman_ascii,
     famos,
     hdf5,
     lvm,
@@ -39,6 +40,7 @@ FORMATS: tuple[Format, ...] = (
     opensees_binary.FORMAT,
     json_file.FORMAT,
     lvm.FORMAT,
+    catman_ascii.FORMAT,
     mts.FORMAT,
     toa5.FORMAT,
     tracerdaq.FORMAT,
