@@ -36,6 +36,7 @@ from rths_engine.formats.strong_motion import (
     dyna,
     geonet,
     knet,
+    mseed,
     nsmn,
     smc,
 )
@@ -60,6 +61,7 @@ FORMATS: tuple[Format, ...] = (
     tracerdaq.FORMAT,
     opensees_xml.FORMAT,
     opensees_text.FORMAT,
+    mseed.FORMAT,
     knet.FORMAT,
     dyna.FORMAT,
     geonet.FORMAT,
