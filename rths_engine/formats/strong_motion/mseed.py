@@ -85,9 +85,7 @@ def _column(trace: _Trace, start: float, found: stationxml.Sensitivity | None) -
         return Column(trace.channel, trace.samples, "counts" if trace.counts else "", dt, start)
     quantity, unit, factor = found.unit
     if trace.channel.split(".")[-1][1:2] == _ACCELEROMETER and quantity != "acceleration":
-        problem = (
-            f"states the sensitivity of the accelerometer {trace.channel} for {quantity}, true at one frequency only"
-        )
+        problem = f"states the sensitivity of the accelerometer {trace.channel} for {quantity}, true at one frequency only"
         fix = "remove the StationXML file and give the unit of one count, for example '2.34e-6 m/s^2'"
         raise FileError(Issue(found.where, problem, found.shown, fix))
     mean = float(np.mean(trace.samples))
