@@ -15,16 +15,16 @@ import numpy as np
 
 from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
-from rths_engine.formats.statement import Statement, Written, count, duration
+from rths_engine.formats.statement import COARSE, SAME_STEP, Statement, Written, count, duration
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import unit_named
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
-PEAK_WITHIN = 0.2  # of the peak; chosen, see docs/decisions/0023
-_FIRST_LINES, _HEADER_LINES = 12, 140
+# chosen; see docs/decisions/0023
+PEAK_WITHIN = 0.2  # of the peak
 _DATA = re.compile(r"^DATOS DE ACELERACION", re.IGNORECASE)
 _RULER = re.compile(r"^\s*-{3,}[-+]*\s*$")
 _NAMES = re.compile(r"[A-Z]", re.IGNORECASE)
@@ -34,7 +34,7 @@ _DAY, _ORIGIN = r"^FECHA DEL SISMO[^:]*:\s*(.*)$", r"^HORA EPICENTRO[^:]*:\s*(.*
 
 def looks_like(source: Source) -> bool:
     """Whether the file is a standard acceleration file."""
-    return any(re.match(r"ARCHIVO EST[AÁ]NDAR DE ACELERACI", one, re.IGNORECASE) for one in source.head_lines[:_FIRST_LINES])
+    return any(re.match(r"ARCHIVO EST[AÁ]NDAR DE ACELERACI", one, re.IGNORECASE) for one in source.head_lines[:FIRST_LINES])
 
 
 def read(source: Source) -> Table:
@@ -60,7 +60,7 @@ def read(source: Source) -> Table:
     statements += [duration(one, len(values), step) for one in _each(header, "DURACION DEL REGISTRO", channels)]
     code = header.text(r"^CLAVE DE LA ESTACION\s*:\s*(\S*)")
     names = [f"{code} {name}".strip() for name in _names(header, channels)]
-    said, notes = _peaks(_each(header, "ACEL. MAX.", channels), values, names, data.rounding)
+    said, notes = _peaks(_each(header, "ACEL. MAX.", channels), values, names, unit, data.rounding)
     columns = tuple(
         Column(name, np.ascontiguousarray(values[:, k]), unit, step, quantity="acceleration") for k, name in enumerate(names)
     )
@@ -80,7 +80,7 @@ def read(source: Source) -> Table:
 
 def _parts(lines: list[fortran.Line]) -> tuple[Keyed, list[fortran.Line]]:
     """Header, and the rows below the rulers, names and directions that follow `DATOS DE ACELERACION`."""
-    at = next((at for at, line in lines[:_HEADER_LINES] if _DATA.match(line)), None)
+    at = next((at for at, line in lines[:FIRST_LINES] if _DATA.match(line)), None)
     if at is None:
         raise FileError(Issue("file", "has no line 'DATOS DE ACELERACION' above its data", fix="get the file again"))
     while at < len(lines) and (not lines[at][1].strip() or _RULER.match(lines[at][1]) or _words(lines[at][1])):
@@ -100,7 +100,7 @@ def _below(header: Keyed, title: str) -> list[fortran.Line]:
 
 def _unit(header: Keyed) -> str:
     stated = header.text(r"^UNIDADES DE LOS DATOS\s*:\s*(.*)$")
-    unit = unit_named(stated.split("(")[0]) or unit_named(stated)
+    unit = acceleration_unit(stated.split("(")[0]) or acceleration_unit(stated)
     if not unit:
         raise FileError(Issue("header", "states no known unit of acceleration", stated, "write Gal, g or m/s/s"))
     return unit
@@ -132,27 +132,30 @@ def _names(header: Keyed, channels: int) -> list[str]:
 def _check_steps(steps: list[Written], rates: list[Written], step: float) -> None:
     """Raises FileError where channels have different steps, or interval and rate differ."""
     for one in steps:
-        if one.value <= 0 or abs(one.value - step) > one.within:
+        if one.value <= 0 or abs(one.value - step) > SAME_STEP * step:
             problem = f"states a step of {one.value:g} s beside {step:g} s; all channels of a file have one step"
             raise FileError(Issue(one.where, problem, fix="correct the header"))
+    rounding = steps[0].within / step if steps else 0.0
     for one in rates:
-        if one.value <= 0 or abs(1 / one.value - step) > 1e-3 * step + (steps[0].within if steps else 0.0):
+        if one.value <= 0 or abs(1 / one.value - step) > max(SAME_STEP, min(rounding, COARSE)) * step:
             problem = f"states {one.value:g} samples/s; the interval is {step:g} s, {1 / step:g} samples/s"
             raise FileError(Issue(one.where, problem, fix="correct the header"))
 
 
-def _peaks(stated: list[Written], values: Array, names: list[str], rounding: float) -> tuple[list[Statement], tuple[str, ...]]:
+def _peaks(
+    stated: list[Written], values: Array, names: list[str], unit: str, rounding: float
+) -> tuple[list[Statement], tuple[str, ...]]:
     """The peak of each channel without its sign, and a note for each that differs by more than rounding."""
     statements, notes = [], []
     for k, one in enumerate(stated if len(values) else []):
         read = float(np.max(np.abs(values[:, k])))
         rounded = one.within + rounding + 1e-6 * read
         within = rounded + PEAK_WITHIN * read
-        statement = Statement(f"peak of {names[k]}", one.where, abs(one.value), read, "gal", within)
+        statement = Statement(f"peak of {names[k]}", one.where, abs(one.value), read, unit, within)
         statements.append(statement)
         if rounded < abs(statement.stated - read) <= within:
             notes.append(
-                f"{names[k]}: the header states a peak of {abs(one.value):g} gal, the data have {read:g} gal "
+                f"{names[k]}: the header states a peak of {abs(one.value):g} {unit}, the data have {read:g} {unit} "
                 f"({100 * abs(abs(one.value) / read - 1):.2g} % apart); this network removes offsets after it writes the header"
             )
     return statements, tuple(notes)
@@ -173,4 +176,7 @@ FORMAT = Format(
     compared="number of samples, duration, rate and interval, channels; peaks within 20 %, with a note beyond rounding",
     looks_like=looks_like,
     read=read,
+    public=295,
+    public_check="number of samples and peaks in the files; eight more contradict themselves and are refused, one of "
+    "them counts named Gal",
 )

@@ -17,6 +17,7 @@ from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.errors import FileError, Issue
 
 _FIRST = re.compile(r"^\* VOL1DS FILE:")
+# by definition of the format
 _TEXT, _NUMBERS = 13, 14  # lines of text, and of integers and reals
 _VALUES = fortran.Columns(10, 13)
 _END = "/&"
@@ -106,4 +107,6 @@ FORMAT = Format(
     compared="number of samples, duration, unit; the format states no peak",
     looks_like=looks_like,
     read=read,
+    public=6,
+    public_check="number of samples and duration in the files; peaks of 18 components by an independent parse by fixed columns",
 )

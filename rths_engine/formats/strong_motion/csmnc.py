@@ -9,22 +9,21 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import unit_named
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
 
-_FIRST_LINES = 20
 _COUNTS = rf"NO\. OF POINTS:\s*(\d+)\s+EQUALLY SPACED INTERVALS OF:\s*({NUMBER})\s*SEC"
 _PEAK = rf"PEAK VALUE:\s*({NUMBER})\s+AT\s+({NUMBER})\s*SEC"
-_VALUES = fortran.Columns(8, 13)
+_VALUES = fortran.Columns(8, 13)  # by definition of the format
 _ONLY_NUMBERS = re.compile(r"^[-+.\deE\s]*\d[-+.\deE\s]*$")
-_CHINA = 8.0  # hours ahead of UTC
+_CHINA = 8.0  # hours ahead of UTC, by definition
 
 
 def looks_like(source: Source) -> bool:
     """Whether the file is of CSMNC."""
-    return any(re.search(_COUNTS, line) for line in source.head_lines[:_FIRST_LINES])
+    return any(re.search(_COUNTS, line) for line in source.head_lines[:FIRST_LINES])
 
 
 def read(source: Source) -> Table:
@@ -38,7 +37,7 @@ def read(source: Source) -> Table:
     header, rows = Keyed(lines[: first - 1]), lines[first - 1 :]
     if next(header.find("VELOCITY|DISPLACEMENT"), None) or not next(header.find("ACCELERATION"), None):
         raise FileError(Issue("header", "does not describe a record of acceleration", fix="give the record of acceleration"))
-    unit = unit_named(header.text(r"ACCELERATION\s+UNIT:\s*(\S+)"))
+    unit = acceleration_unit(header.text(r"ACCELERATION\s+UNIT:\s*(\S+)"))
     if not unit:
         stated = header.text(r"UNIT:\s*(\S*)")
         raise FileError(Issue("header", "states no known unit of acceleration", stated, "write UNIT: CM/SEC/SEC"))
@@ -83,4 +82,6 @@ FORMAT = Format(
     compared="number of samples, duration, peak with its sign and its time",
     looks_like=looks_like,
     read=read,
+    public=10,
+    public_check="number of samples, duration, peak with its sign and its time in the files",
 )

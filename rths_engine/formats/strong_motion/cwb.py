@@ -11,23 +11,22 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, Written, count
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import unit_named
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
-_FIRST_LINES = 40
-_WIDTH = 10
+_WIDTH = 10  # by definition of the format
 _SEQUENCE = r"^#DataSequence:\s*Time\s+(.*?)\s*$"
 _EXTREMES = rf"^#AmplitudeMAX\.\s*(\S+?):\s*({NUMBER})\s*~\s*({NUMBER})"
-_TAIWAN = 8.0  # hours ahead of UTC
+_TAIWAN = 8.0  # hours ahead of UTC, by definition
 _FORMS = ("%Y/%m/%d-%H:%M:%S.%f", "%Y/%m/%d-%H:%M:%S")
 
 
 def looks_like(source: Source) -> bool:
     """Whether the file is of the Taiwanese network."""
-    return any(re.match(_SEQUENCE, line) for line in source.head_lines[:_FIRST_LINES])
+    return any(re.match(_SEQUENCE, line) for line in source.head_lines[:FIRST_LINES])
 
 
 def read(source: Source) -> Table:
@@ -35,7 +34,7 @@ def read(source: Source) -> Table:
     lines = numbered(source.lines)
     end = next((at for at, line in lines if line.strip() and not line.startswith("#")), len(lines) + 1) - 1
     header = Keyed(lines[:end])
-    unit = unit_named(re.split(r"[.\s]", header.text(r"^#AmplitudeUnit:\s*(\S.*)$"))[0])
+    unit = acceleration_unit(re.split(r"[.\s]", header.text(r"^#AmplitudeUnit:\s*(\S.*)$"))[0])
     if not unit:
         stated = header.text(r"^#AmplitudeUnit:\s*(.*)$")
         raise FileError(Issue("header", "states no known unit of acceleration", stated, "write #AmplitudeUnit: gal"))
@@ -111,4 +110,6 @@ FORMAT = Format(
     compared="number of samples, times of all rows, largest and smallest value of each component",
     looks_like=looks_like,
     read=read,
+    public=11,
+    public_check="number of samples, and largest and smallest value of 33 components in the files",
 )

@@ -8,14 +8,13 @@ from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
 from rths_engine.formats.strong_motion.units_written import unit_named
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
 
-_FIRST_LINES = 80
 _KEY = re.compile(r"^[A-Z][A-Z0-9_/^ \-]*:")
-_VALUES = fortran.Columns(1, 12)
+_VALUES = fortran.Columns(1, 12)  # by definition of the format
 # quantity -> its unit, and the keys of its peak and of the time of its peak
 _QUANTITIES = {
     "acceleration": ("cm/s^2", r"PGA_CM/S\^2", "TIME_PGA_S"),
@@ -27,7 +26,7 @@ _FORMS = ("%Y%m%d_%H%M%S.%f", "%Y%m%d_%H%M%S", "%d/%m/%Y %H:%M:%S.%f", "%d/%m/%Y
 
 def looks_like(source: Source) -> bool:
     """Whether the file is DYNA text."""
-    first = source.head_lines[:_FIRST_LINES]
+    first = source.head_lines[:FIRST_LINES]
     return all(any(line.startswith(key) for line in first) for key in ("SAMPLING_INTERVAL_S:", "NDATA:", "DATA_TYPE:"))
 
 
@@ -36,11 +35,12 @@ def read(source: Source) -> Table:
     lines = numbered(source.lines)
     end = next((at for at, line in lines if line.strip() and not _KEY.match(line)), len(lines) + 1) - 1
     header, rows = Keyed(lines[:end]), lines[end:]
-    where, kind = next(header.find(r"^DATA_TYPE:\s*(.*)$"))
-    quantity = next((one for one in _QUANTITIES if re.search(rf"\b{one}$", kind[1].strip(), re.IGNORECASE)), "")
+    where, kind = next(header.find(r"^DATA_TYPE:\s*(.*)$"), ("header", None))
+    stated_kind = kind[1].strip() if kind else ""
+    quantity = next((one for one in _QUANTITIES if re.search(rf"\b{one}$", stated_kind, re.IGNORECASE)), "")
     if not quantity:
         problem = "is not a record of acceleration, velocity or displacement"
-        raise FileError(Issue(where, problem, kind[1].strip(), "give the time series of acceleration"))
+        raise FileError(Issue(where, problem, stated_kind, "give the time series of acceleration"))
     unit, peak_key, time_key = _QUANTITIES[quantity]
     stated_unit = next(header.find(r"^UNITS:\s*(.*)$"), None)
     if stated_unit is not None and stated_unit[1][1].strip() and unit_named(stated_unit[1][1]) != unit:
@@ -90,4 +90,6 @@ FORMAT = Format(
     compared="number of samples, duration, unit, peak and its time",
     looks_like=looks_like,
     read=read,
+    public=7,
+    public_check="number of samples, unit, peak and its time in the files; the file of AFAD states no time",
 )

@@ -21,6 +21,7 @@ from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
 
 _FIRST = re.compile(r"^(Uncorrected|Corrected) accelerogram \S", re.IGNORECASE)
+# lines, columns and places in the header, by definition of the format
 _TEXT, _INTEGER_LINES, _REAL_LINES = 16, 4, 6
 _HEADER = _TEXT + _INTEGER_LINES + _REAL_LINES
 _INTEGERS, _REALS, _VALUES = fortran.Columns(10, 8), fortran.Columns(10, 8), fortran.Columns(10, 8)
@@ -90,6 +91,7 @@ class _Component:
         self.name = " ".join((self.text.text(r"^Site (\S+)"), self.direction))
         self._check_direction()
         self._check_unit()
+        self._check_count()
 
     def integer(self, number: int) -> int:
         return int(fortran.number(self.integers[number - 1]))
@@ -131,10 +133,8 @@ class _Component:
     def _compared(
         self, data: fortran.Series, label: str, unit: str, dt: float, real: int | None, of: str
     ) -> Iterator[Statement]:
-        """Count, duration and step in text and reals; peak and its time in both."""
+        """Duration and step in text and reals; peak and its time in both."""
         if label == "Acceleration":
-            for where, found in self.text.find(r"^Number of points\s+(\d+)"):
-                yield count(int(found[1]), len(data.values), where, of)
             lengths = [Written.of(found[1], where) for where, found in self.text.find(rf"\bDuration\s+({NUMBER})\s*s")]
             for length in (*lengths, self.real(_LENGTH)):
                 yield duration(length, len(data.values), dt, of)
@@ -164,6 +164,14 @@ class _Component:
             problem = f"states a direction of {coded} deg; the text states {self.direction}, {named} deg"
             raise FileError(Issue(where, problem, fix="correct the direction that is wrong"))
 
+    def _check_count(self) -> None:
+        """Raises FileError where text and integers state different numbers of points."""
+        coded = self.integer(_BLOCKS[0][3])
+        for where, found in self.text.find(r"^Number of points\s+(\d+)"):
+            if int(found[1]) != coded:
+                problem = f"states {found[1]} points; integer header {_BLOCKS[0][3]} states {coded}"
+                raise FileError(Issue(where, problem, fix="get the file again"))
+
     def _check_unit(self) -> None:
         """Raises FileError where the text states another unit than the format has."""
         for where, found in self.text.find(r"\bin units of\s+(\S+\s+\S+)"):
@@ -184,4 +192,6 @@ FORMAT = Format(
     compared="number of samples, duration, step, unit, direction; peak with its sign and its time for each quantity",
     looks_like=looks_like,
     read=read,
+    public=13,
+    public_check="number of samples, step, and peak and time of 63 blocks in the files",
 )

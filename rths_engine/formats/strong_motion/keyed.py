@@ -11,6 +11,8 @@ from rths_engine.formats.statement import Written
 from rths_engine.formats.strong_motion.fortran import Line
 from rths_engine.foundation.errors import FileError, Issue
 
+FIRST_LINES = 140  # of a file, in which a header of such lines is looked for; chosen, see docs/decisions/0023
+
 
 @dataclass(frozen=True, slots=True)
 class Keyed:

@@ -18,14 +18,15 @@ from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, count, peak
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.errors import FileError, Issue
 
-_FIRST_LINES = 20
+# by definition of the format
 _DELAY = timedelta(seconds=15)  # of the record time; K-NET ASCII format, NIED
 _JAPAN = 9.0  # hours ahead of UTC
 _COUNTS = fortran.Columns(8, 9)
+
 _LABEL = re.compile(
     r"^(Origin Time|Lat\.|Long\.|Depth\.|Mag\.|Station|Record Time|Sampling Freq|Duration Time|Dir\.|Scale Factor|Max\. Acc\."
     r"|Last Correction|Memo\.)"
@@ -55,7 +56,7 @@ class _Record:
 
 def looks_like(source: Source) -> bool:
     """Whether the file is of K-NET or KiK-net."""
-    first = source.head_lines[:_FIRST_LINES]
+    first = source.head_lines[:FIRST_LINES]
     return all(any(line.startswith(label) for line in first) for label in ("Sampling Freq(Hz)", "Scale Factor"))
 
 
@@ -164,4 +165,6 @@ FORMAT = Format(
     compared="number of samples, peak without the mean, direction in the name of the file",
     looks_like=looks_like,
     read=read,
+    public=55,
+    public_check="number of samples and peak without the mean in the files",
 )

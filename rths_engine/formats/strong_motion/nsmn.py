@@ -11,28 +11,27 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Written, count, peak
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import unit_named
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
 
-_FIRST_LINES = 30
 _NAMES = re.compile(r"^\s*[NEUSWDZV](?:-[NEUSWD])?(?:\s+[NEUSWDZV](?:-[NEUSWD])?)+\s*$")
 _PEAKS = re.compile(r"^RAW PGA VALUES\s*\(\s*(\S+?)\s*\)\s*:(.*)$", re.IGNORECASE)
 _PEAK = re.compile(rf"\(\s*([^)]+?)\s*\)\s*({NUMBER})")
-_WIDTH = 13
+_WIDTH = 13  # by definition of the format
 
 
 def looks_like(source: Source) -> bool:
     """Whether the file is a record of the Turkish network."""
-    first = source.head_lines[:_FIRST_LINES]
+    first = source.head_lines[:FIRST_LINES]
     return any(re.match(r"NUMBER OF DATA\s*:", line) for line in first) and any(_PEAKS.match(line) for line in first)
 
 
 def read(source: Source) -> Table:
     """Every component as a column. Raises FileError with the line of what does not follow the format."""
     lines = numbered(source.lines)
-    at = next((at for at, line in lines[:_FIRST_LINES] if _NAMES.match(line)), None)
+    at = next((at for at, line in lines[:FIRST_LINES] if _NAMES.match(line)), None)
     if at is None:
         fix = "write the names of the components above the numbers: N-S E-W U-D"
         raise FileError(Issue("header", "has no row of names above the numbers", fix=fix))
@@ -76,8 +75,8 @@ def _peaks(header: Keyed) -> tuple[str, dict[str, Written]]:
     """The unit, which only the label of the peaks states, and the peak of each component."""
     for at, line in header.lines:
         if found := _PEAKS.match(line):
-            unit = unit_named(found[1])
-            if unit != "cm/s^2" and unit != "g":
+            unit = acceleration_unit(found[1])
+            if not unit:
                 raise FileError(Issue(f"line {at}", "states a unit that is not known", found[1], "write gal or g"))
             return unit, {one[1]: Written.of(one[2], f"line {at}") for one in _PEAK.finditer(found[2])}
     raise FileError(Issue("header", "does not state the peaks and their unit", fix="get the file again"))
@@ -93,4 +92,6 @@ FORMAT = Format(
     compared="number of samples, peak and name of each component",
     looks_like=looks_like,
     read=read,
+    public=23,
+    public_check="number of samples and the peak of 69 components in the files",
 )

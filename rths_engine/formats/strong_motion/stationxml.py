@@ -18,7 +18,8 @@ _MOST_FILES = 50
 _LARGEST = 50_000_000  # bytes
 _ROOT = b"FDSNStationXML"
 _OPEN_START, _OPEN_END = datetime.min.replace(tzinfo=UTC), datetime.max.replace(tzinfo=UTC)
-# input units -> quantity, unit and its factor; SEED writes them in capitals
+
+# input units -> quantity, unit and its factor, by definition; SEED writes them in capitals
 _UNITS = {
     "m/s**2": ("acceleration", "m/s^2", 1.0),
     "m/s": ("velocity", "m/s", 1.0),
