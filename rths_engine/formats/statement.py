@@ -60,7 +60,7 @@ class Written:
 def last_digit(text: str) -> float:
     """The value of one unit of the last digit of a number as it is written: 0.001 for `-0.182`, 1 for `182`."""
     found = _DIGITS.fullmatch(text.strip())
-    return 10.0 ** (int(found[3] or 0) - len(found[2])) if found else 0.0
+    return float(f"1e{int(found[3] or 0) - len(found[2])}") if found else 0.0
 
 
 def count(stated: int, read: int, where: str, of: str = "") -> Statement:
