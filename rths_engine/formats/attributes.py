@@ -26,7 +26,7 @@ _KEYS = {
     "gain": r"gain|gain_?factor",
     "offset": r"offset|add_?offset|intercept",
     "sensitivity": r"sensitivity",
-    "unit": r"units?",
+    "unit": r"units?|engineering_?units?|eu|y_?units?|unit_?(?:name|label|string)",
     "sensitivity unit": r"(?:sensitivity|gain)_?units?|units?_?of_?(?:sensitivity|gain)",
     "count": r"npts|(?:n|num|number_?of)_?samples|sample_?count|samples",
     "duration": r"duration|record_?length",
@@ -49,7 +49,7 @@ class Attributes:
         found: dict[str, tuple[str, Any]] = {}
         others = []
         for name, value in node.items():
-            plain = re.sub(r"[ \-.]+", "_", str(name).strip())
+            plain = _spelled(str(name))
             what = next((what for what, pattern in _NAMED.items() if pattern.fullmatch(plain)), None)
             if what is not None and _plain(value):
                 found.setdefault(what, (str(name), value))
@@ -118,6 +118,12 @@ class Attributes:
         if not _fits(factor, values) or not np.isfinite(factor).all() or not np.all(factor):
             return values, unit, f"{name} is not applied: it has {factor.size} values, or is 0"
         shown = f"x {_text(factor)}{given and f' {given}'} ({name})"
+        if unit and not given and what == "gain" and _ratio(unit, "V") is not None:
+            return (
+                values,
+                unit,
+                f"{name} = {_text(factor)} is not applied: the values are in {unit}, and its unit is not stated",
+            )
         if given and "/" in given:
             over, _, under = given.partition("/")
             ratio = _ratio(unit, under)
@@ -166,7 +172,7 @@ class Attributes:
             result: float | None = float(found[1]) * (_ratio(found[2], unit) or 1.0)
         else:
             result = number(value)
-            match = _NAMED[what].fullmatch(re.sub(r"[ \-.]+", "_", name.strip()))
+            match = _NAMED[what].fullmatch(_spelled(name))
             own = (match.groupdict().get("unit") if match else None) or ""
             ratio = _ratio(_SPELLED.get(own.lower(), own.lower()), unit) if own else 1.0
             result = result if result is None else result * (ratio or 1.0)
@@ -180,6 +186,12 @@ def number(value: Any) -> float | None:
         return None
     result = float(found.reshape(-1)[0])
     return result if np.isfinite(result) and abs(result) < 1e12 else None
+
+
+def _spelled(name: str) -> str:
+    """The name in words with `_` between them: `sampling rate`, `sampling-rate` and `samplingRate` as `sampling_rate`."""
+    found = re.sub(r"[ \-.]+", "_", name.strip())
+    return found if "_" in found else re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", found)
 
 
 def _plain(value: Any) -> bool:

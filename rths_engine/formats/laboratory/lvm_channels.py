@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from rths_engine.formats.laboratory.lvm_segments import File, Segment
 from rths_engine.formats.laboratory.rows import Line, decimal_sign, fields, number, up_to_last, values
 from rths_engine.formats.statement import Statement, Written, count, step
+from rths_engine.foundation import unit_names
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -76,6 +78,7 @@ def channels_of(segment: Segment, file: File) -> Channels:
 
 def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: Array | None, decimal: str) -> None:
     """One channel with its statements."""
+    _check_unit(segment, k)
     name = segment.labels[k]
     stated = {key: _written(segment, key, k, decimal) for key in ("Samples", "Delta_X", "X0")}
     samples, delta, x0 = stated["Samples"], stated["Delta_X"], stated["X0"]
@@ -112,6 +115,16 @@ def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: A
     start = float(x[0]) if x is not None and len(x) and x0 is None else first
     unit = segment.stated("Y_Unit_Label", k)[0]
     found.channels.append(Channel(name, unit, own, dt, start, segment.began(k), times))
+
+
+def _check_unit(segment: Segment, k: int) -> None:
+    """Raises FileError where the name of a channel states another unit than Y_Unit_Label."""
+    label, where = segment.stated("Y_Unit_Label", k)
+    inside = re.search(r"[(\[]([^()\[\]]+)[)\]]\s*$", segment.labels[k])
+    one, other = unit_names.read(label), unit_names.read(inside[1] if inside else "")
+    if one.unit and other.unit and (one.unit, one.scale) != (other.unit, other.scale):
+        problem = f"Y_Unit_Label states {label!r} for the channel {segment.labels[k]!r}"
+        raise FileError(Issue(where, problem, fix="correct the label or the name"))
 
 
 def _clock(found: Channels, delta: Written | None, x: Array | None, single: bool) -> tuple[float | None, Array | None]:

@@ -13,6 +13,7 @@ from rths_engine.foundation.errors import FileError, Issue
 # LabVIEW Measurement File Specification, National Instruments
 END = "***End_of_Header***"
 _SPECIAL, _END_SPECIAL = "***Start_Special***", "***End_Special***"
+_LABELS = "X_Value"
 _SEPARATORS = {"tab": "\t", "comma": ",", "semicolon": ";", "space": " "}
 _KEYS = {
     "Channels", "Samples", "Date", "Time", "Y_Unit_Label", "X_Dimension", "X_Unit_Label", "X0", "Delta_X", "Notes", "Test_Name",
@@ -86,6 +87,12 @@ def parsed(lines: Sequence[str]) -> File:
             text.append(line)
             current.keys[first] = (at, fields(line, separator))
             apart = False
+        elif not ended and first.startswith(_LABELS) and not current.keys:
+            text.append(line)  # the file has no header of segments
+            current.labels, current.at, ended = fields(line, separator), at, True
+        elif not ended and re.match(r"[A-Za-z]", first):
+            text.append(line)  # a key that the specification does not list, or one of the file's header without its first line
+            current.keys[first] = (at, fields(line, separator))
         elif not ended:
             fix = f"each segment needs its lines of header, then {END}"
             raise FileError(Issue(f"line {at}", "stands before the end of the header", line.strip(), fix))
@@ -101,13 +108,12 @@ def parsed(lines: Sequence[str]) -> File:
 
 
 def _header(lines: Sequence[str]) -> tuple[dict[str, str], int]:
-    """The keys of the file's header, and the number of its lines; a file can lack it."""
-    if not lines[0].strip().startswith("LabVIEW Measurement"):
-        return {}, 0
+    """The keys of the file's header, and the number of its lines, 0 where a segment begins the file."""
+    whole = lines[0].strip().startswith("LabVIEW Measurement")
     header: dict[str, str] = {}
-    for at, line in enumerate(lines[1:], start=2):
+    for at, line in enumerate(lines, start=1):
         if line.strip().startswith(END):
-            return header, at
+            return header, at if whole else 0
         key, _, value = re.sub(r"[\t;,]", "\t", line, count=1).partition("\t")
         header[key.strip()] = value.strip()[:1] if key == "Decimal_Separator" else value.strip(" \t;,")
     raise FileError(Issue("file", "ends inside its header", fix="get the file again"))

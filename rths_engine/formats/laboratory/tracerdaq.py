@@ -21,6 +21,7 @@ _LONGEST_HEADER = 60  # lines
 _ROUNDED = 1e-3  # of the step: interval and rate are rounded apart
 _GAP = 1.5  # steps between two rows, from which samples are missing
 
+_SCALES = {"ms": 1e-3, "khz": 1e3}  # to s and Hz, by definition
 _FIRST, _STAMP, _EVENTS = "sample number", "date/time", "events"
 
 
@@ -43,7 +44,8 @@ def read(source: Source) -> Table:
     last = len(names) - 1 if names[-1].lower() == _EVENTS else len(names)
     dated = len(names) > 1 and names[1].lower() == _STAMP
     used = [0, *range(2 if dated else 1, last)]
-    numbers, empty = rows.values(data, separator, ".", used, range(last, len(names) + 1), [names[k] for k in used])
+    decimal = rows.decimal_sign(data, separator)
+    numbers, empty = rows.values(data, separator, decimal, used, range(last, len(names) + 1), [names[k] for k in used])
     if not len(numbers):
         raise FileError(Issue("file", "contains no rows", fix="get the file again"))
     if empty.any():
@@ -86,10 +88,11 @@ def _stated(header: Sequence[str]) -> dict[str, Written]:
     """The numbers of the header by their words in lower case."""
     found = {}
     for at, line in enumerate(header, start=1):
-        match = re.match(r'\s*"?([A-Za-z /]+?)\s*:"?[\s,;]*"?([-+.\deE]+)"?', line)
+        match = re.match(r'\s*"?([A-Za-z /]+?)\s*:"?[\s,;]*"?([-+.\deE]+)\s*(ms|kHz)?"?', line, re.IGNORECASE)
         if match:
             try:
-                found[match[1].lower()] = Written.of(match[2], f"line {at}")
+                one, scale = Written.of(match[2], f"line {at}"), _SCALES.get((match[3] or "").lower(), 1.0)
+                found[match[1].lower()] = Written(one.value * scale, one.within * scale, one.where)
             except ValueError:
                 continue
     return found

@@ -52,6 +52,21 @@ def test_a_short_header_without_the_one_of_the_file_is_read() -> None:
     ]
 
 
+def test_a_file_without_headers_of_segments_or_without_its_first_line_is_read() -> None:
+    rows = "0.000000\t1.5\n0.004000\t2.5\n0.008000\t3.5\n"
+    table = read(f"LabVIEW Measurement\nX_Columns\tOne\n***End_of_Header***\nX_Value\tForce (kN)\tComment\n{rows}".encode())
+    assert [(one.name, one.dt, one.values.tolist()) for one in table.columns] == [("Force (kN)", 0.004, [1.5, 2.5, 3.5])]
+    head = "Separator\tSemicolon\nDecimal_Separator\t,\nDelta_X;0,004\n***End_of_Header***\nX_Value;Force;Comment\n"
+    table = read((head + ";1,5\n;2,5\n").encode())
+    assert [(one.name, one.dt, one.values.tolist()) for one in table.columns] == [("Force", 0.004, [1.5, 2.5])]
+
+
+def test_a_name_that_states_another_unit_than_its_label_is_refused() -> None:
+    content = written([[Signal("Force (kN)", [1.0, 2.0], "Newtons")]])
+    assert "line 18: Y_Unit_Label states 'Newtons' for the channel 'Force (kN)'" in refusal(content)
+    assert read(written([[Signal("Force (kN)", [1.0, 2.0], "kN")]])).columns[0].unit == "kN"
+
+
 def test_channels_of_their_own_rate_and_start() -> None:
     fast = Signal("a", [1.0, 2.0, 3.0, 4.0], dt=0.001, time="10:00:00.500000")
     slow = Signal("b", [5.0, 6.0], dt=0.002, x0=0.25, time="10:00:00.502000")

@@ -63,6 +63,11 @@ def test_what_contradicts_its_header_is_refused(old: str, new: str, told: str) -
     assert told in str(refused.value)
 
 
+def test_an_interval_in_ms_is_not_seconds() -> None:
+    content = written(NAMES, ROWS).replace(b"Interval:  0.004", b"Interval:  4 ms")
+    assert read(content).columns[0].dt == 0.004
+
+
 def test_stated_count_and_rate_are_compared() -> None:
     for more, told in (
         ("Sample Count: 301", "of 301; the data have 300"),

@@ -97,6 +97,7 @@ def test_scale_gain_offset_and_sensitivity_are_applied_and_said(attributes: Any,
         ({"unit": "g", "sensitivity": "100 mV/g"}, "force: sensitivity = 100 mV/g is not applied: the values are in g"),
         ({"unit": "mm", "gain": "20 kN/V"}, "force: gain = 20 kN/V is not applied: the values are in mm"),
         ({"unit": "kN", "scale": 0}, "force: scale is not applied: it has 1 values, or is 0"),
+        ({"unit": "V", "gain": 10}, "force: gain = 10 is not applied: the values are in V, and its unit is not stated"),
         ({"tare": 0.2}, "force: tare = 0.2 is not subtracted: state it as the offset of the column where it applies"),
     ],
 )
