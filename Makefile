@@ -33,8 +33,9 @@ test-clone: setup
 test-guides: setup
 	$(BIN)/pytest -m slow tests/test_guides.py $(PYTEST)
 
-# Measure times on this machine, and compare with OpenSees if it is installed: docs/benchmarks.md.
+# Measure times on this machine, and compare with OpenSees if it is installed, and with pyarrow and polars: docs/benchmarks.md.
 bench: setup
+	@$(BIN)/python -c 'import polars, pyarrow' 2>/dev/null || $(PIP) install --no-build-isolation -e '.[bench]'
 	$(BIN)/python -m benchmarks
 
 # Score diagnoses on recordings with known left-out physics: docs/proof.md. Takes 30 to 60 minutes.

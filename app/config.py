@@ -45,7 +45,7 @@ class Settings:
     worker_concurrency: int = 2
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     upload_limit: int = 20 * MEGABYTE
-    measurements_limit: int = 100 * MEGABYTE
+    measurements_limit: int = 1100 * MEGABYTE
 
     @property
     def url(self) -> str:

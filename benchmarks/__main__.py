@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from benchmarks import against_opensees, diagnoses, drawing, scaling, whole_runs
+from benchmarks import against_opensees, diagnoses, drawing, import_csv, scaling, whole_runs
 from rths_engine.running.warm import warm
 from tests.opensees import peer
 
@@ -31,6 +31,7 @@ def main() -> None:
         whole_runs.memory,
         scaling.step_by_dof,
         diagnoses.diagnoses,
+        import_csv.import_csv,
     ):
         found = part()
         print(json.dumps(found, indent=2), flush=True)

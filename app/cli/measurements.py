@@ -5,11 +5,14 @@ from __future__ import annotations
 import hashlib
 import sys
 from argparse import Namespace
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 
 from app.cli.run_input import check_folder
+from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings import measured
 from rths_engine.recordings.measured import Mapping, Measured, MeasuredChannel, mapping_yaml
@@ -20,8 +23,8 @@ def measurements(given: Namespace) -> None:
     """`rths import`: import a file, or print a proposed mapping. Raises MeasuredError for an invalid file or mapping."""
     if given.guess == (given.map is not None) or given.guess == (given.out is not None):
         raise MeasuredError(Issue("", "needs either --guess, or --map MAP.yaml and --out REC.h5"))
-    raw = _bytes(given.file, "FILE")
-    table = measured.read(raw, given.file.name)
+    content, checksum = _content(given.file)
+    table = measured.read(content, given.file.name)
     if given.guess:
         found = measured.guess(table)
         print(mapping_yaml.write(found.mapping, found.reasons, found.left_out), end="")
@@ -32,9 +35,9 @@ def measurements(given: Namespace) -> None:
     if given.out.exists() and given.out.samefile(given.file):
         raise MeasuredError(Issue("--out", "is the file of measurements itself", str(given.out), "choose another file"))
     mapping = Mapping.from_yaml(_text(given.map))
-    recording = measured.imported(table, mapping, str(given.file.resolve()), hashlib.sha256(raw).hexdigest())
+    recording = measured.imported(table, mapping, str(given.file.resolve()), checksum())
     try:
-        measured.save(given.out, recording)
+        measured.save(given.out, recording, durable=False)  # the file of measurements remains
     except OSError as error:
         raise MeasuredError(
             Issue("--out", f"was not written: {error.strerror}", str(given.out), "choose another file")
@@ -42,6 +45,21 @@ def measurements(given: Namespace) -> None:
     for warning in recording.warnings:
         print(warning, file=sys.stderr)
     print(_report(given.out, recording))
+
+
+def _content(path: Path) -> tuple[Path | bytes, Callable[[], str]]:
+    """What to read the measurements from, and a function that gives their checksum, computed while they are read."""
+    if not path.is_file():
+        raw = _bytes(path, "FILE")  # a pipe
+        return raw, lambda: hashlib.sha256(raw).hexdigest()
+    try:
+        path.open("rb").close()
+    except OSError as error:
+        raise MeasuredError(Issue("FILE", f"cannot be read: {error.strerror}", str(path))) from None
+    with_reading = ThreadPoolExecutor(1)
+    checksum = with_reading.submit(files.checksum, path)
+    with_reading.shutdown(wait=False)
+    return path, checksum.result
 
 
 def _bytes(path: Path, where: str) -> bytes:
@@ -66,6 +84,7 @@ def _report(path: Path, recording: Measured) -> str:
 
 
 def _line(channel: MeasuredChannel) -> str:
-    values, unit = shown(channel.values, channel.unit)
-    span = f"{np.min(values):>10.4g} to {np.max(values):>10.4g} {unit:<6}"
+    extent = measured.extent(channel.values)
+    (low, high), unit = shown(np.array([extent.low, extent.high]), channel.unit)
+    span = f"{low:>10.4g} to {high:>10.4g} {unit:<6}"
     return f"  {channel.key:<12} {span} {channel.label} (column {channel.column})"

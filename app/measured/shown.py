@@ -18,6 +18,7 @@ from rths_engine.recordings.measured import (
     Measured,
     MeasuredChannel,
     Signal,
+    release,
     same_motion,
     stated,
 )
@@ -66,6 +67,7 @@ def column(one: Column) -> dict[str, Any]:
     """
     known = one.values[np.isfinite(one.values)]
     missing = len(one.values) - len(known)
+    release(one.values)
     written = stated.unit_of(one)
     unit = {"unit": one.unit, "stated": written.plain, "problem": written.problem, "applied": one.applied}
     clock = {"samples": len(one.values), "missing": missing, "dt_s": one.dt, "start_s": one.start}
@@ -101,15 +103,17 @@ def preview(measured: Measured | None, signals: Sequence[Signal] = (), part: Par
 def described(one: MeasuredChannel) -> dict[str, Any]:
     """A channel without its samples, with `unit` and statistics in the unit shown."""
     values, unit = shown(one.values, one.unit)
+    release(one.values)
     named = {"key": one.key, "role": one.role, "number": one.number, "label": one.label, "column": one.column}
     return {**named, "moved": one.moved, "unit": unit, **_statistics(values)}
 
 
 def _decimated(one: MeasuredChannel, measured: Measured, own: Signal | None, part: Part) -> dict[str, Any]:
     """A channel with its samples in a part of the time: all of them, or the extremes of equal parts where there are many."""
-    times, values = (measured.time, one.values) if own is None else (own.clock.times, own.values)
+    times, samples = (measured.time, one.values) if own is None else (own.clock.times, own.values)
     inside = part.within(times)
-    times, values = times[inside], shown(values, one.unit)[0][inside]
+    times, values = times[inside], shown(samples, one.unit)[0][inside]
+    release(samples)
     kept = extremes(values[:, None], BUCKETS) if len(values) else np.arange(0)
     told = {"samples": len(values), "time": _rounded(times[kept], 9), "values": _rounded(values[kept], DIGITS)}
     return {**described(one), **told}

@@ -72,7 +72,8 @@ def read_block(source: Source, start: int, layout: Layout, other: OtherLine) -> 
     with Scratch(layout.columns, most) as scratch:
         rows = 0
         for block in _blocks(source, start, layout, other):
-            scratch.write(rows, block)
+            for column, values in enumerate(block):
+                scratch.write(column, rows, values)
             rows += block.shape[1]
             if rows * layout.columns > MOST_VALUES:
                 problem = f"has more than {MOST_VALUES:,} values, the maximum"

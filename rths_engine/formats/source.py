@@ -11,6 +11,7 @@ from typing import BinaryIO
 from rths_engine.formats import lines
 from rths_engine.foundation.errors import FileError, Issue
 
+LARGEST = 200_000_000  # bytes of a file that is held in memory to be read; chosen, see docs/decisions/0023
 HEAD = 1 << 16  # bytes by which a format is recognised; chosen, see docs/decisions/0023
 
 
@@ -55,7 +56,10 @@ class Source:
             return file.read(size)
 
     def bytes(self) -> bytes:
-        """The whole content."""
+        """The whole content. Raises FileError for a file too large to be held in memory."""
+        if self.size > LARGEST:
+            problem = f"has {self.size / 1e6:.0f} MB; a file of this format can have {LARGEST / 1e6:.0f} MB"
+            raise FileError(Issue("file", problem, fix="export fewer signals or a shorter time, or export it as CSV"))
         return self.content if self.content is not None else self._path.read_bytes()
 
     @cached_property

@@ -6,7 +6,6 @@ last column of its field. A line whose blanks separate as many numbers as the fo
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -72,9 +71,10 @@ def _is_number(text: str) -> bool:
     if text[-1:].isspace():
         return False
     try:
-        return math.isfinite(number(text))
+        float(text.replace("D", "E").replace("d", "e"))
     except ValueError:
         return False
+    return True
 
 
 def number(text: str) -> float:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from rths_engine.formats.scratch import release
 from rths_engine.formats.table import Column, Table
+from rths_engine.recordings.measured.blocks import extent
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.guess import Guess, guess
 from rths_engine.recordings.measured.importing import Examined, Signal, check, examine, imported
@@ -24,9 +26,11 @@ __all__ = [
     "Table",
     "check",
     "examine",
+    "extent",
     "fingerprint",
     "guess",
     "imported",
     "read",
+    "release",
     "save",
 ]

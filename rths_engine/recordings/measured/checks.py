@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured import blocks
+from rths_engine.recordings.measured.blocks import Extent
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.roles import shown
 
@@ -16,13 +18,13 @@ CLIPPED_SAMPLES = 8  # in all runs: fewer samples can come from a coarse resolut
 ABRUPT = 4.0  # of the resolution, over two samples: a smooth peak has smaller steps near its top
 
 
-def filled(values: Array, times: Array, channel: str) -> tuple[Array, list[Finding]]:
-    """The values with short runs of missing values interpolated, and findings about them."""
+def filled(values: Array, extent: Extent, times: Array, channel: str) -> tuple[Array, Extent, list[Finding]]:
+    """The values with short runs of missing values interpolated, their extent, and findings about them."""
+    if extent.finite:
+        return values, extent, []
     bad = ~np.isfinite(values)
-    if not bad.any():
-        return values, []
     if bad.all():
-        return values, [Finding("error", channel, "contains no values", fix="leave the channel out")]
+        return values, extent, [Finding("error", channel, "contains no values", fix="leave the channel out")]
     starts, ends = _runs(bad)
     lengths = ends - starts
     longest = int(np.argmax(lengths))
@@ -30,14 +32,16 @@ def filled(values: Array, times: Array, channel: str) -> tuple[Array, list[Findi
     value = f"{bad.sum()} of {len(values)} samples, {lengths[longest]} in a row"
     if lengths[longest] > LONGEST_RUN:
         fix = f"cut the file with start or stop, or leave the channel out; up to {LONGEST_RUN} in a row are interpolated"
-        return values, [Finding("error", channel, "has missing values (NaN)", value, at, fix)]
+        return values, extent, [Finding("error", channel, "has missing values (NaN)", value, at, fix)]
     bridged = np.interp(times, times[~bad], values[~bad])
-    return bridged, [Finding("warning", channel, "has missing values (NaN); they were interpolated", value, at)]
+    warning = Finding("warning", channel, "has missing values (NaN); they were interpolated", value, at)
+    return bridged, blocks.extent(bridged), [warning]
 
 
-def too_large(values: Array, channel: str, unit: str) -> list[Finding]:
+def too_large(values: Array, extent: Extent, channel: str, unit: str) -> list[Finding]:
     """Findings about values, in the SI `unit`, that are larger than any measurement."""
-    if float(np.nanmax(np.abs(values), initial=0.0)) < LARGEST:
+    largest = max(abs(extent.low), abs(extent.high)) if extent.finite else float(np.nanmax(np.abs(values), initial=0.0))
+    if largest < LARGEST:
         return []
     return [
         Finding(
@@ -50,27 +54,28 @@ def too_large(values: Array, channel: str, unit: str) -> list[Finding]:
     ]
 
 
-def shape(values: Array, times: Array, channel: str, unit: str) -> list[Finding]:
+def shape(values: Array, extent: Extent, times: Array, channel: str, unit: str) -> list[Finding]:
     """Findings about a channel, in the SI `unit`, that is constant or clipped at its extremes."""
-    if np.ptp(values) == 0:
+    if extent.high - extent.low == 0:
         fix = "leave the channel out unless it is meant to be constant"
         return [Finding("warning", channel, "is constant", f"{_text(values[0], unit)} throughout", float(times[0]), fix)]
-    return [*_clipped(values, times, channel, unit, 1.0), *_clipped(values, times, channel, unit, -1.0)]
+    held = [(1.0, extent.high, extent.at_high), (-1.0, extent.low, extent.at_low)]
+    found = (_clipped(values, times, channel, unit, *one[:2]) for one in held if one[2] >= CLIPPED_SAMPLES)
+    return [finding for findings in found for finding in findings]
 
 
-def _clipped(values: Array, times: Array, channel: str, unit: str, sign: float) -> list[Finding]:
+def _clipped(values: Array, times: Array, channel: str, unit: str, sign: float, level: float) -> list[Finding]:
     """Findings about runs at the extreme value that the signal reaches abruptly. Runs at the start or end can be rest."""
-    level = sign * float(np.max(sign * values))
-    starts, ends = _runs(values == level)
-    resolution = _resolution(values)
-    inside = [
+    starts, ends = _runs(blocks.equal(values, level))
+    long = [
         (first, last)
         for first, last in zip(starts, ends, strict=True)
-        if first > 0
-        and last < len(values)
-        and last - first >= CLIPPED_RUN
-        and sign * (level - values[max(first - 2, 0)]) > ABRUPT * resolution
+        if first > 0 and last < len(values) and last - first >= CLIPPED_RUN
     ]
+    if sum(last - first for first, last in long) < CLIPPED_SAMPLES:
+        return []
+    least = ABRUPT * _resolution(values)
+    inside = [(first, last) for first, last in long if sign * (level - values[max(first - 2, 0)]) > least]
     samples = sum(last - first for first, last in inside)
     if samples < CLIPPED_SAMPLES:
         return []

@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rths_engine.formats.scratch import on_disk, release
 from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.measured.blocks import SHORT, parts
 from rths_engine.recordings.measured.finding import Finding
 
 # chosen; see docs/decisions/0023
@@ -47,6 +49,8 @@ def shifted(clock: Clock, by: float) -> Clock:
 
 def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
     """The clock of a time column (s), and findings about it; None in place of a clock that cannot be used."""
+    if on_disk(times) and len(times) > 2 and (even := _even(times)) is not None:
+        return even, []
     if refused := _refused(times, channel):
         return None, [refused]
     differences = np.diff(times)
@@ -68,6 +72,31 @@ def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
         problem = "time steps vary; the channels were interpolated to equal steps"
         findings.append(Finding("warning", channel, problem, value, fix="if the time stamps are wrong, give the rate instead"))
     return Clock(times, step, uniform=not irregular and off <= JITTER and not len(missing)), findings
+
+
+def _even(times: Array) -> Clock | None:
+    """The clock of stamps that all equal start + k * step except for rounding, by blocks; None for other stamps."""
+    count = len(times)
+    middle, centre = (count - 1) / 2, float(times[0])
+    product = total = 0.0
+    for part in parts(count, SHORT):
+        index = np.arange(part.start, part.stop) - middle
+        product += float(index @ (times[part] - centre))
+        total += float(np.sum(times[part] - centre))
+        release(times[part])
+    slope = product / (count * (count**2 - 1) / 12)  # least squares
+    if not (np.isfinite(slope) and slope > 0):
+        return None
+    step = _rounded(slope, count - 1)
+    start = centre + total / count - middle * step
+    if not abs(times[-1]) <= LATEST:
+        return None
+    for part in parts(count):
+        off = np.abs(times[part] - start - np.arange(part.start, part.stop) * step)
+        if not off.max() <= JITTER * step:
+            return None
+        release(times[part])
+    return Clock(times, step, uniform=True)
 
 
 def _refused(times: Array, channel: str) -> Finding | None:

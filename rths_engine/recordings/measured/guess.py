@@ -5,12 +5,14 @@ A unit that the file does not state is left empty and asked for, with the unit t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 
 import numpy as np
 
+from rths_engine.formats.scratch import on_disk
 from rths_engine.formats.table import Column, Table
+from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings.measured import guess_roles, guess_time
 from rths_engine.recordings.measured.guess_progress import MARK, Progress, Taken
@@ -18,6 +20,7 @@ from rths_engine.recordings.measured.guess_units import by_hint, derivative_unit
 from rths_engine.recordings.measured.mapping import LARGEST_NUMBER, MOST_CHANNELS, ColumnMap, Mapping
 from rths_engine.recordings.measured.roles import RAW, ROLES, dimension, key
 
+EXCERPT = 1 << 18  # samples by which a large file is guessed; chosen, see docs/decisions/0023
 _WEIGHT = {"kg": "kgf", "t": "tf"}  # the force that a unit of mass stands for on a load cell
 
 
@@ -39,7 +42,7 @@ class Guess:
 @np.errstate(over="ignore", invalid="ignore")  # columns can contain any number
 def guess(table: Table) -> Guess:
     """The proposed mapping of a table. Raises MeasuredError where no column can be a measurement."""
-    progress = Progress(table)
+    progress = Progress(_excerpt(table))
     for column in table.columns:
         if not np.isfinite(column.values).any():
             progress.left[column.name] = "contains no values"
@@ -63,6 +66,19 @@ def guess(table: Table) -> Guess:
         notes.append("the file does not state its time step: give dt or rate")
     reasons = {name: one.why for name, one in progress.taken.items() if name not in progress.left}
     return Guess(Mapping(test=_test(channels), channels=tuple(channels)), reasons, progress.left, tuple(notes))
+
+
+def _excerpt(table: Table) -> Table:
+    """The table with the middle of the columns that lie on disk: enough for a guess, however long the file is."""
+    return replace(table, columns=tuple(replace(one, values=_middle(one.values)) for one in table.columns))
+
+
+def _middle(values: Array) -> Array:
+    first = len(values) // 2 - EXCERPT // 2
+    if not on_disk(values) or first <= 0:
+        return values
+    middle = np.array(values[first : first + EXCERPT])
+    return middle if np.isfinite(middle).any() else values
 
 
 def _channels(progress: Progress) -> list[ColumnMap]:

@@ -6,10 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rths_engine.formats.numeric_block import MOST_VALUES
+from rths_engine.formats.scratch import kept, on_disk, release
 from rths_engine.formats.table import MOST_SAMPLES, Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue, MeasuredError
-from rths_engine.recordings.measured import checks, clock, mapping_yaml, pairs, stated
+from rths_engine.recordings.measured import blocks, checks, clock, mapping_yaml, pairs, stated
+from rths_engine.recordings.measured.blocks import Extent
 from rths_engine.recordings.measured.clock import Clock
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
@@ -59,34 +62,41 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
     check(table, mapping)
     findings = stated.differing(table, mapping)
     clocks: dict[str, Clock | None] = {}
-    signals: list[Signal] = []
+    timed: list[tuple[ColumnMap, Clock, list[Finding]]] = []
     for index, channel in enumerate(mapping.channels):
-        if channel.role == "t":
-            continue
-        own = _clock(table, mapping, channel, index, clocks, findings)
-        if own is None:
-            continue
-        if channel.lag:
-            own = clock.shifted(own, -channel.lag)
-        values, found = checks.filled(_si(table.column(channel.column, "").values, channel), own.times, channel.key)
-        found += checks.too_large(values, channel.key, _unit(channel))
-        findings += found
-        if not any(one.severity == "error" for one in found):
-            findings += checks.shape(values, own.times, channel.key, _unit(channel))
-            signals.append(Signal(channel, values, own))
+        if channel.role != "t" and (own := _clock(table, mapping, channel, index, clocks, findings)) is not None:
+            timed.append((channel, clock.shifted(own, -channel.lag) if channel.lag else own, findings))
+            findings = []
+    large = any(on_disk(column.values) for column in table.columns)
+    seen = blocks.each(lambda one: _signal(table, *one[:2]), timed, large)
+    findings = [*(one for (_, _, before), (_, found) in zip(timed, seen, strict=True) for one in before + found), *findings]
+    signals = [signal for signal, _ in seen if signal is not None]
     if len(signals) < len(mapping.measurements):
         return Examined(None, tuple(findings), tuple(signals))
     start, count, dt = _grid(mapping, [one.clock for one in signals])
     findings += _lost(signals, start, start + (count - 1) * dt, mapping)
-    channels = tuple(
-        _channel(one.channel, resampled(one.values, one.clock, start, count, dt), _moved(one, start, count, dt))
-        for one in signals
-    )
+    channels = tuple(_channel(one, start, count, dt) for one in signals)
     findings += pairs.contradictions({one.key: one.values for one in channels}, dt)
     warnings = tuple(one for one in findings if one.severity == "warning")
     text = mapping_yaml.write(mapping)
     measured = Measured(dt, channels, start, mapping.title, mapping.test, source, sha256, text, warnings)
     return Examined(measured, tuple(findings), tuple(signals))
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def _signal(table: Table, channel: ColumnMap, own: Clock) -> tuple[Signal | None, list[Finding]]:
+    """The samples of a channel, and findings about them; None where they cannot be used."""
+    unit = _unit(channel)
+    column = table.column(channel.column, "").values
+    values, extent, found = checks.filled(*_si(column, channel), own.times, channel.key)
+    if on_disk(column) and not on_disk(values):
+        values = kept(values)
+    found += checks.too_large(values, extent, channel.key, unit)
+    if any(one.severity == "error" for one in found):
+        return None, found
+    found += checks.shape(values, extent, own.times, channel.key, unit)
+    release(values)
+    return Signal(channel, values, own), found
 
 
 def check(table: Table, mapping: Mapping) -> None:
@@ -115,7 +125,7 @@ def _clock(
     if stamps is not None and channel.rate is None:
         times = table.column(stamps.column, "")
         if times.name not in clocks:
-            clocks[times.name], found = clock.of_stamps(_si(times.values, stamps), f"t ({times.name})")
+            clocks[times.name], found = clock.of_stamps(_si(times.values, stamps)[0], f"t ({times.name})")
             findings += found
         if len(times.values) == count:
             return clocks[times.name]
@@ -158,11 +168,11 @@ def _stamps(table: Table, mapping: Mapping, channel: ColumnMap, index: int) -> C
     return ColumnMap(column=name, role="t", unit=written.unit, gain=gain)
 
 
-def _si(values: Array, channel: ColumnMap) -> Array:
+def _si(values: Array, channel: ColumnMap) -> tuple[Array, Extent]:
     gain, unit = channel.scale
     factor, zero = to_si(unit)
     sign = -1.0 if channel.reverse else 1.0
-    return sign * factor * gain * (values - channel.offset) + zero
+    return blocks.scaled(values, sign * factor * gain, channel.offset, zero)
 
 
 def _unit(channel: ColumnMap) -> str:
@@ -189,8 +199,9 @@ def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
         given = f"{begin:g} s to {end:g} s in steps of {dt:g} s"
         problem = f"leave {max(0, count)} samples; a recording needs at least {LEAST}"
         raise MeasuredError(Issue("mapping.start, stop and target_rate", problem, given, "give a longer time or a higher rate"))
-    if count * len(clocks) > MOST_SAMPLES:
-        problem = f"gives {count * len(clocks):,} samples; the maximum is {MOST_SAMPLES:,}"
+    most = MOST_VALUES if any(on_disk(one.times) for one in clocks) else MOST_SAMPLES
+    if count * len(clocks) > most:
+        problem = f"gives {count * len(clocks):,} samples; the maximum is {most:,}"
         raise MeasuredError(Issue("mapping.target_rate", problem, f"{1 / dt:g} Hz", "choose a lower rate"))
     return float(begin), count, dt
 
@@ -217,8 +228,14 @@ def _moved(signal: Signal, start: float, count: int, dt: float) -> str:
     return "; ".join(filter(None, [*parts, described(signal.clock, start, count, dt)]))
 
 
-def _channel(channel: ColumnMap, values: Array, moved: str) -> MeasuredChannel:
+def _channel(signal: Signal, start: float, count: int, dt: float) -> MeasuredChannel:
+    channel = signal.channel
+    values = resampled(signal.values, signal.clock, start, count, dt)
+    if on_disk(signal.values) and not on_disk(values):
+        values = kept(values)
+    release(signal.values)
     role = ROLES[channel.role]
     number = (channel.number or 1) if role.counts else None
     label = channel.label or (f"{role.label}, {role.counts} {number}" if number else role.label)
+    moved = _moved(signal, start, count, dt)
     return MeasuredChannel(channel.role, number, values, _unit(channel), label, str(channel.column), moved)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
+from rths_engine.formats.scratch import on_disk, release
 from rths_engine.foundation.arrays import Array
-from rths_engine.recordings.measured import relations
+from rths_engine.recordings.measured import blocks, relations
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.roles import key
 
@@ -22,23 +25,32 @@ _ALIKE = (("x_cmd", "x_meas"), ("x_comp", "x_meas"), ("x_cmd", "x_comp"))
 def contradictions(signals: Mapping[str, Array], dt: float) -> list[Finding]:
     """Findings about all stations and floors; `signals` are the channels in SI by their keys."""
     numbers = sorted({int(name.rpartition(".")[2]) for name in signals if "." in name})
+    large = any(on_disk(one) for one in signals.values())
+    return [one for found in blocks.each(lambda number: _of(number, signals, dt), numbers, large) for one in found]
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def _of(number: int, signals: Mapping[str, Array], dt: float) -> list[Finding]:
+    """Findings about one station or floor."""
     found: list[Finding] = []
-    for number in numbers:
-        for source, derived in _DERIVATIVES:
-            a, b = key(source, number), key(derived, number)
-            if a in signals and b in signals:
-                relation = relations.of_derivative(signals[a], signals[b], dt)
-                found += _finding(relation, b, f"the derivative of {a}", certain=derived != "a_floor")
-        for source, follower in _ALIKE:
-            a, b = key(source, number), key(follower, number)
-            if a in signals and b in signals:
-                found += _finding(relations.between(signals[a], signals[b]), b, a, certain=False)
-        x, force = key("x_meas", number), key("f_meas", number)
-        if x in signals and force in signals and (share := relations.dissipated(signals[x], signals[force])) < GIVES:
-            problem = f"supplies energy with {x}, which a passive device cannot do: the sign of one of the two is reversed"
-            value = f"{-100 * share:.0f} % of the energy exchanged"
-            fix = f"set reverse: true for {force} or {x}, unless the device is driven"
-            found.append(Finding("warning", force, problem, value, fix=fix))
+    for source, derived in _DERIVATIVES:
+        a, b = key(source, number), key(derived, number)
+        if a in signals and b in signals:
+            relation = relations.of_derivative(signals[a], signals[b], dt)
+            found += _finding(relation, b, f"the derivative of {a}", certain=derived != "a_floor")
+    for source, follower in _ALIKE:
+        a, b = key(source, number), key(follower, number)
+        if a in signals and b in signals:
+            found += _finding(relations.between(signals[a], signals[b]), b, a, certain=False)
+    x, force = key("x_meas", number), key("f_meas", number)
+    if x in signals and force in signals and (share := relations.dissipated(signals[x], signals[force])) < GIVES:
+        problem = f"supplies energy with {x}, which a passive device cannot do: the sign of one of the two is reversed"
+        value = f"{-100 * share:.0f} % of the energy exchanged"
+        fix = f"set reverse: true for {force} or {x}, unless the device is driven"
+        found.append(Finding("warning", force, problem, value, fix=fix))
+    for name, values in signals.items():
+        if name.endswith(f".{number}"):
+            release(values)
     return found
 
 

@@ -13,6 +13,6 @@ from rths_engine.foundation.errors import FileError, MeasuredError
 def read(file: bytes | Path, name: str) -> Table:
     """The table in a file, given by its content or its path. Raises MeasuredError with what is wrong and how to mend it."""
     try:
-        return registry.read(Source(name, path=file) if isinstance(file, Path) else Source(name, content=file))
+        return registry.read(Source(name, path=file.absolute()) if isinstance(file, Path) else Source(name, content=file))
     except FileError as error:
         raise MeasuredError(error.issues) from None

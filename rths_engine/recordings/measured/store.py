@@ -2,7 +2,8 @@
 
 Datasets `x_meas.1`, `f_meas.1`, `ag`, ... float64 (samples,) with attributes `role`, `number`, `unit`, `label`, `column`; file
 attributes `schema`, `title`, `test`, `dt` (s), `start_s` (of the first sample, in the source's time), `source` (name or path),
-`source_sha256`, `mapping` (YAML), `warnings` (JSON), `code_version`.
+`source_sha256`, `mapping` (YAML), `warnings` (JSON), `code_version`. Datasets of a large file are not compressed: they
+lie in one piece and are mapped when the recording is loaded.
 """
 
 from __future__ import annotations
@@ -15,30 +16,37 @@ import h5py
 import numpy as np
 
 from rths_engine import __version__
+from rths_engine.formats.scratch import on_disk, release, write_at
 from rths_engine.foundation import files
+from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.recordings.measured import blocks
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
 from rths_engine.recordings.measured.roles import SI, key
 
 SCHEMA = "rths-measured/1"
+PIECE = 1 << 17  # samples of a channel on disk that are written at once; chosen, see docs/decisions/0023
 
 
-def save(path: Path, measured: Measured) -> None:
-    """Write `measured` to `path` completely or not at all."""
+def save(path: Path, measured: Measured, durable: bool = True) -> None:
+    """Write `measured` to `path` completely or not at all; `durable` waits until the disk holds it."""
     with files.temporary(path) as written:
         with h5py.File(written, "w") as file:
-            _write(file, measured)
-        files.sync(written)
+            places = _write(file, measured)
+        _fill(written, places)
+        if durable:
+            files.sync(written)
         written.replace(path)
-        files.sync(path.parent)
+        if durable:
+            files.sync(path.parent)
 
 
 def load(path: Path) -> Measured:
     """Read a measured recording. Raises RecordingError where the file is missing, damaged or in another format."""
     try:
         with h5py.File(path, "r") as file:
-            return _read(file)
+            return _read(file, path)
     except FileNotFoundError:
         raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
     except (OSError, KeyError, TypeError, ValueError) as error:
@@ -46,10 +54,16 @@ def load(path: Path) -> Measured:
         raise RecordingError(Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix=fix)) from None
 
 
-def _write(file: h5py.File, measured: Measured) -> None:
+def _write(file: h5py.File, measured: Measured) -> list[tuple[int, Array]]:
+    """Write all but the samples of channels on disk; returns their places in the file (bytes) and these samples."""
+    places: list[tuple[int, Array]] = []
     for one in measured.channels:
-        options: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
-        dataset = file.create_dataset(one.key, data=one.values, **options)
+        if on_disk(one.values):
+            dataset = _reserved(file, one.key, len(one.values))
+            places.append((dataset.id.get_offset(), one.values))
+        else:
+            options: dict[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
+            dataset = file.create_dataset(one.key, data=one.values, **options)
         about = {"role": one.role, "number": one.number or 0, "unit": one.unit, "label": one.label}
         dataset.attrs.update(about, column=one.column, moved=one.moved)
     file.attrs.update(
@@ -65,26 +79,60 @@ def _write(file: h5py.File, measured: Measured) -> None:
         warnings=json.dumps([warning.as_dict() for warning in measured.warnings]),
     )
 
+    return places
 
-def _read(file: h5py.File) -> Measured:
+
+def _reserved(file: h5py.File, name: str, samples: int) -> h5py.Dataset:
+    """A dataset of float64 in one piece of the file, not compressed, whose samples are not written yet."""
+    space, settings = h5py.h5s.create_simple((samples,)), h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    settings.set_alloc_time(h5py.h5d.ALLOC_TIME_EARLY)
+    settings.set_fill_time(h5py.h5d.FILL_TIME_NEVER)
+    return h5py.Dataset(h5py.h5d.create(file.id, name.encode(), h5py.h5t.IEEE_F64LE, space, settings))
+
+
+def _fill(path: Path, places: list[tuple[int, Array]]) -> None:
+    """Write the samples of reserved datasets, on threads: the HDF5 library would write one after the other."""
+    if not places:
+        return
+    with path.open("r+b", buffering=0) as file:
+
+        def fill(place: tuple[int, Array]) -> None:
+            at, values = place
+            for part in blocks.parts(len(values), PIECE):
+                write_at(file.fileno(), at + part.start * values.itemsize, values[part])
+                release(values[part])
+
+        blocks.each(fill, places, threads=True)
+
+
+def _read(file: h5py.File, path: Path) -> Measured:
     attrs = file.attrs
     if attrs.get("schema") != SCHEMA:
         raise ValueError(f"its schema is {attrs.get('schema')!r}")
     fields = Finding.__dataclass_fields__
     warnings = [Finding(**{name: one[name] for name in fields}) for one in json.loads(attrs["warnings"])]
-    channels = tuple(_channel(file[name]) for name in file)
+    channels = tuple(_channel(file[name], path) for name in file)
     if not channels or len({len(one.values) for one in channels}) > 1:
         raise ValueError("its channels differ in length")
     dt = float(attrs["dt"])
-    if not (np.isfinite(dt) and dt > 0) or not all(np.isfinite(one.values).all() for one in channels):
+    if not (np.isfinite(dt) and dt > 0) or not all(blocks.extent(one.values).finite for one in channels):
         raise ValueError("it contains values that are not finite")
     texts: dict[str, Any] = {name: str(attrs[name]) for name in ("title", "source", "source_sha256", "mapping")}
     return Measured(dt, channels, float(attrs["start_s"]), test=str(attrs["test"]) or None, warnings=tuple(warnings), **texts)
 
 
-def _channel(dataset: h5py.Dataset) -> MeasuredChannel:
+def _channel(dataset: h5py.Dataset, path: Path) -> MeasuredChannel:
     role, number = str(dataset.attrs["role"]), int(dataset.attrs["number"]) or None
     unit, label, column = (str(dataset.attrs[name]) for name in ("unit", "label", "column"))
     if key(role, number) != dataset.name.lstrip("/") or unit not in SI.values():
         raise ValueError(f"{dataset.name} is not a channel of a known role in SI")
-    return MeasuredChannel(role, number, dataset[:], unit, label, column, str(dataset.attrs.get("moved", "")))
+    return MeasuredChannel(role, number, _samples(dataset, path), unit, label, column, str(dataset.attrs.get("moved", "")))
+
+
+def _samples(dataset: h5py.Dataset, path: Path) -> Array:
+    """The samples of a dataset; mapped from the file where they lie in one piece."""
+    at = dataset.id.get_offset()
+    if at is None or not dataset.size or dataset.dtype != np.dtype("<f8") or dataset.file.filename != str(path):
+        whole: Array = dataset[:]
+        return whole
+    return np.memmap(path, float, "r", at, dataset.shape)
