@@ -11,8 +11,10 @@ from rths_engine.formats.laboratory import (
     hdf5,
     lvm,
     matlab,
+    matlab73,
     mdf,
     mts,
+    netcdf,
     opensees_binary,
     opensees_text,
     opensees_xml,
@@ -30,6 +32,8 @@ from rths_engine.foundation.errors import FileError, Issue
 
 FORMATS: tuple[Format, ...] = (
     parquet.FORMAT,
+    matlab73.FORMAT,
+    netcdf.FORMAT,
     hdf5.FORMAT,
     matlab.FORMAT,
     tdms.FORMAT,

@@ -111,7 +111,7 @@ def test_parquet_tells_what_is_missing() -> None:
         (b'{"x": [1, 2', "a.json", "is not valid JSON"),
         (b'{"x": "nothing"}', "a.json", "contains no column of numbers"),
         (b"[" * 100_000, "a.json", "nested too deeply"),
-        (b"MATLAB 5.0 MAT-file".ljust(200, b"x"), "a.mat", "cannot be read as a MATLAB file"),
+        (b"MATLAB 5.0 MAT-file".ljust(200, b"x"), "a.mat", "a variable states 2021161080 bytes; the file has 64"),
         (b"\x89HDF\r\n\x1a\n" + b"x" * 100, "a.h5", "cannot be read as HDF5"),
         (b"PAR1" + b"x" * 50 + b"PAR1", "a.parquet", "cannot be read as Parquet"),
         (b"\x00\x01\x02\x03" * 9, "a.bin", "is binary, not text"),

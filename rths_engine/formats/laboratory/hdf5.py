@@ -1,4 +1,4 @@
-"""HDF5, MATLAB v7.3 and recordings of this program: every numeric dataset, with the units from its attributes.
+"""HDF5 and recordings of this program: every numeric dataset, with unit, scale, start and step from its attributes.
 
 Links to other files, external storage and virtual datasets are not followed, because they could name any file of the machine.
 """
@@ -15,7 +15,7 @@ import numpy as np
 from rths_engine.formats import tree
 from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
-from rths_engine.formats.table import Table, refuse_many
+from rths_engine.formats.table import MOST_COLUMNS, Table, refuse_many
 from rths_engine.foundation.errors import FileError, Issue
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -32,9 +32,8 @@ def read(source: Source) -> Table:
     raw = source.bytes()
     try:
         with h5py.File(io.BytesIO(raw), "r") as file:
-            matlab = raw.startswith(b"MATLAB 7.3")
-            nodes = _run(file) if str(file.attrs.get("schema")).startswith(_RUN) else _group(file, matlab, tree.DEEPEST)
-            return tree.table(nodes, "MATLAB v7.3" if matlab else "HDF5")
+            nodes = _run(file) if str(file.attrs.get("schema")).startswith(_RUN) else _group(file, tree.DEEPEST)
+            return tree.table(nodes, "HDF5")
     except FileError:
         raise
     except Exception as error:
@@ -42,28 +41,44 @@ def read(source: Source) -> Table:
         raise FileError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
 
 
-def _group(group: h5py.Group, matlab: bool, depth: int) -> dict[str, Any]:
-    found: dict[str, Any] = {name: value for name, value in group.attrs.items() if _plain(value)}
+def _group(group: h5py.Group, depth: int) -> dict[str, Any]:
+    found = _attributes(group)
     for name in group:
-        if name.startswith("#") or not isinstance(group.get(name, getlink=True), h5py.HardLink):
+        if not isinstance(group.get(name, getlink=True), h5py.HardLink):
             continue
         item = group[name]
         if isinstance(item, h5py.Group) and depth > 0:
-            found[name] = _group(item, matlab, depth - 1)
+            found[name] = _group(item, depth - 1)
         elif isinstance(item, h5py.Dataset) and not item.is_virtual and not item.external:
-            _add(found, name, item, matlab)
+            _add(found, name, item)
     return found
 
 
-def _add(found: dict[str, Any], name: str, item: h5py.Dataset, matlab: bool) -> None:
-    if matlab and item.attrs.get("MATLAB_class") == b"char":
-        if item.dtype == np.uint16 and item.size <= 200:
-            found[name] = "".join(map(chr, item[()].ravel()))
-    elif item.dtype.kind in "fiub" and item.shape is not None:
+def _add(found: dict[str, Any], name: str, item: h5py.Dataset) -> None:
+    if item.dtype.kind in "fiub" and item.shape is not None:
         refuse_many(item.size)
-        about = {key: value for key, value in item.attrs.items() if key in {"unit", "units", "dt", "fs"} and _plain(value)}
-        about = {key: value.decode("utf-8", "replace") if isinstance(value, bytes) else value for key, value in about.items()}
-        found[name] = {"data": item[()], **about} if about else item[()]
+        about = _attributes(item)
+        found[name] = {**about, "data": item[()]} if about else item[()]
+    elif item.dtype.names and item.ndim == 1:  # rows of named columns, such as those of a table
+        refuse_many(item.size * len(item.dtype.names))
+        rows = item[()]
+        found[name] = {**_attributes(item), **{key: rows[key] for key in item.dtype.names if rows.dtype[key].kind in "fiub"}}
+    elif item.shape == () and (text := _plain(item[()])) is not None:
+        found[name] = text
+
+
+def _attributes(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
+    plain = {name: _plain(value) for name, value in item.attrs.items() if not name.startswith("_") and name.upper() != name}
+    return {name: value for name, value in plain.items() if value is not None}
+
+
+def _plain(value: Any) -> Any:
+    """A text, a number or an array of numbers; None for everything else."""
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    if isinstance(value, np.ndarray):
+        return value if value.dtype.kind in "fiub" and 0 < value.size <= MOST_COLUMNS else None
+    return value if isinstance(value, str | int | float | np.number) else None
 
 
 def _run(file: h5py.File) -> dict[str, Any]:
@@ -75,18 +90,14 @@ def _run(file: h5py.File) -> dict[str, Any]:
     return {one["key"]: {"data": values[:, k], "dt": dt, "units": one["unit"]} for k, one in enumerate(channels)}
 
 
-def _plain(value: Any) -> bool:
-    return isinstance(value, str | bytes | int | float | np.number)
-
-
 FORMAT = Format(
     key="hdf5",
-    title="HDF5 and MATLAB v7.3",
+    title="HDF5",
     of="measurement",
-    extensions=("h5", "hdf5", "mat"),
+    extensions=("h5", "hdf5"),
     defined="The HDF5 file format, The HDF Group",
-    header="attributes: unit, time step or rate",
-    compared="",
+    header="attributes: unit, time step or rate, start, scale, gain, offset, sensitivity",
+    compared="number of samples, duration, time step, where attributes state them",
     looks_like=looks_like,
     read=read,
     library="h5py",
