@@ -176,7 +176,9 @@ def _rises(x: Array) -> bool:
 
 def _comments(rows: list[Line], separator: str, last: int) -> list[str]:
     """A note on texts in the column of comments."""
-    found = [(at, given[last]) for at, text in rows if len(given := fields(text, separator)) > last and given[last]]
+    found = [
+        (at, given[last]) for at, text in rows if text.count(separator) >= last and (given := fields(text, separator))[last]
+    ]
     if separator == "," and (counted := next((at for at, text in found if number(text) is not None), 0)):
         fix = "correct the line; the decimal sign cannot be the separator"
         raise FileError(Issue(f"line {counted}", "has a number in the column of comments", fix=fix))

@@ -71,7 +71,7 @@ def parsed(lines: Sequence[str]) -> File:
     current, ended, apart = Segment(), False, False
     special = ""
     for at, line in enumerate(lines[start:], start=start + 1):
-        first = fields(line, separator)[0] if line.strip() else ""
+        first = line.partition(separator)[0].strip()
         if special or first == _SPECIAL:
             text.append(line)
             notes += [] if special else [f"line {at}: a special block is not read"]
