@@ -26,7 +26,22 @@ from rths_engine.formats.laboratory import (
 )
 from rths_engine.formats.plain import columns, json_file, record
 from rths_engine.formats.source import Source
-from rths_engine.formats.strong_motion import at2, cosmos, csmip, csmip_raw, smc
+from rths_engine.formats.strong_motion import (
+    asa,
+    at2,
+    bhrc,
+    cosmos,
+    csmip,
+    csmip_raw,
+    csmnc,
+    cwb,
+    dyna,
+    geonet,
+    knet,
+    mseed,
+    nsmn,
+    smc,
+)
 from rths_engine.formats.table import Table, checked
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -50,6 +65,15 @@ FORMATS: tuple[Format, ...] = (
     tracerdaq.FORMAT,
     opensees_xml.FORMAT,
     opensees_text.FORMAT,
+    mseed.FORMAT,
+    knet.FORMAT,
+    dyna.FORMAT,
+    geonet.FORMAT,
+    nsmn.FORMAT,
+    csmnc.FORMAT,
+    cwb.FORMAT,
+    bhrc.FORMAT,
+    asa.FORMAT,
     cosmos.FORMAT,
     csmip.FORMAT,
     csmip_raw.FORMAT,

@@ -14,6 +14,10 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue
 
+# of a step; chosen, see docs/decisions/0023
+SAME_STEP = 1e-3
+COARSE = 0.03
+
 _DIGITS = re.compile(r"[-+]?(\d*)\.?(\d*)(?:[eEdD]([-+]?\d+))?")
 
 
@@ -56,7 +60,7 @@ class Written:
 def last_digit(text: str) -> float:
     """The value of one unit of the last digit of a number as it is written: 0.001 for `-0.182`, 1 for `182`."""
     found = _DIGITS.fullmatch(text.strip())
-    return 10.0 ** (int(found[3] or 0) - len(found[2])) if found else 0.0
+    return float(f"1e{int(found[3] or 0) - len(found[2])}") if found else 0.0
 
 
 def count(stated: int, read: int, where: str, of: str = "") -> Statement:
@@ -65,8 +69,12 @@ def count(stated: int, read: int, where: str, of: str = "") -> Statement:
 
 
 def step(stated: Written, read: float, unit: str = "s") -> Statement:
-    """The time step of a header beside the step of the time column, in `unit`."""
-    return Statement("time step", stated.where, stated.value, read, unit, max(stated.within, 1e-3 * abs(read)))
+    """The time step of a header beside the step of the time column, in `unit`.
+
+    `0.004` can be 1/256 s, but `0.01` is not 0.005, though half a unit of its last digit would allow it.
+    """
+    within = max(min(stated.within, COARSE * abs(read)), SAME_STEP * abs(read))
+    return Statement("time step", stated.where, stated.value, read, unit, within)
 
 
 def peak(stated: Written, values: Array, unit: str, rounding: float = 0.0, of: str = "", signed: bool = False) -> Statement:

@@ -58,7 +58,7 @@ class FileMotion(Value):
 
     kind: Literal["file"] = "file"
     path: str = Field(title="Record file", min_length=1, max_length=4096)
-    unit: str | None = Field(None, title="Unit, if the file does not give it")
+    unit: str | None = Field(None, title="Unit, or acceleration of one count, if the file does not give it")
     dt: float | None = quantity("Time step, if the file does not give it", "s", gt=0, le=1, default=None)
     scale: Scale = Field(Factor(), title="Scaling")
     title: ClassVar[str] = "Record file"
@@ -67,12 +67,13 @@ class FileMotion(Value):
         path = Path(self.path)
         try:
             check_size(path.stat().st_size)
-            raw = path.read_bytes()
+            with path.open("rb"):
+                pass
         except OSError as error:
             raise MotionError(
                 Issue("motion.path", f"cannot be read: {error.strerror}", self.path, "give the path of a record file")
             ) from None
-        return read(raw, path.name, unit=self.unit, dt=self.dt)
+        return read(path, path.name, unit=self.unit, dt=self.dt)
 
 
 class NoMotion(Value):

@@ -50,7 +50,9 @@ def block(section: Section, opening: fortran.Line, rows: list[fortran.Line], nam
     if dt is not None:
         statements += [duration(length, stated, dt, name) for length in _lengths(section)]
         if about := re.search(rf"approx\.?\s*({NUMBER})\s*sec", line, re.IGNORECASE):
-            statements.append(Statement("duration", where, float(about[1]), stated * dt, "s", 1.0 + dt))  # whole seconds
+            statements.append(
+                Statement("duration", where, fortran.number(about[1]), stated * dt, "s", 1.0 + dt)
+            )  # whole seconds
     own = _QUANTITIES.get(section.integer(2) or 0, quantity) == quantity
     if own or len(section.blocks) == 1:
         statements += _peaks(section, found, unit, dt, name)

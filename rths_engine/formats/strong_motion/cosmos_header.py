@@ -93,7 +93,7 @@ def _section(lines: list[str], start: int, last: int) -> tuple[Section, int]:
         else:
             section.text.append((at + 1, line))
             if found := _UNKNOWN.search(line):
-                section.unknown = (float(found[1]), float(found[2]))
+                section.unknown = (fortran.number(found[1]), fortran.number(found[2]))
         at += 1
     if at >= last:
         fix = "a section has '... pts, approx ... secs, units=...,Format=(...)' before its data"

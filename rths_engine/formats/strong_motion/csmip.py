@@ -5,8 +5,11 @@ Each block opens with `4096 points of accel data equally spaced at .010 sec, in 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
+
+import numpy as np
 
 from rths_engine.formats.format import Format
 from rths_engine.formats.lines import NUMBER
@@ -44,6 +47,7 @@ def read(source: Source) -> Table:
     """Every block of every channel as a column. Raises FileError with the line of what does not follow the format."""
     columns: list[Column] = []
     statements: list[Statement] = []
+    notes: list[str] = []
     first: Header | None = None
     for lines in sections(source.lines):
         starts = [at for at, (_, line) in enumerate(lines) if _OPENS.match(line)]
@@ -57,9 +61,13 @@ def read(source: Source) -> Table:
             column, said = _block(about, lines[start], lines[start + 1 : end])
             columns.append(column)
             statements += said
+            if _opposite(about, column):
+                notes.append(f"{column.name} {column.quantity}: the header states the peak with the opposite sign")
     if first is None:
         raise FileError(Issue("file", "contains no channel", fix="get the file again"))
-    return Table("CSMIP V2", named_once(columns), statements=tuple(statements), header=first.shown, about=first.about)
+    return Table(
+        "CSMIP V2", named_once(columns), statements=tuple(statements), notes=tuple(notes), header=first.shown, about=first.about
+    )
 
 
 def _block(about: Header, opening: fortran.Line, rows: list[fortran.Line]) -> tuple[Column, list[Statement]]:
@@ -74,10 +82,10 @@ def _block(about: Header, opening: fortran.Line, rows: list[fortran.Line]) -> tu
     statements = [count(stated, len(data.values), f"line {at}", label)]
     own = quantity != "acceleration" and _by_usc(about)  # whose velocity and displacement can have steps of their own
     written = None if own else about.real(_STEP)
-    dt = written.value if written is not None and written.value > 0 else float(found[3])
+    dt = written.value if written is not None and written.value > 0 else fortran.number(found[3])
     unit = _unit(about, rest, quantity, f"line {at}")
     column = Column(name, data.values, unit, dt, quantity=quantity)
-    if stated == len(data.values):
+    if stated and stated == len(data.values):
         if not own:
             statements += [*_steps(about, Written.of(found[3], f"line {at}"), dt), *_counts(about, quantity, stated, label)]
         statements += [duration(length, stated, dt, label) for length in _lengths(about)]
@@ -119,6 +127,12 @@ def _lengths(about: Header) -> Iterator[Written]:
         yield length
     for where, found in about.find(rf"record length\s*=\s*({NUMBER})\s*sec"):
         yield Written.of(found[1], where)
+
+
+def _opposite(about: Header, column: Column) -> bool:
+    """Whether the text states the peak of the column with the opposite sign, as USC does."""
+    signs = {math.copysign(1, fortran.number(found[1])) for _, found in _texts(about, column.quantity)}
+    return bool(len(column.values)) and signs == {-math.copysign(1, column.values[np.argmax(np.abs(column.values))])}
 
 
 def _by_usc(about: Header) -> bool:

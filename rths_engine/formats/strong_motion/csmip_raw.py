@@ -14,7 +14,7 @@ import numpy as np
 from rths_engine.formats.format import Format
 from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
-from rths_engine.formats.statement import Statement, Written, count, duration, peak, peak_time, step
+from rths_engine.formats.statement import Statement, Written, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.csmip_header import Header, header, sections
 from rths_engine.formats.strong_motion.orientation import named_once
@@ -77,7 +77,9 @@ def _spaced(about: Header, opening: fortran.Line, rows: list[fortran.Line]) -> t
     named, text = unit_named(own[1]) if own else "", _text_unit(about)
     if named and text and named != text:
         raise FileError(Issue(where, f"states {named}; the text states {text}", fix="correct the unit that is wrong"))
-    dt = 1 / float(found[2]) if found[2] else float(found[3])
+    if fortran.number(found[2] or found[3]) <= 0:
+        raise FileError(Issue(where, "states a sampling rate or step that is not positive", line.strip(), "correct the header"))
+    dt = 1 / fortran.number(found[2]) if found[2] else fortran.number(found[3])
     statements = [count(stated, len(data.values), where, about.name)]
     return _column(about, data.values, named or text, dt), statements + _compared(about, data, named or text, dt)
 
@@ -127,7 +129,7 @@ def _compared(about: Header, data: fortran.Series, unit: str, dt: float) -> list
     length = about.real(_LENGTH)
     found += [duration(one, samples, dt, name) for one in [*lengths, *([length] if length else [])]]
     for where, one in about.find(rf"\bat\s+({NUMBER})\s*samples/sec"):
-        found.append(step(Written(1 / float(one[1]), 0.0, where), dt))
+        found.append(Statement("sampling rate", where, fortran.number(one[1]), 1 / dt, "Hz", 1e-3 / dt))
     if not (factor := _IN_G.get(unit)):
         return found
     in_g, rounding, later = data.values * factor, data.rounding * factor, _later(about)
@@ -153,7 +155,9 @@ def _later(about: Header) -> float | None:
     times = [next((one for _, one in about.find(clock.format(word))), None) for word in ("ORIGIN:", "TRIGGER TIME:")]
     if times[0] is None or times[1] is None:
         return None
-    origin, trigger = (np.dot([3600, 60, 1], [float(part) for part in one.groups()]) for one in times if one is not None)
+    origin, trigger = (
+        np.dot([3600, 60, 1], [fortran.number(part) for part in one.groups()]) for one in times if one is not None
+    )
     return float((trigger - origin) % 86400)
 
 

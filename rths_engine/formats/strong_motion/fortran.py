@@ -6,6 +6,7 @@ last column of its field. A line whose blanks separate as many numbers as the fo
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -71,10 +72,9 @@ def _is_number(text: str) -> bool:
     if text[-1:].isspace():
         return False
     try:
-        float(text.replace("D", "E").replace("d", "e"))
+        return math.isfinite(number(text))
     except ValueError:
         return False
-    return True
 
 
 def number(text: str) -> float:

@@ -18,6 +18,8 @@ def uniform_step(times: Array, rounding: float, where: str) -> float:
         problem = "the time decreases"
         raise FileError(Issue(where, f"{problem} after pair {at + 1}", f"{times[at]:g} s", "get the record again"))
     dt = float(f"{(times[-1] - times[0]) / max(len(steps), 1):.6g}")
+    if dt <= 0:
+        raise FileError(Issue(where, "the time does not increase", f"{times[-1]:g} s", "get the record again"))
     off = np.abs(times - times[0] - np.arange(len(times)) * dt)
     if np.max(off) > rounding + _UNIFORM * dt:
         problem = (

@@ -47,7 +47,7 @@ class _Header:
     def integer(self, number: int) -> int | None:
         """Integer header `number`, from 1; None where it is unknown."""
         value = self.integers[number - 1]
-        return None if number != _UNKNOWN and value == self.integers[0] else int(value)
+        return None if number != _UNKNOWN and value == self.integers[0] else int(fortran.number(value))
 
     def real(self, number: int) -> Written | None:
         """Real header `number`, from 1; None where it is unknown."""
@@ -79,6 +79,8 @@ def read(source: Source) -> Table:
         raise FileError(Issue(f"line {misplaced}", problem, fix="get the file again"))
     layout = _LONG if head.integer(_DIGITS) == 8 else _VALUES
     stated, rate = head.integer(_COUNT), head.real(_RATE)
+    if rate is not None and rate.value <= 0:
+        raise FileError(Issue(rate.where, "states a sampling rate that is not positive", rate.value, "correct the header"))
     where = f"integer header {_COUNT} (from line {_TEXT + 1})"
     if rate is None and stated is not None:  # what film records have below the stated numbers is no part of them
         rows = rows[: -(-stated // layout.per_line)]

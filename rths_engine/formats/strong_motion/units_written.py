@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import re
 
-from rths_engine.foundation import unit_names
+from rths_engine.foundation import unit_names, units
 
 _SAME = {"gal": "cm/s^2"}  # so that two spellings of one unit do not contradict each other
+
+
+def acceleration_unit(text: str) -> str:
+    """The unit of acceleration that `text` names; empty for other units."""
+    found = unit_named(text)
+    return found if found and units.dimension(found) == "acceleration" else ""
 
 
 def unit_named(text: str) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from rths_engine.formats.table import Column
 from rths_engine.formats.units_in_text import ACCELERATION_UNITS, checked_unit
-from rths_engine.foundation import units
+from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue, MotionError
 from rths_engine.foundation.units import STANDARD_GRAVITY
@@ -16,16 +16,19 @@ SHORTEST_STEP, LONGEST_STEP = 0.0005, 0.1  # s
 FEWEST_SAMPLES, MOST_SAMPLES = 50, 1_000_000
 LEAST_PGA, LARGEST_PGA = 0.001, 5.0  # g
 _SAME_STEP = 1e-3
+_COUNT = "count"
 
 
 def checked(column: Column, unit: str | None, dt: float | None, peak_agrees: bool = False) -> tuple[Array, float]:
     """Acceleration (m/s^2) and step (s). Raises MotionError with every issue.
 
-    A given `unit` or `dt` is used where the file states none, and must not contradict the file. `peak_agrees`: the header
-    states the peak that was read.
+    A given `unit` or `dt` is used where the file states none, and must not contradict the file. Counts need the acceleration
+    of one count as `unit`, for example `2.34e-6 m/s^2`; their mean is removed. `peak_agrees`: the header states the peak that
+    was read.
     """
     issues: list[Issue] = []
-    chosen_unit, step = _unit(column, unit, issues), _step(column, dt, issues)
+    counted = in_counts(column)
+    chosen_unit, step = (_of_count if counted else _unit)(column, unit, issues), _step(column, dt, issues)
     count = len(column.values)
     if count < FEWEST_SAMPLES:
         issues.append(Issue("file", f"needs at least {FEWEST_SAMPLES} samples", count, "give the whole record"))
@@ -37,12 +40,31 @@ def checked(column: Column, unit: str | None, dt: float | None, peak_agrees: boo
         issues.append(Issue(f"sample {bad[0] + 1}", problem, str(column.values[bad[0]]), "mend the record"))
     if issues or chosen_unit is None or step is None:
         raise MotionError(issues)
-    acceleration: Array = column.values * units.factor(chosen_unit)
-    _check_peak(acceleration, chosen_unit, stated=bool(column.unit and column.quantity), peak_agrees=peak_agrees)
+    factor, shown = chosen_unit
+    acceleration: Array = (column.values - np.mean(column.values) if counted else column.values) * factor
+    _check_peak(acceleration, shown, stated=bool(column.unit and column.quantity), peak_agrees=peak_agrees)
     return acceleration, step
 
 
-def _unit(column: Column, unit: str | None, issues: list[Issue]) -> str | None:
+def in_counts(column: Column) -> bool:
+    """Whether the file gives the counts of a recorder and not the acceleration of one count."""
+    return unit_names.read(column.unit).plain == _COUNT
+
+
+def _of_count(column: Column, unit: str | None, issues: list[Issue]) -> tuple[float, str] | None:
+    """The acceleration of one count, SI, and its text; it is negative where the sensor is reversed."""
+    typed = (unit or "").strip()
+    written = unit_names.read(typed.removeprefix("-"))
+    if written.dimension == "acceleration":
+        sign = -1.0 if typed.startswith("-") else 1.0
+        return sign * written.scale * units.factor(written.unit), f"{typed} a count"
+    problem = "the file gives counts, not acceleration" if not typed else "is not the acceleration of one count"
+    fix = "give the acceleration of one count, for example '2.34e-6 m/s^2' for a sensitivity of 427350 counts/(m/s^2)"
+    issues.append(Issue("unit", problem, typed or None, fix))
+    return None
+
+
+def _unit(column: Column, unit: str | None, issues: list[Issue]) -> tuple[float, str] | None:
     known = ", ".join(ACCELERATION_UNITS)
     try:
         given = checked_unit(unit) if unit else None
@@ -52,7 +74,7 @@ def _unit(column: Column, unit: str | None, issues: list[Issue]) -> str | None:
     if not column.unit:
         if given is None:
             issues.append(Issue("unit", "the file does not state its unit of acceleration", fix=f"choose one of {known}"))
-        return given
+        return None if given is None else (units.factor(given), given)
     try:
         stated = checked_unit(column.unit)
     except FileError:
@@ -61,7 +83,7 @@ def _unit(column: Column, unit: str | None, issues: list[Issue]) -> str | None:
         return None
     if given and units.factor(given) != units.factor(stated):
         issues.append(Issue("unit", f"the file states {stated}", given, "leave the unit empty, or correct the file"))
-    return stated
+    return units.factor(stated), stated
 
 
 def _step(column: Column, dt: float | None, issues: list[Issue]) -> float | None:
@@ -87,7 +109,7 @@ def _check_peak(acceleration: Array, unit: str, stated: bool, peak_agrees: bool)
     problem = f"given as {unit} the record peaks at {pga:.3g} g, outside {LEAST_PGA} to {LARGEST_PGA:g} g"
     if pga == 0:
         raise MotionError(Issue("file", "the record is zero throughout", fix="choose another record or channel"))
-    other = _better_unit(pga, unit)
+    other = _better_unit(pga, unit) if unit in units.UNITS else None
     fix = f"looks like {other} given as {unit}: choose the unit" if other else "check the record and its unit"
     raise MotionError(Issue("unit", problem, unit, fix))
 

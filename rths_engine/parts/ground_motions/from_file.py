@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import PurePath
+from pathlib import Path, PurePath
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation import units
 from rths_engine.foundation.errors import FileError, Issue, MotionError
-from rths_engine.parts.ground_motions.checks import checked
+from rths_engine.parts.ground_motions.checks import checked, in_counts
 from rths_engine.parts.ground_motions.record import Motion, slug
 
 _PEAKS = ("peak", "maximum", "minimum")  # as statements call them
@@ -33,7 +33,7 @@ class Channel:
 
 
 def read(
-    raw: bytes,
+    raw: bytes | Path,
     filename: str,
     unit: str | None = None,
     dt: float | None = None,
@@ -42,6 +42,7 @@ def read(
 ) -> Motion:
     """The motion in a file, named after the file. `unit` and `dt` (s) are used where the file does not state them.
 
+    `raw` is the content of the file, or its path: files beside it are read only by its path (StationXML of miniSEED).
     `format` is a key of the formats. `channel` is the name or the number (from 1) of an acceleration channel: needed where
     the file has several. Raises MotionError with every issue: what, where, value, bound and how to mend it.
     """
@@ -58,14 +59,21 @@ def read(
         title=(f"{title}, {component}" if title and which else title) or PurePath(file).stem or "Motion",
         dt=step,
         acceleration=acceleration,
-        provenance=f"read from {file} ({table.format}{which})",
+        provenance=f"read from {file} ({table.format}{which}){_applied(chosen.column, unit)}",
         event=table.about.get("event", ""),
         component=component,
         station=table.about.get("station", ""),
     )
 
 
-def channels(raw: bytes, filename: str, format: str | None = None) -> tuple[str, ...]:
+def _applied(column: Column, unit: str | None) -> str:
+    """What was done to the numbers of the file, as the end of a sentence; empty where nothing was done."""
+    if in_counts(column):
+        return f"; (counts - mean) x {unit}; the mean, {np.mean(column.values):.6g} counts, is removed"
+    return f"; {column.applied}" if column.applied else ""
+
+
+def channels(raw: bytes | Path, filename: str, format: str | None = None) -> tuple[str, ...]:
     """Names of the acceleration channels in a file, in the order of the numbers of `channel`, from 1."""
     return tuple(one.name for one in _channels(_table(raw, filename, format)))
 
@@ -76,18 +84,20 @@ def check_size(size: int) -> None:
         raise MotionError(Issue("file", f"is larger than {_LARGEST_FILE:,} bytes", size, "cut or resample the record"))
 
 
-def _table(raw: bytes, filename: str, format: str | None) -> Table:
-    check_size(len(raw))
+def _table(raw: bytes | Path, filename: str, format: str | None) -> Table:
+    source = Source(filename, path=raw) if isinstance(raw, Path) else Source(filename, content=raw)
+    check_size(source.size)
     try:
-        return registry.read(Source(filename, content=raw), registry.RECORD, format)
+        return registry.read(source, registry.RECORD, format)
     except FileError as error:
         raise MotionError(error.issues) from None
 
 
 def _channels(table: Table) -> tuple[Channel, ...]:
-    """The acceleration channels: those that are said to be acceleration, else those whose unit does not contradict it."""
+    """The acceleration channels: those said to be acceleration, else those whose unit fits, else those in counts."""
     said = [one for one in table.columns if one.quantity == "acceleration"]
-    possible = said or [one for one in table.columns if not one.quantity and _can_be_acceleration(one.unit)]
+    unsaid = [one for one in table.columns if not one.quantity]
+    possible = said or [one for one in unsaid if _can_be_acceleration(one.unit)] or [one for one in unsaid if in_counts(one)]
     if not possible:
         names = "; ".join(f"{one.name} ({one.quantity or one.unit})" for one in table.columns)
         raise MotionError(Issue("file", "has no channel of acceleration", names, "give the acceleration record"))

@@ -79,6 +79,8 @@ def test_usc_states_peaks_with_the_sign_of_film_and_can_have_a_step_for_each_blo
     lines = [line.replace("veloc data equally spaced at  0.010", "VEL DATA EQUALLY SPACED AT  0.020") for line in lines]
     read = table(file(lines))
     assert [(one.name, one.dt) for one in read.columns] == [("0061 N08W", 0.01), ("0061 N08W velocity", 0.02)]
+    lines = [line.replace("Peak acceleration =    ", "Peak acceleration =   -") for line in lines]
+    assert "opposite sign" in table(file(lines)).notes[0]
 
 
 @pytest.mark.parametrize(
@@ -112,7 +114,7 @@ def test_v2_that_contradicts_itself_is_refused_with_both_numbers(channel: Channe
         (Channel(IN_G, reals={8: 0.9}), ("time of the peak", "0.9 s")),
         (
             Channel(IN_G, text={11: "No. of Points = 123  Record Length = 1.23 sec at 200 Samples/sec"}),
-            ("time step", "0.005 s"),
+            ("sampling rate", "200 Hz", "100 Hz"),
         ),
         (Channel(IN_G, text={12: "Units of uncor data are sec and g/10.     Max  = .1 g, at .04 sec."}), ("states g", "g/10")),
     ],
@@ -127,6 +129,19 @@ def test_text_and_lost_numbers_in_a_block_are_refused_with_their_line() -> None:
     refused(file([*lines[:48], lines[48][:50], *lines[49:]]), "line 49", "has 5 numbers")
     refused(file([*lines[:48], "**********" + lines[48][10:], *lines[49:]]), "line 49", "too large")
     refused(file([*lines[:27], *lines[28:]]), "line 26", "19 lines of header values")
+
+
+def test_pairs_whose_time_stands_still_are_refused() -> None:
+    lines = uncorrected(Channel(FILM[:4], dt=0.0), pairs=True)
+    refused(file(lines), "line 28", "does not increase")
+
+
+def test_rates_of_zero_and_empty_blocks_are_refused_or_read_as_empty() -> None:
+    lines = uncorrected(Channel(IN_G))
+    zero = [line.replace("at 100 pts/sec", "at 0 pts/sec") for line in lines]
+    refused(file(zero), "line 28", "not positive")
+    empty = [line.replace("   123 points of accel", "     0 points of accel") for line in corrected(Channel(WAVE))]
+    assert len(table(file([*empty[:46]])).columns[0].values) == 0
 
 
 def test_spectra_are_named_and_refused() -> None:

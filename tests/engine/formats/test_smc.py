@@ -50,6 +50,12 @@ def test_a_header_that_contradicts_the_data_refuses_the_file(record: Record, wor
     refused(written(record), *words)
 
 
+def test_numbers_that_no_header_can_have_are_refused() -> None:
+    refused(written(Record(WAVE, reals={2: 0.0})), "real header 2", "not positive")
+    raw = written(Record(WAVE)).replace(b"       123", b"     1E999")
+    refused(raw, "does not follow the format")
+
+
 def test_unknown_extremes_are_not_compared_and_spectra_are_refused() -> None:
     assert len(table(written(Record(WAVE, reals={29: LARGE, 30: LARGE, 31: LARGE, 32: LARGE}))).columns[0].values) == 123
     refused(written(Record(WAVE, title="6 RESPONSE SPECTRA")), "line 1", "response spectra")
