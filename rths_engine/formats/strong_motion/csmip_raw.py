@@ -6,6 +6,7 @@ of g. Format: (8f9.6)`) or pairs of time and acceleration read from film, five p
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
@@ -77,7 +78,7 @@ def _spaced(about: Header, opening: fortran.Line, rows: list[fortran.Line]) -> t
     named, text = unit_named(own[1]) if own else "", _text_unit(about)
     if named and text and named != text:
         raise FileError(Issue(where, f"states {named}; the text states {text}", fix="correct the unit that is wrong"))
-    if fortran.number(found[2] or found[3]) <= 0:
+    if not 0 < fortran.number(found[2] or found[3]) < math.inf:
         raise FileError(Issue(where, "states a sampling rate or step that is not positive", line.strip(), "correct the header"))
     dt = 1 / fortran.number(found[2]) if found[2] else fortran.number(found[3])
     statements = [count(stated, len(data.values), where, about.name)]

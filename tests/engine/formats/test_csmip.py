@@ -140,6 +140,7 @@ def test_rates_of_zero_and_empty_blocks_are_refused_or_read_as_empty() -> None:
     lines = uncorrected(Channel(IN_G))
     zero = [line.replace("at 100 pts/sec", "at 0 pts/sec") for line in lines]
     refused(file(zero), "line 28", "not positive")
+    refused(file([line.replace("at 0 pts", "at 1E999 pts") for line in zero]), "line 28", "not positive")
     empty = [line.replace("   123 points of accel", "     0 points of accel") for line in corrected(Channel(WAVE))]
     assert len(table(file([*empty[:46]])).columns[0].values) == 0
 
