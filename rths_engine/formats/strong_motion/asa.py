@@ -17,7 +17,7 @@ from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import COARSE, SAME_STEP, Statement, Written, count, duration
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
 from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.arrays import Array
@@ -47,7 +47,7 @@ def read(source: Source) -> Table:
     if layout.per_line != channels:
         where = next(header.find(r"^FORMATO DATOS[^:]*:(.*)$"))[0]
         raise FileError(Issue(where, f"states {layout.per_line} columns; the header states {channels} channels"))
-    data = fortran.series(rows, layout)
+    data = fortran.series(rows, layout, MISSING)
     if len(data.values) % channels:
         raise FileError(Issue(f"line {rows[-1][0]}", f"ends without all of {channels} channels", fix="get the file again"))
     values = data.values.reshape(-1, channels)

@@ -12,7 +12,7 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, Written, count, duration
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import MISSING, Keyed, instant, numbered, stamp
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -72,7 +72,7 @@ def _component(lines: list[fortran.Line]) -> tuple[Column, list[Statement]]:
     rate, length = _value(lines, _RATE), _value(lines, _DURATION)
     if rate.value <= 0:
         raise FileError(Issue(rate.where, "needs a sampling rate in Hz", f"{rate.value:g}", "correct the header"))
-    data = fortran.series(lines[_TEXT + _NUMBERS :], _VALUES)
+    data = fortran.series(lines[_TEXT + _NUMBERS :], _VALUES, MISSING)
     component, name = header.text(r"^COMP\s+([A-Z])"), header.text(r"^(.*?)\s+Station\b")
     azimuth = header.text(rf"\b{component}\s+(\d+)\b") if component in ("L", "T") else ""
     name = f"{name} {component}{f' {azimuth} deg' if azimuth else ''}".strip()

@@ -9,7 +9,7 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
 from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
@@ -42,7 +42,7 @@ def read(source: Source) -> Table:
         stated = header.text(r"UNIT:\s*(\S*)")
         raise FileError(Issue("header", "states no known unit of acceleration", stated, "write UNIT: CM/SEC/SEC"))
     dt = header.needed(r"INTERVALS OF:\s*(\S+)", "interval").value
-    data = fortran.series(rows, _VALUES)
+    data = fortran.series(rows, _VALUES, MISSING)
     statements = [count(int(found[1]), len(data.values), where)]
     if len(data.values):
         statements += _compared(header, data, unit, dt)

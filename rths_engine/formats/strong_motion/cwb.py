@@ -11,7 +11,7 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, Written, count
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
 from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.arrays import Array
@@ -44,7 +44,7 @@ def read(source: Source) -> Table:
     if layout.per_line != 1 + len(names):
         problem = f"states {layout.per_line} columns; the sequence names {1 + len(names)}"
         raise FileError(Issue(next(header.find("^#Data:(.*)$"))[0], problem, fix="correct the header"))
-    data = fortran.series(lines[end:], layout)
+    data = fortran.series(lines[end:], layout, MISSING)
     if len(data.values) % layout.per_line:
         raise FileError(Issue(f"line {lines[-1][0]}", "ends a row without all columns", fix="get the file again"))
     rows = data.values.reshape(-1, layout.per_line)

@@ -8,7 +8,7 @@ from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
 from rths_engine.formats.strong_motion.units_written import unit_named
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
@@ -47,7 +47,7 @@ def read(source: Source) -> Table:
         problem = f"states a unit that is not {unit}, the unit of {quantity} in this format"
         raise FileError(Issue(stated_unit[0], problem, stated_unit[1][1].strip(), "correct the unit or the data type"))
     dt = header.needed(r"^SAMPLING_INTERVAL_S:\s*(\S+)", "sampling interval").value
-    data = fortran.series(rows, _VALUES)
+    data = fortran.series(rows, _VALUES, MISSING)
     stated = header.needed(r"^NDATA:\s*(\S+)", "number of samples")
     statements = [count(int(stated.value), len(data.values), stated.where)]
     if len(data.values):

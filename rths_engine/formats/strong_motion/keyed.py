@@ -11,7 +11,9 @@ from rths_engine.formats.statement import Written
 from rths_engine.formats.strong_motion.fortran import Line
 from rths_engine.foundation.errors import FileError, Issue
 
-FIRST_LINES = 140  # of a file, in which a header of such lines is looked for; chosen, see docs/decisions/0023
+# chosen; see docs/decisions/0023
+FIRST_LINES = 140  # of a file, in which a header of such lines is looked for
+MISSING = (-999.0, -9999.0)  # mark a sample that is missing, in a record of decimal numbers
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from rths_engine.formats.lines import NUMBER
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Written, count, peak
 from rths_engine.formats.strong_motion import fortran
-from rths_engine.formats.strong_motion.keyed import FIRST_LINES, Keyed, instant, numbered, stamp
+from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
 from rths_engine.formats.strong_motion.units_written import acceleration_unit
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
@@ -38,7 +38,7 @@ def read(source: Source) -> Table:
     header, names = Keyed(lines[: at - 1]), lines[at - 1][1].split()
     unit, peaks = _peaks(header)
     step = header.needed(r"^SAMPLING INTERVAL\s*\(sec\)\s*:\s*(\S*)", "sampling interval").value
-    data = fortran.series(lines[at:], fortran.Columns(len(names), _WIDTH))
+    data = fortran.series(lines[at:], fortran.Columns(len(names), _WIDTH), MISSING)
     if len(data.values) % len(names):
         where = f"line {lines[-1][0]}"
         raise FileError(Issue(where, f"ends a row without all of {len(names)} components", fix="get the file again"))

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rths_engine.formats.strong_motion.keyed import MISSING
 from tests.engine.formats.reading import never_crashes, refused, table
 from tests.engine.formats.writers.asa import Record, written
 
@@ -62,13 +63,22 @@ def test_counts_under_the_unit_gal_are_refused() -> None:
     refused(written(Record(counts, layout="3E16.7", header={"ACEL. MAX.(Gal), C1-C6": stated})), "peak of ACAC V")
 
 
+def test_a_marker_of_a_missing_sample_is_refused() -> None:
+    marked = [*WAVE[:50], -9999.0, *WAVE[51:]]
+    refused(written(Record((marked, *THREE[1:]))), "marks a missing sample")
+
+
 def test_a_damaged_file_is_read_or_refused() -> None:
     never_crashes(written(Record(THREE)), 211)
 
 
 @settings(max_examples=40, deadline=None)
 @given(
-    rows=st.lists(st.tuples(*[st.integers(-(10**7), 10**7).map(lambda one: one / 10**4)] * 3), min_size=2, max_size=40),
+    rows=st.lists(
+        st.tuples(*[st.integers(-(10**7), 10**7).map(lambda one: one / 10**4).filter(lambda one: one not in MISSING)] * 3),
+        min_size=2,
+        max_size=40,
+    ),
     dt=st.sampled_from([0.005, 0.01]),
 )
 def test_any_record_comes_back(rows: list[tuple[float, ...]], dt: float) -> None:

@@ -43,6 +43,11 @@ def test_another_unit_and_a_cut_file_are_refused() -> None:
     refused(written(Component("L", VALUES)).removesuffix(b"/&\n"), "the file is cut")
 
 
+def test_a_marker_of_a_missing_sample_is_refused() -> None:
+    marked = [*VALUES[:50], -999.0, *VALUES[51:]]
+    refused(written(Component("L", marked)), "line 33", "marks a missing sample")
+
+
 def test_a_damaged_file_is_read_or_refused() -> None:
     never_crashes(written(Component("L", VALUES)), 71)
 

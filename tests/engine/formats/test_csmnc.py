@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rths_engine.formats.strong_motion.keyed import MISSING
 from tests.engine.formats.reading import never_crashes, refused, table
 from tests.engine.formats.writers.csmnc import Record, written
 
@@ -43,13 +44,22 @@ def test_numbers_without_a_space_between_them_are_refused() -> None:
     refused("\n".join(lines).encode(), "line 21")
 
 
+def test_a_marker_of_a_missing_sample_is_refused() -> None:
+    marked = [*VALUES[:50], -999.0, *VALUES[51:]]
+    refused(written(Record(marked)), "marks a missing sample")
+
+
 def test_a_damaged_file_is_read_or_refused() -> None:
     never_crashes(written(Record(VALUES)), 71)
 
 
 @settings(max_examples=40, deadline=None)
 @given(
-    values=st.lists(st.floats(-1e4, 1e4).map(lambda one: float(f"{one:.6e}")), min_size=2, max_size=60),
+    values=st.lists(
+        st.floats(-1e4, 1e4).map(lambda one: float(f"{one:.6e}")).filter(lambda one: one not in MISSING),
+        min_size=2,
+        max_size=60,
+    ),
     dt=st.sampled_from([0.005, 0.01]),
 )
 def test_any_record_comes_back(values: list[float], dt: float) -> None:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rths_engine.formats.strong_motion.keyed import MISSING
 from tests.engine.formats.reading import never_crashes, refused, table
 from tests.engine.formats.writers.cwb import Record, written
 
@@ -50,13 +51,22 @@ def test_a_time_that_does_not_follow_the_rate_is_refused_with_its_line() -> None
     refused(written(Record(THREE, times=times)), "line 117", "1.03 s", "1.01 s")
 
 
+def test_a_marker_of_a_missing_sample_is_refused() -> None:
+    marked = [*WAVE[:50], -9999.0, *WAVE[51:]]
+    refused(written(Record((marked, *THREE[1:]))), "marks a missing sample")
+
+
 def test_a_damaged_file_is_read_or_refused() -> None:
     never_crashes(written(Record(THREE)), 211)
 
 
 @settings(max_examples=40, deadline=None)
 @given(
-    rows=st.lists(st.tuples(*[st.integers(-(10**6), 10**6).map(lambda one: one / 1000)] * 3), min_size=2, max_size=40),
+    rows=st.lists(
+        st.tuples(*[st.integers(-(10**6), 10**6).map(lambda one: one / 1000).filter(lambda one: one not in MISSING)] * 3),
+        min_size=2,
+        max_size=40,
+    ),
     rate=st.sampled_from([50, 100, 200]),
 )
 def test_any_record_comes_back(rows: list[tuple[float, ...]], rate: int) -> None:

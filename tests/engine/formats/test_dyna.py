@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rths_engine.formats.strong_motion.keyed import MISSING
 from tests.engine.formats.reading import never_crashes, refused, table
 from tests.engine.formats.writers.dyna import Record, written
 
@@ -66,13 +67,22 @@ def test_text_between_the_samples_is_refused_with_its_line() -> None:
         refused("\n".join([*lines[:60], bad, *lines[61:]]).encode(), "line 61")
 
 
+def test_a_marker_of_a_missing_sample_is_refused() -> None:
+    marked = [*VALUES[:50], -999.0, *VALUES[51:]]
+    refused(written(Record(marked)), "marks a missing sample")
+
+
 def test_a_damaged_file_is_read_or_refused() -> None:
     never_crashes(written(Record(VALUES)), 53)
 
 
 @settings(max_examples=40, deadline=None)
 @given(
-    values=st.lists(st.integers(-(10**9), 10**9).map(lambda one: one / 10**6), min_size=2, max_size=60),
+    values=st.lists(
+        st.integers(-(10**9), 10**9).map(lambda one: one / 10**6).filter(lambda one: one not in MISSING),
+        min_size=2,
+        max_size=60,
+    ),
     dt=st.sampled_from([0.001, 0.005, 0.01]),
     kind=st.sampled_from(["ACCELERATION", "VELOCITY", "DISPLACEMENT"]),
 )

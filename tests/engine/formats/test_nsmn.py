@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rths_engine.formats.strong_motion.keyed import MISSING
 from rths_engine.parts.ground_motions import channels, read
 from tests.engine.formats.reading import never_crashes, refused, table
 from tests.engine.formats.writers.nsmn import Record, written
@@ -50,13 +51,22 @@ def test_an_unknown_unit_and_a_missing_row_of_names_are_refused() -> None:
     refused(raw.removesuffix(b"\r\n")[:-13], "ends a row without all of 3")
 
 
+def test_a_marker_of_a_missing_sample_is_refused() -> None:
+    marked = [*WAVE[:50], -9999.0, *WAVE[51:]]
+    refused(written(Record((marked, *THREE[1:]))), "marks a missing sample")
+
+
 def test_a_damaged_file_is_read_or_refused() -> None:
     never_crashes(written(Record(THREE)), 201)
 
 
 @settings(max_examples=40, deadline=None)
 @given(
-    rows=st.lists(st.tuples(*[st.integers(-(10**9), 10**9).map(lambda one: one / 10**6)] * 3), min_size=2, max_size=40),
+    rows=st.lists(
+        st.tuples(*[st.integers(-(10**9), 10**9).map(lambda one: one / 10**6).filter(lambda one: one not in MISSING)] * 3),
+        min_size=2,
+        max_size=40,
+    ),
     dt=st.sampled_from([0.005, 0.01, 0.02]),
 )
 def test_any_record_comes_back(rows: list[tuple[float, ...]], dt: float) -> None:
