@@ -45,7 +45,7 @@ _PLACES = {"1": "borehole", "2": "surface"}
 
 
 @dataclass(frozen=True, slots=True)
-class _Record:
+class Record:
     """The record of one direction: its column, statements, header and the time of its first sample."""
 
     column: Column
@@ -62,26 +62,36 @@ def looks_like(source: Source) -> bool:
 
 def read(source: Source) -> Table:
     """The record of each direction in the file. Raises FileError with the line of what does not follow the format."""
-    records = [_record(header, rows) for header, rows in _sections(source.lines)]
-    if not records:
+    return table(records(source))
+
+
+def records(source: Source) -> list[Record]:
+    """The records in a file of K-NET or KiK-net. Raises FileError with the line of what does not follow the format."""
+    found = [_record(header, rows) for header, rows in _sections(source.lines)]
+    if not found:
         raise FileError(Issue("file", "contains no counts", fix="get the file again"))
-    _check_extension(source, records)
-    first = records[0].header
-    starts = [one.start for one in records if one.start is not None]
-    columns = [one.column for one in records]
-    if len(starts) == len(records):
+    _check_extension(source, found)
+    return found
+
+
+def table(found: list[Record], notes: tuple[str, ...] = ()) -> Table:
+    """A column for each record; their starts count from the earliest."""
+    first = found[0].header
+    starts = [one.start for one in found if one.start is not None]
+    columns = [one.column for one in found]
+    if len(starts) == len(found):
         delays = [(one - min(starts)).total_seconds() for one in starts]
         columns = [replace(one, start=delay) for one, delay in zip(columns, delays, strict=True)]
     event = ", ".join(part for part in (_value(first, "Origin Time"), f"M {_value(first, 'Mag.')}".removesuffix("M ")) if part)
-    station = _value(first, "Station Code")
+    station = ", ".join(dict.fromkeys(_value(one.header, "Station Code") for one in found))
     about = {
         "title": ", ".join(part for part in (station, event) if part),
         "event": event,
         "station": station,
         "start": stamp(min(starts, default=None)),
     }
-    statements = tuple(one for record in records for one in record.statements)
-    return Table("K-NET or KiK-net", distinct(columns), statements=statements, header=first.shown, about=about)
+    statements = tuple(one for record in found for one in record.statements)
+    return Table("K-NET or KiK-net", distinct(columns), True, {}, notes, statements, first.shown, about)
 
 
 def _sections(lines: list[str]) -> Iterator[tuple[Keyed, list[fortran.Line]]]:
@@ -106,7 +116,7 @@ def _value(header: Keyed, label: str) -> str:
     return header.text(rf"^{re.escape(label)}\s+(\S.*)$")
 
 
-def _record(header: Keyed, rows: list[fortran.Line]) -> _Record:
+def _record(header: Keyed, rows: list[fortran.Line]) -> Record:
     rate = header.needed(r"^Sampling Freq\(Hz\)\s+([\d.]+)\s*Hz", "sampling frequency")
     data = fortran.series(rows, _COUNTS)
     if len(broken := np.flatnonzero(data.values % 1)):
@@ -124,7 +134,7 @@ def _record(header: Keyed, rows: list[fortran.Line]) -> _Record:
     applied = f"(counts - mean) x {written} gal; the mean, {mean:.6g} counts = {mean * factor:.4g} gal, is removed"
     column = Column(name, acceleration, "gal", 1 / rate.value, quantity="acceleration", applied=applied)
     recorded = instant(_value(header, "Record Time"), "%Y/%m/%d %H:%M:%S", "%Y/%m/%d %H:%M:%S.%f", hours=_JAPAN)
-    return _Record(column, statements, header, None if recorded is None else recorded - _DELAY)
+    return Record(column, statements, header, None if recorded is None else recorded - _DELAY)
 
 
 def _factor(header: Keyed) -> tuple[float, str]:
@@ -142,7 +152,7 @@ def _direction(header: Keyed) -> str:
     return _DIRECTIONS.get(stated, stated)
 
 
-def _check_extension(source: Source, records: list[_Record]) -> None:
+def _check_extension(source: Source, records: list[Record]) -> None:
     """Raises FileError where the extension (`.EW1`) and the direction in the header differ."""
     found = _EXTENSION.match(source.extension)
     stated = _direction(records[0].header)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import io
+import tarfile
+from typing import Literal
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rths_engine.formats.strong_motion import knet
-from rths_engine.parts.ground_motions import read
+from rths_engine.formats.source import Source
+from rths_engine.formats.strong_motion import knet, knet_archive
+from rths_engine.foundation.errors import FileError
+from rths_engine.parts.ground_motions import channels, read
 from tests.engine.formats.reading import never_crashes, refused, table
 from tests.engine.formats.writers.knet import Record, written
 
@@ -75,6 +81,45 @@ def test_what_is_not_a_count_is_refused_with_its_line() -> None:
         damaged = [*raw[:20], bad + raw[20][8:], *raw[21:]]
         refused("\n".join(damaged).encode(), "line 21", word)
     refused("\n".join([*raw[:20], raw[20][:40], *raw[21:]]).encode(), "line 21", "has 4 numbers")
+
+
+def archive(*files: tuple[str, bytes], mode: Literal["w", "w:gz"] = "w:gz") -> bytes:
+    raw = io.BytesIO()
+    with tarfile.open(fileobj=raw, mode=mode) as tar:
+        for name, content in files:
+            info = tarfile.TarInfo(name)
+            info.size = len(content)
+            tar.addfile(info, io.BytesIO(content))
+    return raw.getvalue()
+
+
+@pytest.mark.parametrize("mode", ["w", "w:gz"])
+def test_the_archive_that_nied_delivers_gives_all_directions(mode: Literal["w", "w:gz"]) -> None:
+    starts = {"E-W": "2008/06/14 08:44:19", "N-S": "2008/06/14 08:44:18", "U-D": "2008/06/14 08:44:18"}
+    three = [
+        (f"AOM0170806140843.{name.replace('-', '')}", written(Record(COUNTS, direction=name, start=start)))
+        for name, start in starts.items()
+    ]
+    raw = archive(*three, ("read.me", b"notes"), mode=mode)
+    found = table(raw, "AOM0170806140843.tar.gz")
+    assert [(one.name, one.start) for one in found.columns] == [("AOM017 E-W", 1.0), ("AOM017 N-S", 0.0), ("AOM017 U-D", 0.0)]
+    assert found.notes == ("read.me left out: it is not of K-NET or KiK-net",) and len(found.statements) == 6
+    assert channels(raw, "a.tar.gz") == ("AOM017 E-W", "AOM017 N-S", "AOM017 U-D")
+
+
+def test_an_archive_names_the_file_that_cannot_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    short = written(Record(COUNTS, header={"Duration Time(s)": "3"}))
+    bad = archive(("A.EW", written(Record(COUNTS, direction="E-W"))), ("A.NS", short))
+    refused(bad, "A.NS, row 12", "of 300", "have 200", name="a.tar.gz")
+    stars = written(Record(COUNTS)).replace(b"     900 ", b"******** ", 1)
+    refused(archive(("A.NS", stars)), "A.NS, row 18", name="a.tar.gz")
+    refused(archive(("a.txt", b"1 2")), "compressed", name="a.tar.gz")
+    good = archive(("A.NS", written(Record(COUNTS))))
+    refused(good[: len(good) // 2], name="a.tar.gz")
+    monkeypatch.setattr(knet_archive, "_LARGEST", 1000)
+    refused(good, "compressed", name="a.tar.gz")
+    with pytest.raises(FileError, match="more than 1,000 bytes"):
+        knet_archive.read(Source("a.tar.gz", content=good))
 
 
 def test_a_damaged_file_is_read_or_refused() -> None:
