@@ -78,9 +78,7 @@ def parser() -> argparse.ArgumentParser:
     table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
 
     imports = _command(commands, "import", "app.cli.measurements:measurements", "import a file of measurements as a recording")
-    imports.add_argument(
-        "file", type=Path, metavar="FILE", help="measurements: CSV, JSON, MATLAB, Parquet, HDF5, AT2 or COSMOS V2"
-    )
+    imports.add_argument("file", type=Path, metavar="FILE", help="measurements, in a format of docs/formats.md")
     imports.add_argument("--map", type=Path, metavar="MAP.yaml", help="file with the mapping: role and unit of each column")
     imports.add_argument("--out", type=Path, metavar="REC.h5", help="file to write the recording to (HDF5)")
     imports.add_argument("--guess", action="store_true", help="print a proposed mapping and import nothing")

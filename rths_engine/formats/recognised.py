@@ -14,7 +14,7 @@ _SIGNATURES = (
     (b"FORMAT\0", "is an RPC III file (.rsp, .tim)", "export its channels as UFF 58 or ASCII"),
     (b'"TOB1"', "is a Campbell TOB1 file", "convert it with CardConvert to TOA5"),
     (b'"TOB3"', "is a Campbell TOB3 file", "convert it with CardConvert to TOA5"),
-    (b"\xd0\xcf\x11\xe0", "is an old Office document (OLE), such as .xls", "save it as .xlsx or CSV"),
+    (b"\xd0\xcf\x11\xe0", "is an old Office document (OLE), such as .doc", "export the numbers as .xlsx or CSV"),
 )
 # first bytes of text, likewise
 _TEXTS = (

@@ -24,7 +24,7 @@ from rths_engine.formats.laboratory import (
     tracerdaq,
     uff,
 )
-from rths_engine.formats.plain import columns, json_file, record
+from rths_engine.formats.plain import columns, excel, json_file, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import (
     asa,
@@ -58,6 +58,7 @@ FORMATS: tuple[Format, ...] = (
     catman.FORMAT,
     uff.FORMAT,
     opensees_binary.FORMAT,
+    excel.FORMAT,
     json_file.FORMAT,
     lvm.FORMAT,
     catman_ascii.FORMAT,
