@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.contents import Stated
 from app.text import Storable
 
 
@@ -113,18 +114,6 @@ class SavedMappingList(BaseModel):
     """All saved mappings."""
 
     mappings: list[SavedMappingOut]
-
-
-class Stated(BaseModel):
-    """A number that the header of a file states, beside the number that was read from its data."""
-
-    what: str
-    where: str
-    stated: float
-    read: float
-    unit: str
-    within: float = Field(description="the difference that rounding explains")
-    agrees: bool
 
 
 class Uploaded(BaseModel):

@@ -12,8 +12,9 @@ from typing import Any, BinaryIO
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
+from app import contents
 from app.db import afterwards
-from app.measured import contents, shown
+from app.measured import shown
 from app.measured.raw_files import RawFiles
 from app.measured.repository import MeasuredRepository
 from app.measured.saved_mappings import SavedMappings

@@ -8,6 +8,7 @@ from fastapi import APIRouter, File, Form, UploadFile
 from fastapi.responses import Response
 
 from app.motions.dependency import Motions
+from app.motions.schemas import MotionFile
 from app.motions.service import preview
 from app.openapi import told
 
@@ -23,7 +24,12 @@ def listed(motions: Motions) -> dict[str, Any]:
 
 @router.post("", status_code=201)
 def upload(
-    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", channel: Text = "", name: Text = ""
+    motions: Motions,
+    file: Annotated[UploadFile, File()],
+    unit: Text = "",
+    dt: Text = "",
+    channel: Text = "",
+    name: Text = "",
 ) -> dict[str, Any]:
     """Add a ground motion from a file of a known format. Give `unit` and `dt` (s) if the file does not state them.
 
@@ -32,9 +38,23 @@ def upload(
     return motions.add(motions.read(file.file.read(), file.filename or "", unit, dt, channel, name))
 
 
+@router.post("/contents")
+def contents(motions: Motions, file: Annotated[UploadFile, File()]) -> MotionFile:
+    """What stands in a file: its acceleration channels, its header, and what the header states beside what was read.
+
+    `asks` lists what the file does not state. Nothing is stored.
+    """
+    return motions.contents(file.file.read(), file.filename or "")
+
+
 @router.post("/preview")
 def look(
-    motions: Motions, file: Annotated[UploadFile, File()], unit: Text = "", dt: Text = "", channel: Text = "", name: Text = ""
+    motions: Motions,
+    file: Annotated[UploadFile, File()],
+    unit: Text = "",
+    dt: Text = "",
+    channel: Text = "",
+    name: Text = "",
 ) -> dict[str, Any]:
     """Read a ground motion and return its samples and response spectrum. Nothing is stored."""
     return preview(motions.read(file.file.read(), file.filename or "", unit, dt, channel, name))

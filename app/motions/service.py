@@ -7,9 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from app import contents
+from app.motions.schemas import MotionChannel, MotionFile
 from app.problems import NotFound
 from rths_engine.foundation.errors import Issue, MotionError
-from rths_engine.parts.ground_motions import Motion, MotionLibrary, read, response_spectrum, slug
+from rths_engine.parts import ground_motions
+from rths_engine.parts.ground_motions import Channel, Motion, MotionLibrary, read, response_spectrum, slug
 
 PERIODS = np.geomspace(0.02, 6.0, 120)  # s
 DAMPING = 0.05
@@ -34,10 +37,26 @@ class MotionService:
         return preview(self.library.get(name))
 
     def read(self, raw: bytes, filename: str, unit: str, dt: str, channel: str, name: str) -> Motion:
-        """Read a record from an uploaded file. Raises MotionError."""
-        motion = read(raw, filename or "record", unit=unit or None, dt=_step(dt), channel=channel.strip() or None)
-        own = slug(name or filename.rsplit(".", 1)[0])
+        """Read a record from an uploaded file. Raises MotionError.
+
+        Without a name it is named after the file, and after its channel where one was chosen.
+        """
+        chosen = channel.strip()
+        motion = read(raw, filename or "record", unit=unit or None, dt=_step(dt), channel=chosen or None)
+        which = (motion.component or f"channel {chosen}") if chosen else ""
+        own = slug(name or f"{filename.rsplit('.', 1)[0]} {which}")
         return replace(motion, name=own, title=name or motion.title)
+
+    def contents(self, raw: bytes, filename: str) -> MotionFile:
+        """What stands in a file. Raises MotionError where it cannot be read or has no acceleration."""
+        found = ground_motions.contents(raw, filename or "record")
+        return MotionFile(
+            filename=filename,
+            **contents.of(found.table),
+            columns=[one.name for one in found.table.columns],
+            notes=list(found.table.notes),
+            channels=[_channel(one) for one in found.channels],
+        )
 
     def add(self, motion: Motion) -> dict[str, Any]:
         self.library.add(motion)
@@ -50,6 +69,21 @@ class MotionService:
     def _known(self, name: str) -> None:
         if name not in self.library.names():
             raise NotFound(f"There is no ground motion '{name}'.")
+
+
+def _channel(one: Channel) -> MotionChannel:
+    column = one.column
+    known = np.abs(column.values[np.isfinite(column.values)])
+    return MotionChannel(
+        number=one.number,
+        name=one.name,
+        unit=column.unit,
+        dt_s=column.dt,
+        samples=len(column.values),
+        largest=float(np.max(known, initial=0.0)),
+        applied=column.applied,
+        asks=list(one.asks),
+    )
 
 
 def preview(motion: Motion) -> dict[str, Any]:

@@ -51,6 +51,43 @@ def test_a_file_of_several_channels_asks_for_one_by_name_or_number(client: TestC
         assert shown["pga"] == pytest.approx(0.1 * 9.80665, rel=1e-3)
 
 
+THREE = "\n".join(
+    ["time (s),N-S (g),E-W (g)", *(f"{0.01 * k:.2f},{0.2 * np.sin(k / 9):.6f},{0.1 * np.cos(k / 7):.6f}" for k in range(400))]
+)
+
+
+def test_a_file_of_several_channels_says_their_names_and_each_is_added_by_its_number(client: TestClient) -> None:
+    found = upload(client, THREE, "site.csv", "/contents").json()
+    assert [(one["number"], one["name"], one["dt_s"]) for one in found["channels"]] == [
+        (1, found["channels"][0]["name"], 0.01),
+        (2, found["channels"][1]["name"], 0.01),
+    ]
+    assert found["first_rows"] and found["format"]
+    refused = upload(client, THREE, "site.csv", "/preview", unit="g")
+    assert refused.json()["errors"][0]["where"] == "channel"
+    assert upload(client, THREE, "site.csv", "/preview", unit="g", channel="3").status_code == 422
+    assert upload(client, THREE, "site.csv", "/preview", unit="g", channel="no").status_code == 422
+    peaks = [upload(client, THREE, "site.csv", "/preview", unit="g", channel=str(k)).json()["pga"] / 9.80665 for k in (1, 2)]
+    assert peaks == pytest.approx([0.2, 0.1], rel=1e-3)
+    added = [upload(client, THREE, "site.csv", unit="g", channel=str(k)).json()["name"] for k in (1, 2)]
+    assert len(set(added)) == 2 and all(name.startswith("site-") for name in added)
+
+
+def test_a_file_says_what_it_does_not_state_and_what_its_header_states(client: TestClient) -> None:
+    (channel,) = upload(client, "\n".join(f"{0.1 * np.sin(k / 9):.6f}" for k in range(400)), "bare.txt", "/contents").json()[
+        "channels"
+    ]
+    assert (channel["asks"], channel["samples"], channel["unit"]) == (["unit", "dt"], 400, "")
+    values = "\n".join(" ".join(f"{0.1 * np.sin((k + j) / 9):.6f}" for j in range(5)) for k in range(0, 400, 5))
+    record = f"PEER\nTITLE\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  400, DT=   .0100 SEC\n{values}"
+    found = upload(client, record, "record.AT2", "/contents").json()
+    assert found["channels"][0]["asks"] == [] and found["channels"][0]["dt_s"] == 0.01
+    assert [(one["stated"], one["read"], one["agrees"]) for one in found["statements"]] == [(400, 400, True)]
+    wrong = upload(client, record.replace("NPTS=  400", "NPTS=  500"), "record.AT2", "/contents").json()["errors"][0]
+    assert "500" in wrong["problem"] and "400" in wrong["problem"]
+    assert wrong["lines"][-3]["text"].startswith("NPTS")
+
+
 @pytest.mark.parametrize(
     ("text", "filename"),
     [

@@ -31,6 +31,19 @@ class Channel:
     def name(self) -> str:
         return self.column.name
 
+    @property
+    def asks(self) -> tuple[str, ...]:
+        """What the file does not state and `read` asks for: `unit`, `dt`."""
+        return tuple(name for name, lacks in (("unit", not self.column.unit), ("dt", self.column.dt is None)) if lacks)
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What stands in a file: its table, and the acceleration channels that can be chosen."""
+
+    table: Table
+    channels: tuple[Channel, ...]
+
 
 def read(
     raw: bytes | Path,
@@ -73,9 +86,15 @@ def _applied(column: Column, unit: str | None) -> str:
     return f"; {column.applied}" if column.applied else ""
 
 
+def contents(raw: bytes | Path, filename: str, format: str | None = None) -> Contents:
+    """The table in a file and its acceleration channels. Raises MotionError where it has none or cannot be read."""
+    table = _table(raw, filename, format)
+    return Contents(table, _channels(table))
+
+
 def channels(raw: bytes | Path, filename: str, format: str | None = None) -> tuple[str, ...]:
     """Names of the acceleration channels in a file, in the order of the numbers of `channel`, from 1."""
-    return tuple(one.name for one in _channels(_table(raw, filename, format)))
+    return tuple(one.name for one in contents(raw, filename, format).channels)
 
 
 def check_size(size: int) -> None:

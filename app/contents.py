@@ -6,11 +6,25 @@ import math
 from dataclasses import asdict
 from typing import Any
 
+from pydantic import BaseModel, Field
+
 from rths_engine.formats.statement import Statement
 from rths_engine.formats.table import Table
 
 ROWS = 8  # first rows of numbers
 LONGEST_HEADER = 20_000  # characters of the header
+
+
+class Stated(BaseModel):
+    """A number that the header of a file states, beside the number that was read from its data."""
+
+    what: str
+    where: str
+    stated: float
+    read: float
+    unit: str
+    within: float = Field(description="the difference that rounding explains")
+    agrees: bool
 
 
 def of(table: Table) -> dict[str, Any]:
