@@ -81,7 +81,7 @@ def examined(found: Examined, mapping: Mapping, part: Part = WHOLE) -> dict[str,
     """
     findings = [{**one.as_dict(), "column": _column(one, mapping)} for one in found.findings]
     measured = found.measured if part.whole else None
-    lags = [] if measured is None else [one.as_dict() for one in same_motion.found(measured, mapping)]
+    lags = [] if measured is None else [one.as_dict() for one in same_motion.found(measured, mapping, found.signals)]
     about = {"mapping": mapping.as_dict(), "findings": findings, "lags": lags}
     return {**about, **preview(found.measured, found.signals, part)}
 

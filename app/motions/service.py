@@ -97,6 +97,7 @@ def preview(motion: Motion) -> dict[str, Any]:
         "title": motion.title,
         "dt": motion.dt,
         "duration": motion.duration,
+        "samples": len(acceleration),
         "pga": motion.pga,
         "provenance": motion.provenance,
         "time": time[kept].tolist(),

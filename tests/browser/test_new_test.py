@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.checks import checked
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
+from tests.browser.test_pages import expect_accessible
 
 
 @pytest.fixture
@@ -113,13 +116,47 @@ def test_a_record_is_previewed_and_added_to_the_library(form: Page, tmp_path: Pa
     record = tmp_path / "Site shake.txt"
     record.write_text("\n".join(f"{0.3 * ((-1) ** n) * n / 400:.6f}" for n in range(400)))
     form.get_by_text("Upload a record").click()
-    form.get_by_label("Time step, s").fill("0.01")
-    form.get_by_label("Unit of the acceleration").select_option("g")
+    expect(form.get_by_label("Time step, s")).to_be_hidden()
     form.get_by_label("File").set_input_files(record)
+    expect(form.locator(".upload")).to_contain_text("Give the unit and the time step.")
+    expect(form.get_by_role("button", name="Add to the library")).to_be_disabled()
+    form.get_by_label("Time step, s").fill("0.01")
+    expect(form.locator(".upload")).to_contain_text("100.0 Hz, 10.00 ms: 400 samples last 3.990 s")
+    form.get_by_label("Unit of the acceleration").select_option("g")
     expect(form.locator(".upload .preview canvas").first).to_be_visible()
     form.get_by_role("button", name="Add to the library").click()
     expect(form.get_by_label("Record", exact=True)).to_have_value("site-shake")
     expect(form.locator(".good")).to_be_visible()
+
+
+def test_a_channel_of_a_file_is_chosen_by_name_and_what_the_file_states_is_not_asked_for(form: Page, tmp_path: Path) -> None:
+    record = tmp_path / "Site.csv"
+    rows = [f"{0.01 * k:.2f},{0.2 * math.sin(k / 9):.6f},{0.1 * math.cos(k / 7):.6f}" for k in range(400)]
+    record.write_text("\n".join(["time (s),N-S,E-W", *rows]))
+    form.get_by_text("Upload a record").click()
+    form.get_by_label("File").set_input_files(record)
+    upload = form.locator(".upload")
+    expect(upload.get_by_role("region", name="First rows of numbers")).to_contain_text("0.022177")
+    expect(upload).to_contain_text("Give the channel.")
+    channel = form.get_by_label("Channel", exact=True)
+    expect(channel.locator("option")).to_have_count(3)
+    channel.select_option("2")
+    expect(form.get_by_label("Time step, s")).to_be_hidden()
+    expect(upload).to_contain_text("Give the unit.")
+    form.get_by_label("Unit of the acceleration").select_option("g")
+    expect(upload).to_contain_text("PGA 0.10 g, 3.990 s in steps of 0.01 s")
+    expect_accessible(form)
+    form.get_by_role("button", name="Add to the library").click()
+    expect(form.get_by_label("Record", exact=True)).to_have_value(re.compile("site"))
+
+
+def test_a_refused_line_of_a_record_is_shown_with_its_neighbours(form: Page, tmp_path: Path) -> None:
+    record = tmp_path / "Gap.txt"
+    record.write_text("\n".join(["0.01", "0.02", "0.03", "cable", *["0.05"] * 400]))
+    form.get_by_text("Upload a record").click()
+    form.get_by_label("File").set_input_files(record)
+    lines = form.locator(".upload").get_by_role("region", name="Lines 2 to 6 of the file")
+    expect(lines).to_contain_text("4cable")
 
 
 def test_two_gigabytes_are_refused_before_they_are_sent(form: Page, tmp_path: Path) -> None:

@@ -86,7 +86,7 @@ def test_a_unit_that_the_file_does_not_state_is_chosen_before_the_import(opened:
     unit = page.get_by_label("Unit of Disp")
     expect(unit).to_have_value("")
     row = page.locator("tr", has=unit)
-    expect(row).to_contain_text("a guess by its name alone; the file states no unit: choose it; mm would fit its magnitude")
+    expect(row).to_contain_text("A guess by its name alone; the file states no unit: choose it; mm would fit its magnitude")
     expect(row).to_contain_text("Error: the unit of column 'Disp' is not stated: choose the unit")
     page.get_by_role("button", name="Import the recording").click()
     expect(page.get_by_label("Role of Disp")).to_be_focused()

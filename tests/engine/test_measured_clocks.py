@@ -87,6 +87,16 @@ def test_two_clocks_give_a_lag_that_is_offered_and_applied_only_when_the_mapping
     assert moved["x_cmd.1"] == "" and "lag of 25" in moved["x_meas.1"]
 
 
+def test_columns_of_different_steps_have_different_clocks() -> None:
+    command, measured = pair(3, 25.0, samples=4000, noise=0.01)
+    channels = [{"column": "x", "role": "x_cmd", "unit": "mm"}, {"column": "y", "role": "x_meas", "unit": "mm"}]
+    table, mapping = recorded(channels, x=Column("x", command, "mm", DT), y=Column("y", measured[::2], "mm", 2 * DT))
+    examined = examine(table, mapping)
+    assert examined.measured is not None
+    (offer,) = same_motion.found(examined.measured, mapping, examined.signals)
+    assert not offer.one_clock and "different clocks" in offer.sentence
+
+
 def test_a_lag_on_one_clock_is_said_to_be_of_the_test() -> None:
     command, measured = pair(4, 12.0, samples=4000, noise=0.01)
     channels = [{"column": "x", "role": "x_cmd", "unit": "mm"}, {"column": "y", "role": "x_meas", "unit": "mm"}]

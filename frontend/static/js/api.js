@@ -1,6 +1,6 @@
 // @ts-check
 
-/** @typedef {{where: string, problem: string, value?: any, fix?: string | null}} Problem */
+/** @typedef {{where: string, problem: string, value?: any, fix?: string | null, lines?: {number: number, text: string}[]}} Problem */
 
 /** An error response of the service. Status 0: the service did not answer. */
 export class ApiError extends Error {
@@ -45,6 +45,8 @@ export const api = {
   get: async (path, signal) => (await request(path, { signal })).json(),
   /** @param {string} path @param {any} data @param {AbortSignal} [signal] @returns {Promise<any>} */
   post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
+  /** @param {string} path @param {any} data @returns {Promise<any>} */
+  patch: async (path, data) => (await request(path, { ...json(data), method: "PATCH" })).json(),
   /** @param {string} path */
   remove: async (path) => void (await request(path, { method: "DELETE" })),
   /** @param {string} path @param {any} data @returns {Promise<string>} */

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from rths_engine.recordings.measured import lag
+from rths_engine.recordings.measured.importing import Signal
 from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
 from rths_engine.recordings.measured.recording import Measured
 
@@ -47,13 +48,17 @@ class SameMotion:
         return {**asdict(self), "sentence": self.sentence}
 
 
-def found(measured: Measured, mapping: Mapping) -> tuple[SameMotion, ...]:
-    """The lags between command and measured displacement, and between a force and an acceleration, where the two agree."""
-    clocks = {channel.key: _clock(channel, mapping) for channel in mapping.measurements}
-    signals = {channel.key: channel.values for channel in measured.channels}
+def found(measured: Measured, mapping: Mapping, signals: Iterable[Signal] = ()) -> tuple[SameMotion, ...]:
+    """The lags between command and measured displacement, and between a force and an acceleration, where the two agree.
+
+    `signals`, the samples of the file, tell the steps of the channels: different steps are different clocks.
+    """
+    steps = {one.channel.key: float(f"{one.clock.step:.9g}") for one in signals}
+    clocks = {channel.key: (*_clock(channel, mapping), steps.get(channel.key)) for channel in mapping.measurements}
+    values = {channel.key: channel.values for channel in measured.channels}
     results = []
     for ahead, behind in list(_pairs(measured))[:MOST_PAIRS]:
-        one = lag.between(signals[ahead], signals[behind], measured.dt)
+        one = lag.between(values[ahead], values[behind], measured.dt)
         if one is not None:
             same = clocks.get(ahead) == clocks.get(behind)
             results.append(SameMotion(ahead, behind, one.seconds, one.low, one.high, one.factor, one.correlation, same))

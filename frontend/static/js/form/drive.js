@@ -1,9 +1,9 @@
 // @ts-check
 import { ApiError, api, explain } from "../api.js";
 import { el } from "../dom.js";
+import { samplePlot } from "../files/sample_plot.js";
 import { number } from "../format.js";
 import { part } from "./parts.js";
-import { chart } from "./preview.js";
 
 /** @typedef {import("./field.js").Part} Part @typedef {import("./field.js").Node} Node @typedef {import("./schema.js").Schema} Schema */
 
@@ -59,5 +59,6 @@ function picture({ time, displacement, peak, velocity, duration }, limits) {
     `, ${number(duration)} s`,
   );
   const said = `${number(peak / MM)} mm at most, ${number(duration)} s`;
-  return [facts, chart("Prescribed displacement, mm", said, "Time, s", time, displacement.map((x) => x / MM), "--line-1")];
+  const plot = { title: "Prescribed displacement, mm", xLabel: "Time, s", xUnit: "s", yUnit: "mm", line: "--line-1" };
+  return [facts, samplePlot({ ...plot, said, x: time, y: displacement.map((x) => x / MM) })];
 }

@@ -1,19 +1,19 @@
 // @ts-check
 import { el } from "../dom.js";
-import { number } from "../format.js";
+import { factsOf } from "./column_facts.js";
 
-/**
- * @typedef {{name: string, unit: string, stated: string, samples: number, missing: number, smallest: number | null, largest: number | null, mean: number | null}} Column
- * @typedef {{roles: Record<string, {label: string, counts: string, dimensions: string[]}>, units: Record<string, string[]>}} Roles
- */
+/** @typedef {import("./column_facts.js").Column} Column @typedef {{roles: Record<string, {label: string, counts: string, dimensions: string[]}>, units: Record<string, string[]>}} Roles */
 
-/** One column of the file with its role, station or floor, unit, gain, offset and sign, the reason for the proposal and the problems. */
+const GUESS = "A guess"; // a reason in doubt begins so
+
+/** One column of the file with its role, station or floor, unit, gain, offset, sign and lag, the reason for the proposal and its doubt, and the problems. */
 export class ColumnRow {
   /** @param {Column} column @param {Roles} roles @param {string} id @param {(role: string) => number} free returns the next free number of a role */
   constructor(column, roles, id, free) {
     this.column = column;
     this.roles = roles;
     this.kept = {};
+    this.seconds = 0;
     const named = (/** @type {string} */ what) => ({ "aria-label": `${what} of ${column.name}`, "aria-describedby": id });
     const choices = Object.entries(roles.roles).map(([name, { label }]) => el("option", { value: name }, label));
     this.role = el("select", named("Role"), el("option", { value: "" }, "not used"), ...choices);
@@ -22,35 +22,41 @@ export class ColumnRow {
     this.gain = el("input", { ...named("Gain"), type: "text", autocomplete: "off", placeholder: "1" });
     this.offset = el("input", { ...named("Offset"), type: "text", inputmode: "decimal", autocomplete: "off", placeholder: "0" });
     this.reverse = el("input", { ...named("Reversed sign"), type: "checkbox" });
-    this.why = el("p", { class: "muted" });
+    this.lag = el("input", { ...named("Lag, ms,"), type: "text", inputmode: "decimal", autocomplete: "off", placeholder: "0" });
+    this.doubt = el("strong", { class: "doubt" }, GUESS);
+    this.why = el("span", {});
+    this.moved = el("p", { class: "muted" });
     this.wrong = el("ul", { class: "wrong" });
     this.role.addEventListener("change", () => this.#chosen(free));
     const cell = (/** @type {string} */ label, /** @type {any} */ control) => el("td", { "data-label": label }, control);
     this.element = el(
       "tr",
       {},
-      el("th", { scope: "row" }, el("span", {}, column.name), el("small", { class: "muted" }, extent(column))),
+      el("th", { scope: "row" }, el("span", {}, column.name), ...factsOf(column)),
       cell("Role", this.role),
       cell("Station or floor", this.number),
       cell("Unit", this.unit),
       cell("Gain", this.gain),
       cell("Offset", this.offset),
       cell("Reversed", this.reverse),
-      el("td", { id, class: "notes" }, this.why, this.wrong),
+      cell("Lag, ms", this.lag),
+      el("td", { id, class: "notes" }, el("p", { class: "muted" }, this.doubt, this.why), this.wrong, this.moved),
     );
   }
 
-  /** @param {any} channel of a mapping, or undefined if the column is not used @param {string} why */
-  fill(channel, why) {
-    const { column: _, role = "", number: at, unit, gain, offset, reverse, ...kept } = channel ?? {};
+  /** @param {any} channel of a mapping, or undefined if the column is not used @param {string} why @param {boolean} doubtful */
+  fill(channel, why, doubtful) {
+    const { column: _, role = "", number: at, unit, gain, offset, reverse, lag, ...kept } = channel ?? {};
     this.kept = kept;
+    this.shift(lag ?? 0);
+    this.doubt.hidden = !doubtful;
     this.role.value = role;
     this.number.value = at ?? "";
     this.#offerUnits(unit ?? "");
     this.gain.value = gain ?? "";
     this.offset.value = offset ? String(offset) : "";
     this.reverse.checked = Boolean(reverse);
-    this.why.textContent = why;
+    this.why.textContent = doubtful ? why.replace(/^a guess/, "") : why;
     this.tell([]);
     this.#show();
   }
@@ -69,7 +75,19 @@ export class ColumnRow {
       gain: this.gain.value.trim() || null,
       offset: numeric(this.offset.value) ?? 0,
       reverse: this.reverse.checked,
+      lag: this.#lagSeconds(),
     };
+  }
+
+  /** Set the lag of the clock. @param {number} seconds */
+  shift(seconds) {
+    this.seconds = seconds;
+    this.lag.value = seconds ? milliseconds(seconds) : "";
+  }
+
+  /** Say how the samples came to the clock of the recording. @param {string} moved empty: they are the samples of the file */
+  tellClock(moved) {
+    this.moved.textContent = moved && `Clock of the recording: ${moved}.`;
   }
 
   /** Show the problems of this column. @param {{severity: string, text: string}[]} findings */
@@ -84,6 +102,7 @@ export class ColumnRow {
     this.number.value = "";
     if (role && this.roles.roles[role].counts) this.number.value = String(free(role));
     this.why.textContent = role ? "your choice" : "";
+    this.doubt.hidden = true;
     this.kept = {};
     this.#offerUnits(this.unit.value || this.column.stated);
     this.#show();
@@ -104,9 +123,17 @@ export class ColumnRow {
     this.unit.value = fitting.includes(wanted) || others.includes(wanted) ? wanted : "";
   }
 
+  /** The lag in s: unchanged where its text is unchanged; other text is passed on, and the service refuses it. */
+  #lagSeconds() {
+    const text = this.lag.value.trim();
+    if (text === (this.seconds ? milliseconds(this.seconds) : "")) return this.seconds;
+    const value = numeric(text);
+    return typeof value === "number" ? Number((value / 1e3).toPrecision(15)) : (value ?? 0);
+  }
+
   #show() {
     const role = this.role.value;
-    for (const control of [this.unit, this.gain, this.offset, this.reverse]) control.disabled = !role || (role === "t" && control !== this.unit);
+    for (const control of [this.unit, this.gain, this.offset, this.reverse, this.lag]) control.disabled = !role || (role === "t" && control !== this.unit);
     this.number.disabled = !role || !this.roles.roles[role].counts;
     if (this.number.disabled) this.number.value = "";
     this.element.classList.toggle("unused", !role);
@@ -123,14 +150,5 @@ export function numeric(text) {
   return Number.isFinite(Number(trimmed)) ? Number(trimmed) : trimmed;
 }
 
-/** The mean as text; 0 if the mean is negligible beside the values. @param {{smallest: number | null, largest: number | null, mean: number | null}} of */
-export function meanOf({ smallest, largest, mean }) {
-  const size = Math.max(Math.abs(smallest ?? 0), Math.abs(largest ?? 0));
-  return Math.abs(mean ?? 0) < 1e-9 * size ? "0" : number(mean);
-}
-
-/** @param {Column} column */
-function extent({ unit, samples, missing, smallest, largest, mean }) {
-  const range = smallest == null ? "no values" : `${number(smallest)} to ${number(largest)}${unit && ` ${unit}`}, mean ${meanOf({ smallest, largest, mean })}`;
-  return [`${samples} samples`, range, missing && `${missing} missing`].filter(Boolean).join("; ");
-}
+/** @param {number} seconds */
+const milliseconds = (seconds) => String(Number((seconds * 1e3).toPrecision(9)));

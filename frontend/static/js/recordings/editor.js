@@ -1,32 +1,39 @@
 // @ts-check
 import { ApiError, api, explain } from "../api.js";
 import { el } from "../dom.js";
+import { contentsOf } from "../files/contents.js";
 import { labelled } from "../form/field.js";
 import { size } from "../format.js";
 import { person, remember } from "../person.js";
 import { ColumnRow, wrongItem } from "./column_row.js";
+import { lagsOf } from "./lags.js";
 import { factsLine, plotsOf } from "./plots.js";
+import { savingOf } from "./saving.js";
 import { MappingSettings } from "./settings.js";
+import { chooser, fitting, startsOf } from "./starts.js";
 
 /** @typedef {import("./column_row.js").Roles} Roles */
 
 const QUIET_MS = 400;
-const HEADS = ["Column", "Role", "Station or floor", "Unit", "Gain", "Offset", "Reversed", "Reason and problems"];
+const HEADS = ["Column", "Role", "Station or floor", "Unit", "Gain", "Offset", "Reversed", "Lag, ms", "Reason and problems"];
 
 /** The editor of a mapping: assigns roles to the columns of an uploaded file, previews the recording and imports it. */
 export class Editor {
-  /** @param {any} sent the service's description of the file @param {Roles} roles @param {(recording: any) => void} imported */
-  constructor(sent, roles, imported) {
+  /** @param {any} sent the service's description of the file @param {Roles} roles @param {(recording: any) => void} imported @param {() => void} saved */
+  constructor(sent, roles, imported, saved) {
     this.sent = sent;
     this.imported = imported;
+    this.saved = saved;
     this.asking = new AbortController();
     this.timer = 0;
+    this.starts = startsOf(sent);
     const free = (/** @type {string} */ role) => this.#free(role);
     /** @type {ColumnRow[]} */
     this.rows = sent.columns.map((/** @type {any} */ column, /** @type {number} */ i) => new ColumnRow(column, roles, `column-${i}`, free));
     this.settings = new MappingSettings();
     this.general = el("ul", { class: "wrong" });
     this.verdict = el("p", { class: "facts-line", role: "status", tabindex: "-1" });
+    this.lags = el("div", {});
     this.plots = el("div", {});
     this.who = el("input", { type: "text", autocomplete: "name", maxlength: 80 });
     this.who.value = person();
@@ -34,7 +41,7 @@ export class Editor {
     for (const event of ["input", "change"]) {
       for (const part of [this.table, this.settings.element]) part.addEventListener(event, () => this.#soon());
     }
-    this.#fill(sent.guess ?? { channels: [] }, (name) => sent.reasons[name] ?? sent.left_out[name] ?? "");
+    this.#fill(/** @type {import("./starts.js").Start} */ ([...this.starts.values()].flat()[0]));
   }
 
   #build() {
@@ -45,10 +52,7 @@ export class Editor {
       el("thead", {}, el("tr", {}, ...HEADS.map((text) => el("th", { scope: "col" }, text)))),
       el("tbody", {}, ...this.rows.map((row) => row.element)),
     );
-    const offered = sent.mappings.map((/** @type {any} */ one, /** @type {number} */ i) => el("option", { value: i }, `mapping of ${one.name}, imported ${one.imported_at.slice(0, 10)}`));
-    const from = el("select", {}, el("option", { value: "" }, "proposed from names and signals"), ...offered);
-    from.addEventListener("change", () => this.#apply(from.value));
-    const fits = offered.length ? `${offered.length} earlier ${offered.length === 1 ? "mapping fits" : "mappings fit"} this file` : "no earlier mapping fits this file";
+    const from = chooser(this.starts, (start) => this.#fill(start));
     const text = el("input", { type: "file", accept: ".yaml,.yml" });
     text.addEventListener("change", () => this.#load(text));
     const notes = sent.notes.map((/** @type {string} */ note) => el("li", {}, note));
@@ -57,46 +61,47 @@ export class Editor {
       { class: "editor", novalidate: true, "aria-label": `Mapping of ${sent.filename}`, on: { submit: (/** @type {Event} */ event) => this.#import(event) } },
       el("h3", {}, sent.filename),
       el("p", { class: "muted" }, `${sent.format}, ${size(sent.size)}, SHA-256 ${sent.sha256.slice(0, 12)}…`),
+      contentsOf(sent, sent.columns.map((/** @type {any} */ column) => column.name)),
+      el("h4", {}, "Columns and their roles"),
       notes.length > 0 && el("ul", { class: "warnings" }, ...notes),
-      el("div", { class: "starters" }, labelled("mapping.from", "Mapping", from, fits), labelled("mapping.text", "Load a mapping from YAML", text)),
+      el("div", { class: "starters" }, labelled("mapping.from", "Mapping", from, fitting(sent)), labelled("mapping.text", "Load a mapping from YAML", text)),
       el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Columns of the file" }, this.table),
       this.settings.element,
       this.general,
       this.verdict,
+      this.lags,
       el("div", { class: "starters sending" }, labelled("mapping.who", "Your name", this.who), el("button", { type: "submit" }, "Import the recording")),
+      savingOf(sent.sha256, () => this.#mapping(), () => this.who.value.trim(), () => this.saved()),
+      el("h4", {}, "Signals"),
+      el("p", { class: "muted hint" }, "The cursor stands on samples of the file. Drag over a plot to zoom, and double-click to reset. The slider below a plot takes the arrow keys, + and −."),
       this.plots,
     );
   }
 
-  /** @param {any} mapping @param {(column: string) => string} why */
-  #fill(mapping, why) {
+  /** @param {import("./starts.js").Start} start */
+  #fill({ mapping, why, doubtful }) {
     const names = this.rows.map((row) => row.column.name);
     const named = (/** @type {any} */ one) => (typeof one.column === "number" ? { ...one, column: names[one.column - 1] } : one);
     const channels = new Map(mapping.channels.map(named).map((/** @type {any} */ one) => [one.column, one]));
-    for (const row of this.rows) row.fill(channels.get(row.column.name), why(row.column.name));
+    for (const row of this.rows) {
+      const channel = channels.get(row.column.name);
+      row.fill(channel, why(row.column.name), Boolean(channel) && doubtful(row.column.name));
+    }
     this.settings.fill(mapping, this.sent.filename.replace(/\.[^.]*$/, ""));
     this.#ask();
-  }
-
-  /** @param {string} chosen */
-  #apply(chosen) {
-    const { guess, mappings, reasons, left_out } = this.sent;
-    if (!chosen) return this.#fill(guess ?? { channels: [] }, (name) => reasons[name] ?? left_out[name] ?? "");
-    const { mapping, name } = mappings[Number(chosen)];
-    this.#fill({ ...mapping, title: "" }, () => `from the mapping of ${name}`);
   }
 
   /** @param {any} input */
   async #load(input) {
     try {
       const { mapping } = await api.post("/recordings/preview", { file: this.sent.sha256, mapping: await input.files[0].text() });
-      this.#fill(mapping, () => `from ${input.files[0].name}`);
+      this.#fill({ label: "", mapping, why: () => `from ${input.files[0].name}`, doubtful: () => false });
     } catch (error) {
       this.#refused(error);
     }
   }
 
-  /** The used channels with their rows, in the order of the request. */
+  /** The used channels with their rows, in the order of the request. @returns {{row: ColumnRow, channel: any}[]} */
   #used() {
     return this.rows.map((row) => ({ row, channel: row.read() })).filter(({ channel }) => channel);
   }
@@ -121,6 +126,7 @@ export class Editor {
   async #ask() {
     this.asking.abort();
     const mine = (this.asking = new AbortController());
+    this.#askRate();
     if (!this.#used().length) {
       this.#clear();
       return this.#say("Not ready to import. Assign a role to at least one column.");
@@ -133,16 +139,37 @@ export class Editor {
     }
   }
 
+  /** Ask for the rate where no column is time and a used column has no step. */
+  #askRate() {
+    const used = this.#used();
+    const timed = used.some(({ channel }) => channel.role === "t");
+    const without = used.filter(({ row, channel }) => row.column.dt_s == null && !channel.rate && !channel.time);
+    this.settings.ask(!timed && without.length > 0, Math.max(0, ...without.map(({ row }) => row.column.samples)));
+  }
+
+  /** Set the lag of a channel, which the person has asked for. @param {import("./lags.js").Lag} lag @param {any} found */
+  #applyLag({ behind, lag_s }, found) {
+    const { column } = found.channels.find((/** @type {any} */ one) => one.key === behind);
+    const row = /** @type {ColumnRow} */ (this.rows.find((one) => one.column.name === column));
+    row.shift(row.seconds + lag_s);
+    row.lag.focus();
+    this.#ask();
+  }
+
   /** @param {any} found */
   #show(found) {
     this.#clear();
+    for (const { column, moved } of found.channels) this.rows.find((row) => row.column.name === column)?.tellClock(moved);
+    this.lags.replaceChildren(lagsOf(found.lags, (lag) => this.#applyLag(lag, found)));
     this.#place(found.findings.map((/** @type {any} */ one) => ({ ...one, row: this.rows.find((row) => row.column.name === one.column) })));
     const errors = found.findings.filter((/** @type {any} */ one) => one.severity === "error").length;
     const warnings = found.findings.length - errors;
     const counted = [errors && `${errors} ${errors === 1 ? "error" : "errors"}`, warnings && `${warnings} ${warnings === 1 ? "warning" : "warnings"}`];
     const judged = counted.filter(Boolean).join(" and ") || "no errors or warnings";
     this.#say(found.samples ? `${factsLine(found)}: ${judged}` : `Not ready to import: ${judged}`);
-    this.plots.replaceChildren(plotsOf(found));
+    const { mapping } = found;
+    const part = (/** @type {number} */ from_s, /** @type {number} */ to_s) => api.post("/recordings/preview", { file: this.sent.sha256, mapping, from_s, to_s });
+    this.plots.replaceChildren(plotsOf(found, part));
   }
 
   /** @param {unknown} error */
@@ -172,10 +199,14 @@ export class Editor {
   }
 
   #clear() {
-    for (const row of this.rows) row.tell([]);
+    for (const row of this.rows) {
+      row.tell([]);
+      row.tellClock("");
+    }
     this.settings.clear();
     this.general.replaceChildren();
-    this.plots.replaceChildren();
+    this.lags.replaceChildren();
+    this.plots.replaceChildren(el("p", { class: "empty" }, "The plots appear here when the mapping can be used."));
   }
 
   /** @param {string} text */

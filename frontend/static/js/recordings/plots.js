@@ -1,14 +1,14 @@
 // @ts-check
 import uPlot from "/static/vendor/uplot/uPlot.esm.js";
 import { el } from "../dom.js";
-import { chart } from "../form/preview.js";
+import { samplePlot } from "../files/sample_plot.js";
 import { number } from "../format.js";
 import { loopPath } from "../run/loop_chart.js";
 import { axis, fit, padded, themed } from "../run/plot_style.js";
-import { meanOf } from "./column_row.js";
+import { meanOf } from "./column_facts.js";
 
 /**
- * @typedef {{key: string, role: string, label: string, unit: string, column: string, smallest: number, largest: number, mean: number, time: number[], values: number[]}} Channel
+ * @typedef {{key: string, role: string, label: string, unit: string, column: string, smallest: number, largest: number, mean: number, moved: string, samples: number, time: number[], values: number[]}} Channel
  * @typedef {{station: number, x: number[], y: number[], x_unit: string, y_unit: string}} Loop
  * @typedef {{channels: Channel[], loops: Loop[], samples: number | null, dt_s: number, start_s: number}} Preview
  */
@@ -16,14 +16,17 @@ import { meanOf } from "./column_row.js";
 const MOST = 24; // most plots shown
 const COLOURS = /** @type {Record<string, string>} */ ({ x: "--line-1", v: "--line-3", f: "--line-2" });
 
-/** Plots of a recording's channels and of force against displacement. @param {Preview} preview @returns {HTMLElement} */
-export function plotsOf({ channels, loops }) {
+/**
+ * Plots of a recording's channels and of force against displacement. `part` asks the service for a part of the time.
+ * @param {Preview} preview @param {(from: number, to: number) => Promise<Preview>} part @returns {HTMLElement}
+ */
+export function plotsOf({ channels, loops }, part) {
   const shown = channels.slice(0, MOST);
   const rest = channels.length - shown.length;
   return el(
     "div",
     { class: "preview" },
-    el("div", { class: "charts" }, ...loops.map(loopFigure), ...shown.map(plot)),
+    el("div", { class: "charts" }, ...loops.map(loopFigure), ...shown.map((channel) => plot(channel, part))),
     rest > 0 && el("p", { class: "muted" }, `${rest} more channels are imported but not plotted.`),
   );
 }
@@ -37,10 +40,15 @@ export function factsLine({ samples, dt_s, start_s }) {
 /** @param {number} value */
 const short = (value) => String(Number(value.toPrecision(6)));
 
-/** @param {Channel} channel */
-function plot({ role, label, unit, smallest, largest, mean, time, values }) {
+/** @param {Channel} channel @param {(from: number, to: number) => Promise<Preview>} part */
+function plot({ key, role, label, unit, smallest, largest, mean, samples, time, values }, part) {
   const said = `${number(smallest)} to ${number(largest)} ${unit}, mean ${meanOf({ smallest, largest, mean })} ${unit}`;
-  return chart(`${label}, ${unit}`, said, "Time, s", time, values, COLOURS[role[0]] ?? "--line-4");
+  const inside = async (/** @type {number} */ from, /** @type {number} */ to) => {
+    const found = (await part(from, to)).channels.find((one) => one.key === key);
+    return { x: found?.time ?? [], y: found?.values ?? [], samples: found?.samples };
+  };
+  const named = { title: `${label}, ${unit}`, said, xLabel: "Time, s", xUnit: "s", yUnit: unit, line: COLOURS[role[0]] ?? "--line-4" };
+  return samplePlot({ ...named, x: time, y: values, samples, part: samples > time.length ? inside : undefined });
 }
 
 /** @param {Loop} loop */

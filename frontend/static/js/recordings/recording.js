@@ -8,7 +8,9 @@ const host = byId("plots");
 removal(() => location.assign("/recordings"));
 
 try {
-  host.replaceChildren(plotsOf(await api.get(`/recordings/${host.dataset.id}/preview`)));
+  const address = `/recordings/${host.dataset.id}/preview`;
+  const part = (/** @type {number} */ from, /** @type {number} */ to) => api.get(`${address}?from_s=${from}&to_s=${to}`);
+  host.replaceChildren(plotsOf(await api.get(address), part));
 } catch (error) {
   byId("refusal").textContent = explain(error);
   host.replaceChildren();
