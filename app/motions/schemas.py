@@ -19,7 +19,9 @@ class MotionChannel(BaseModel):
     samples: int
     largest: float = Field(description="largest absolute value, in the unit of the file")
     applied: str = Field(description="scale factor or gain of the file that the values contain")
-    asks: list[Literal["unit", "dt"]] = Field(description="what the file does not state: give it with the request")
+    asks: list[Literal["unit", "count", "dt"]] = Field(
+        description="what the file does not state: `unit`, `dt`; count: give the acceleration of one count as `unit`"
+    )
 
 
 class MotionFile(BaseModel):

@@ -33,8 +33,9 @@ class Channel:
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """What the file does not state and `read` asks for: `unit`, `dt`."""
-        return tuple(name for name, lacks in (("unit", not self.column.unit), ("dt", self.column.dt is None)) if lacks)
+        """What the file does not state and `read` asks for: `unit`, or the acceleration of one `count` as unit; `dt`."""
+        unit, counts = not self.column.unit, in_counts(self.column)
+        return tuple(name for name, lacks in (("unit", unit), ("count", counts), ("dt", self.column.dt is None)) if lacks)
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,11 +26,13 @@ class Upload {
     this.file = el("input", { type: "file" });
     this.channel = el("select");
     this.unit = el("select", {}, el("option", { value: "" }, "choose the unit"), ...UNITS.map((name) => el("option", { value: name }, name)));
+    this.count = el("input", { type: "text", placeholder: "2.34e-6 m/s^2", autocomplete: "off" });
     this.dt = el("input", { type: "text", inputmode: "decimal", autocomplete: "off" });
     this.name = el("input", { type: "text", placeholder: "from the file's name", autocomplete: "off" });
     this.fields = {
       channel: labelled("upload.channel", "Channel", this.channel, "the file has several channels of acceleration", "", true),
       unit: labelled("upload.unit", "Unit of the acceleration", this.unit, "the file does not state it"),
+      count: labelled("upload.count", "Acceleration of one count", this.count, "the file gives counts without a scale factor"),
       dt: labelled("upload.dt", "Time step", this.dt, "the file does not state it", "s"),
       name: labelled("upload.name", "Name in the library", this.name),
     };
@@ -44,13 +46,14 @@ class Upload {
   }
 
   #build() {
-    const { channel, unit, dt, name } = this.fields;
+    const { channel, unit, count, dt, name } = this.fields;
     this.file.addEventListener("change", () => this.#open());
     for (const control of [this.channel, this.unit]) control.addEventListener("change", () => this.#look());
-    this.dt.addEventListener("input", () => {
+    const soon = () => {
       clearTimeout(this.typing);
       this.typing = setTimeout(() => this.#look(), QUIET_MS);
-    });
+    };
+    for (const control of [this.count, this.dt]) control.addEventListener("input", soon);
     const box = el(
       "details",
       { class: "upload" },
@@ -58,7 +61,7 @@ class Upload {
       el("div", { class: "fields" }, labelled("upload.file", "File", this.file)),
       this.told,
       this.contents,
-      el("div", { class: "fields" }, channel, unit, dt, name),
+      el("div", { class: "fields" }, channel, unit, count, dt, name),
       this.asked,
       this.shown,
       this.add,
@@ -72,7 +75,7 @@ class Upload {
     const mine = ++this.looks;
     this.#offer([]);
     for (const part of [this.told, this.contents, this.shown]) part.replaceChildren();
-    this.unit.value = this.dt.value = "";
+    this.unit.value = this.count.value = this.dt.value = "";
     if (!this.file.files.length) return;
     try {
       const found = await api.postForm("/motions/contents", this.#form());
@@ -106,6 +109,7 @@ class Upload {
     const asks = chosen?.asks ?? [];
     this.fields.channel.hidden = this.channels.length < 2;
     this.fields.unit.hidden = !asks.includes("unit");
+    this.fields.count.hidden = !asks.includes("count");
     this.fields.dt.hidden = !asks.includes("dt");
     this.fields.name.hidden = !this.channels.length;
     const step = Number(this.dt.value);
@@ -114,6 +118,7 @@ class Upload {
     const lacks = [
       this.channels.length > 1 && !chosen && "the channel",
       asks.includes("unit") && !this.unit.value && "the unit",
+      asks.includes("count") && !this.count.value.trim() && "the acceleration of one count",
       asks.includes("dt") && !this.dt.value.trim() && "the time step",
     ].filter(Boolean);
     this.asked.textContent = lacks.length ? `Give ${lacks.join(" and ")}.` : "";
@@ -126,7 +131,9 @@ class Upload {
     const data = new FormData();
     data.set("file", withinLimit(this.file.files[0]));
     const several = this.channels.length > 1 ? this.channel.value : "";
-    const given = { unit: this.fields.unit.hidden ? "" : this.unit.value, dt: this.fields.dt.hidden ? "" : this.dt.value, name: this.name.value, channel: several };
+    const asks = this.#chosen?.asks ?? [];
+    const unit = asks.includes("unit") ? this.unit.value : asks.includes("count") ? this.count.value : "";
+    const given = { unit, dt: asks.includes("dt") ? this.dt.value : "", name: this.name.value, channel: several };
     for (const [key, value] of Object.entries(given)) if (value.trim()) data.set(key, value.trim());
     return data;
   }
@@ -165,8 +172,8 @@ class Upload {
     this.shown.replaceChildren();
     this.told.replaceChildren(refusalOf(error));
     const asked = error instanceof ApiError && error.errors.map(({ where }) => where).find((where) => /(unit|dt)$/.test(where ?? ""));
-    const control = asked && (asked.endsWith("dt") ? this.dt : this.unit);
-    if (control && document.activeElement !== this.dt) control.focus();
+    const control = asked && (asked.endsWith("dt") ? this.dt : this.fields.count.hidden ? this.unit : this.count);
+    if (control && ![this.dt, this.count].includes(document.activeElement)) control.focus();
   }
 }
 
