@@ -65,11 +65,11 @@ function rowsPane(rows, names) {
   const heads = [["Row", "number"], ...shown.map((name) => [name, "number"])];
   const rest = names.length - shown.length;
   const said = rest > 0 && el("p", { class: "muted" }, `${rest} more columns are not shown.`);
-  return el("section", { class: names.length > FEW_COLUMNS ? "wide" : "" }, el("h4", {}, "First rows of numbers"), table("First rows of numbers", heads, lines), said);
+  return el("section", { class: names.length > FEW_COLUMNS ? "wide" : "" }, el("p", { class: "title" }, "First rows of numbers"), table("First rows of numbers", heads, lines), said);
 }
 
 /** @param {string} title @param {...any} children */
-const pane = (title, ...children) => el("section", {}, el("h4", {}, title), ...children);
+const pane = (title, ...children) => el("section", {}, el("p", { class: "title" }, title), ...children);
 
 /** @param {string} label @param {string[][]} heads @param {HTMLElement[]} rows */
 function table(label, heads, rows, kind = "") {
