@@ -138,3 +138,11 @@ def test_a_channel_of_another_rate_says_how_it_was_resampled_and_its_own_samples
     own = next(one for one in found.signals if one.channel.key == "f_meas.1")
     np.testing.assert_array_equal(own.values, 1e3 * slow)
     np.testing.assert_allclose(own.clock.times, times[::4], atol=1e-12)
+
+
+def test_the_last_sample_stays_where_the_step_of_rounded_stamps_is_rounded() -> None:
+    """501 stamps with four decimals whose true step, 0.2002 s, is known to 0.05 of a step over the record."""
+    times = np.round(np.arange(501) * 0.20019531, 4)
+    channels = [{"column": "t", "role": "t", "unit": "s"}, {"column": "x", "role": "x_meas", "unit": "mm"}]
+    found = imported(*recorded(channels, t=Column("t", times), x=Column("x", np.arange(501.0), "mm")))
+    np.testing.assert_allclose(found.get("x_meas", 1), 1e-3 * np.arange(501.0), atol=1e-9)

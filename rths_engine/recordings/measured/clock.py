@@ -36,6 +36,11 @@ class Clock:
     def end(self) -> float:
         return float(self.times[-1])
 
+    @property
+    def last(self) -> float:
+        """Time of the last sample: that of its step where the stamps equal start + k * step except for rounding."""
+        return self.start + (len(self.times) - 1) * self.step if self.uniform else self.end
+
 
 def of_step(step: float, count: int, start: float = 0.0) -> Clock:
     """The clock of `count` samples at equal steps (s)."""

@@ -183,7 +183,7 @@ def _unit(channel: ColumnMap) -> str:
 def _grid(mapping: Mapping, clocks: list[Clock]) -> tuple[float, int, float]:
     """Start (s), number of samples and step (s) of the recording: the time that all channels share, within start and stop."""
     dt = 1 / mapping.target_rate if mapping.target_rate else min(one.step for one in clocks)
-    begin, end = max(one.start for one in clocks), min(one.end for one in clocks)
+    begin, end = max(one.start for one in clocks), min(one.last for one in clocks)
     if mapping.start is not None and mapping.start > begin:
         step = clocks[0].step
         begin = clocks[0].start + np.ceil((mapping.start - clocks[0].start) / step - 1e-6) * step

@@ -31,7 +31,7 @@ def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) 
         raise MeasuredError(Issue("mapping.target_rate", bound, f"{1 / dt:.6g} Hz", "choose a rate closer to that of the file"))
     factor = _factor(ratio)
     step = dt * float(factor)
-    needed = min(int(np.ceil((count - 1) * dt / step)) + 1, int((clock.end - start) / step + 1 + ON_GRID))
+    needed = min(int(np.ceil((count - 1) * dt / step)) + 1, int((clock.last - start) / step + 1 + ON_GRID))
     even = _evenly(values, clock, start, needed, step)
     if factor == 1:
         return even[:count]
