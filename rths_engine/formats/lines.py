@@ -11,7 +11,7 @@ from rths_engine.foundation.errors import FileError, Issue
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?"
 _GLUED = re.compile(NUMBER)
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
-_LONGEST_LINE = 100_000
+_LONGEST_LINE = 20_000_000
 
 
 def lines_of(raw: bytes) -> list[str]:
@@ -33,8 +33,6 @@ def check_text(raw: bytes) -> None:
     """Raises FileError for content that is not text, or not in an encoding that is read."""
     if not raw.strip(b" \t\r\n\x0b\x0c\x1a"):
         raise FileError(Issue("file", "is empty", fix="choose a record file"))
-    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise FileError(Issue("file", "is UTF-16 text", fix="save it as plain text (UTF-8)"))
     control = _CONTROL.search(raw)
     if control or raw.startswith(b"%PDF"):
         where = f"byte {control.start()}" if control else "file"

@@ -116,14 +116,16 @@ def numeric_rows(text, first, last, separator, point, targets, ending, columns, 
 
     `text`: uint8, at least PADDING bytes longer than `last`, and `text[last]` a line end. `separator`: a byte, 32 for white
     space. `targets`: for each field its column, -1 for a field of text. `ending`: whether lines can end with a separator.
-    `columns` (columns, rows) has room for all rows. Empty lines are no rows. The index is less than `last` where a line is not
-    a row: it is the start of this line.
+    `columns` (columns, rows) has room for all rows. The index is less than `last` where a line is not a row, or is empty: it is
+    the start of this line.
     """
     at, end, fields = _U(first), _U(last), len(targets)
     while at < end:
         line = at
         if text[at] == 10 or text[at] == 13:
-            at += _ONE
+            if text[at] == 13 or at == _ZERO or text[at - _ONE] != 13:
+                return row, np.int64(line)
+            at += _ONE  # the second byte of CR LF
             continue
         for field in range(fields):
             target = targets[field]

@@ -90,6 +90,7 @@ BY_KEY = {one.key: one for one in (*FORMATS, COLUMNS, RECORD)}
 
 def read(source: Source, otherwise: Format = COLUMNS, format: str | None = None) -> Table:
     """The table in a file; `otherwise` reads text of no known format. Raises FileError, with the lines that it names."""
+    source = source.in_utf8()
     try:
         return _read(source, otherwise, format)
     except FileError as error:

@@ -62,6 +62,16 @@ class Source:
             raise FileError(Issue("file", problem, fix="export fewer signals or a shorter time, or export it as CSV"))
         return self.content if self.content is not None else self._path.read_bytes()
 
+    def in_utf8(self) -> Source:
+        """The source, with UTF-16 text in UTF-8. Raises FileError for damaged UTF-16."""
+        if not self.head.startswith((b"\xff\xfe", b"\xfe\xff")):
+            return self
+        try:
+            return Source(self.name, content=self.bytes().decode("utf-16").encode("utf-8"))
+        except UnicodeDecodeError as error:
+            problem = f"begins as UTF-16 text and is damaged at byte {error.start}"
+            raise FileError(Issue("file", problem, fix="save it as plain text (UTF-8)")) from None
+
     @cached_property
     def head_lines(self) -> list[str]:
         """The lines in the first bytes; empty for binary content."""

@@ -299,10 +299,11 @@ def test_binary_content_is_refused(raw: bytes) -> None:
     raises(raw, "binary", "text")
 
 
-def test_empty_and_utf16_files_are_refused() -> None:
+def test_empty_files_are_refused_and_utf16_is_read_unless_it_is_damaged() -> None:
     raises(b"", "is empty")
     raises(b" \r\n\r\n", "is empty")
-    raises(at2().encode("utf-16"), "UTF-16", "UTF-8")
+    assert read(at2().encode("utf-16"), "a.at2").dt == DT
+    raises(at2().encode("utf-16")[:-1], "UTF-16", "damaged")
 
 
 def test_any_cut_of_a_file_is_read_or_refused_and_never_crashes() -> None:

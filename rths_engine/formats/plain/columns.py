@@ -2,180 +2,248 @@
 
 from __future__ import annotations
 
-import csv
-import re
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 
 from rths_engine.formats import units_row
 from rths_engine.formats.format import Format
-from rths_engine.formats.lines import check_text, decoded, value
+from rths_engine.formats.lines import check_text, decoded
 from rths_engine.formats.numeric_block import Layout, line_number, read_block
-from rths_engine.formats.plain.record import header_step
+from rths_engine.formats.plain import (
+    count_line,
+    form,
+    header_facts,
+    headings,
+    markers,
+    peaks,
+    stamps,
+    text_columns,
+    timing,
+    transposed,
+)
+from rths_engine.formats.plain.form import COMMENT, LOOKED_AT, Form
+from rths_engine.formats.plain.header_facts import Facts
+from rths_engine.formats.plain.refusals import blank_between, not_a_number, other_width, text_between, touches
+from rths_engine.formats.scratch import release
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column, Table, distinct
-from rths_engine.foundation import unit_names
+from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
-_COMMENT = re.compile(r"[#%!]+|//")
-_MISSING = {"", "na", "n/a", "nan", "null", "none", "-", "--", "#n/a", "nil"}
-_LOOKED_AT = 60  # lines used to determine the separator
+LONG_LINE = 4096  # bytes of a line whose numbers can be a signal
+LONGEST_ROWS = 1 << 27  # bytes of a text whose rows are signals
 LOOKED_INTO = 1 << 20  # bytes: the header is in the first; the lines that determine the separator are in the middle of the file
-_CANDIDATES = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","))
-MOST_FIELDS = 1000
-
-
-@dataclass(frozen=True, slots=True)
-class Form:
-    """The `separator` (empty: white space) and the decimal sign of a text file."""
-
-    separator: str
-    decimal: str
-
-    def fields(self, line: str) -> list[str]:
-        if not self.separator:
-            return line.split()
-        if '"' in line:
-            return [field.strip() for field in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
-        return [field.strip() for field in line.split(self.separator)]
-
-    def number(self, field: str) -> float | None:
-        """The number in a field: NaN for a missing value, None where the field is not a number."""
-        if field.lower() in _MISSING:
-            return float("nan")
-        if "_" in field or (self.decimal == "," and "." in field):
-            return None
-        return value(field.replace(",", ".") if self.decimal == "," else field)
-
 
 Line = tuple[int, str]  # byte at which the line starts, and the line
 
 
 def read(source: Source) -> Table:
     """Read the columns of a text. Raises FileError with the line that differs from the others."""
+    if _few_lines(source) and (rows := transposed.read(list(enumerate(source.lines, start=1)))) is not None:
+        return _of_rows(*rows)
     filled = _filled(source, 0, LOOKED_INTO)
-    plain = [(at, text) for at, text in filled if not _COMMENT.match(text.lstrip())]
+    plain = [(at, text) for at, text in filled if not COMMENT.match(text.lstrip())]
     if not plain:
         raise FileError(Issue("file", "contains no numbers", fix="choose a file of measurements"))
-    whole = source.size <= LOOKED_INTO
-    sample = plain if whole else _filled(source, source.size // 2, LOOKED_INTO)
-    if ending := _ending(sample[-_LOOKED_AT:]):
-        filled, plain, sample = (_without(ending, lines) for lines in (filled, plain, sample))
-    form, numeric = _form(source, sample[len(sample) // 2 :][:_LOOKED_AT])
-    first = _first(plain, form, numeric)
-    header = [text for at, text in filled if at < plain[first][0]]
-    names, units = _heading(header, form, len(numeric))
-    _refuse_ambiguous(source, plain[first:], form, names)
-    layout = Layout(form.separator, form.decimal, numeric, bool(ending))
-    values = read_block(source, plain[first][0], layout, partial(_other_line, source, form, numeric, ending))
-    dt = header_step(header)
-    used = [k for k, holds in enumerate(numeric) if holds]
-    columns = [Column(names[k] if names else f"column {k + 1}", values[j], units[k], dt) for j, k in enumerate(used)]
-    left = tuple(f"{names[k] if names else f'column {k + 1}'} holds text" for k, holds in enumerate(numeric) if not holds)
-    notes = (*left, evidence) if (evidence := units_row.evidence(units)) else left
-    return Table("columns of text", distinct(columns), named=bool(names), notes=notes)
+    sample = plain if source.size <= LOOKED_INTO else _filled(source, source.size // 2, LOOKED_INTO)
+    sample = sample[len(sample) // 2 :][:LOOKED_AT]
+    own, numeric = _form(source, sample)
+    fields = [found for _, text in sample if len(found := own.fields(text)) == len(numeric)]
+    empty = [k for k in range(len(numeric)) if not any(row[k] for row in fields)]
+    start = _start(plain, own, numeric)
+    header = _numbered(source, [(at, text) for at, text in filled if at < start])
+    rows_of_text = [(at, text) for at, text in filled if at >= start]
+    heading = headings.find(header, own, len(numeric), empty)
+    _refuse_numbers_of_columns(source, rows_of_text, own, len(numeric))
+    form.refuse_ambiguous([*_numbered(source, rows_of_text[:1]), *rows_of_text[1:]], own, bool(heading.names))
+    body = _Body(source, own, numeric, [text for _, text in header])
+    values = read_block(source, start, Layout(own.separator, own.decimal, numeric), body.other)
+    line = body.line_of_row(start, len(values[0]))
+    facts = count_line.with_numbers_above(header_facts.read(header), header, len(values[0]), len(numeric))
+    names = heading.names or tuple(f"column {k}" for k in range(1, len(numeric) + 1))
+    first_rows = [row for _, text in rows_of_text[:LOOKED_AT] if len(row := own.fields(text)) == len(numeric)]
+    texts = text_columns.read(source, start, own, numeric, names, first_rows)
+    left = {k for k in empty if not heading.names or names[k] == f"column {k + 1}"}
+    numbers = iter(values)
+    columns = [
+        texts.times[k] if k in texts.times else _column(names[k], next(numbers), heading.units[k])
+        for k, holds in enumerate(numeric)
+        if holds or k in texts.times
+    ]
+    columns = [one for one in columns if one.name not in {names[k] for k in left}]
+    notes = [*texts.notes, *(one for one in (heading.note, units_row.evidence(heading.units)) if one)]
+    return _table(columns, facts, header, bool(heading.names), notes, line)
+
+
+def _table(
+    columns: Sequence[Column],
+    facts: Facts,
+    header: Sequence[Line],
+    named: bool,
+    notes: Sequence[str],
+    line: Callable[[int], int],
+) -> Table:
+    for column in columns:
+        markers.refuse(column.values, column.name, line, facts.missing)
+        release(column.values)
+    done = timing.timed(columns, facts, line, named)
+    others = sum(timing.time_like(one, k, named) != "" or one.quantity == "time" for k, one in enumerate(done.columns))
+    return Table(
+        "columns of text",
+        distinct(done.columns),
+        named=named,
+        notes=(*notes, *done.notes),
+        statements=(
+            *done.statements,
+            *peaks.statements(done.columns, facts),
+            *facts.channel_statements(len(done.columns) - others, others),
+        ),
+        header="\n".join(text for _, text in header),
+    )
+
+
+def _of_rows(header: Sequence[Line], signals: Sequence[transposed.Signal]) -> Table:
+    """The table of a text whose rows are signals."""
+    columns = [Column(one.name or f"row {k}", one.values, one.unit) for k, one in enumerate(signals, start=1)]
+    named = all(one.name for one in signals)
+    notes = ["each row of the file is a signal"]
+    return _table(columns, header_facts.read(header), header, named, notes, lambda _: signals[0].line)
+
+
+def _column(name: str, values: Array, unit: str) -> Column:
+    """A column of numbers; the dates that a spreadsheet counts in days become seconds."""
+    seconds = stamps.from_days(name, values)
+    if seconds is not None:
+        return Column(name, seconds, "s", quantity="time", applied="seconds from the first date, which is in days")
+    return Column(name, values, unit or headings.name_and_unit(name)[1])
+
+
+@dataclass
+class _Body:
+    """The rows of numbers: what the compiled reader does not read, and where blank lines are."""
+
+    source: Source
+    form: Form
+    numeric: Sequence[bool]
+    header: Sequence[str]
+    blank: list[int] = field(default_factory=list)
+
+    def other(self, at: int, raw: bytes) -> list[float] | None:
+        """The numbers of a line that is not written as plain numbers; None for an empty line. Raises FileError otherwise."""
+        text = decoded(raw)
+        if not text.strip():
+            self.blank.append(at)
+            return None
+        fields = self.form.fields(text)
+        number = partial(line_number, self.source, at)
+        if COMMENT.match(text.lstrip()) or not any(self.form.number(one) is not None for one in fields if one):
+            after = [one for _, one in _filled(self.source, at, LOOKED_INTO)[1:]]
+            raise text_between((number(), text), after, self.header)
+        if len(fields) != len(self.numeric):
+            glued = next((one for one in fields if self.form.number(one) is None and touches(one)), None)
+            raise not_a_number(number(), glued) if glued else other_width(number(), text, len(fields), len(self.numeric))
+        found: list[float] = []
+        for k, (one, holds) in enumerate(zip(fields, self.numeric, strict=True), start=1):
+            if not holds:
+                continue
+            value = self.form.number(one)
+            if value is None:
+                raise not_a_number(number(), one, f"column {k} is not a number")
+            if np.isinf(value):
+                fix = "leave the field empty where the value is missing, or leave the column out"
+                raise FileError(Issue(f"line {number()}", f"column {k} is infinite", one, fix))
+            found.append(value)
+        return found
+
+    def line_of_row(self, start: int, rows: int) -> Callable[[int], int]:
+        """The line number of a row. Raises FileError for a blank line between rows, unless there is one after every row."""
+        first = line_number(self.source, start)
+        end = _end(self.source)
+        inside = sorted(at for at in self.blank if at < end)
+        if inside and len(inside) < rows - 1:
+            raise blank_between(line_number(self.source, inside[0]) + 1)
+        return lambda row: first + row * (2 if inside else 1)
+
+
+def _end(source: Source) -> int:
+    """The byte after the last text of the file."""
+    size = source.size
+    while size > 0:
+        part = source.part(max(0, size - LOOKED_INTO), min(size, LOOKED_INTO))
+        if kept := part.rstrip(b" \t\r\n\x1a,;"):
+            return size - len(part) + len(kept)
+        size -= len(part)
+    return 0
+
+
+def _few_lines(source: Source) -> bool:
+    """Whether the rows of the text can be signals: it is short, or its first bytes end within a long line."""
+    ends = source.head.count(b"\n") + source.head.count(b"\r")
+    rest = len(source.head) - 1 - max(source.head.rfind(b"\n"), source.head.rfind(b"\r"))
+    return (
+        ends <= transposed.MOST_LINES and (source.size <= len(source.head) or rest > LONG_LINE) and source.size <= LONGEST_ROWS
+    )
+
+
+def _form(source: Source, sample: Sequence[Line]) -> tuple[Form, list[bool]]:
+    """The form of the lines and which columns are numbers. Raises FileError with the line number of the first line."""
+    try:
+        return form.detected(sample)
+    except FileError:
+        return form.detected([*_numbered(source, sample[:1]), *sample[1:]])
+
+
+def _numbered(source: Source, lines: Sequence[Line]) -> list[Line]:
+    """The lines with their line numbers in place of their bytes."""
+    return [(line_number(source, at), text) for at, text in lines]
 
 
 def _filled(source: Source, start: int, size: int) -> list[Line]:
-    """The lines that are not empty in a part of the file; only whole lines."""
+    """The lines that are not empty in a part of the file; only whole lines, and not the first where it may be cut."""
     raw = source.part(start, size)
     check_text(raw)
     found: list[Line] = []
     at = start
     lines = raw.splitlines(keepends=True)
-    if start + size < source.size:
+    if start + size < source.size and len(lines) > 1:
         lines.pop()
+    whole = not start or source.part(start - 1, 1) in {b"\n", b"\r"}
     for number, line in enumerate(lines):
-        if (text := decoded(line)).strip() and (number or not start):
+        if (text := decoded(line)).strip() and (number or whole):
             found.append((at, text))
         at += len(line)
     return found
 
 
-def _ending(lines: list[Line]) -> str:
-    """The separator with which all lines end; empty where they do not."""
-    ending = lines[-1][1][-1] if lines else ""
-    return ending if ending and ending in ";,\t" and all(text.endswith(ending) for _, text in lines) else ""
-
-
-def _without(ending: str, lines: list[Line]) -> list[Line]:
-    return [(at, text.removesuffix(ending)) for at, text in lines]
-
-
-def _form(source: Source, lines: list[Line]) -> tuple[Form, list[bool]]:
-    """The form for which most columns are numbers, and whether each column is numeric."""
-    best: tuple[tuple[int, int], Form, list[bool]] | None = None
-    for form in (Form(*candidate) for candidate in _CANDIDATES):
-        rows = [form.fields(text) for _, text in lines]
-        width = max(set(map(len, rows)), key=[len(row) for row in rows].count)
-        if width > MOST_FIELDS or 2 * sum(len(row) == width for row in rows) <= len(rows):
+def _start(lines: Sequence[Line], own: Form, numeric: Sequence[bool]) -> int:
+    """The byte at which the first row of numbers starts; a count above a single column is no row."""
+    for index, (at, text) in enumerate(lines):
+        fields = own.fields(text)
+        numbers = [own.number(one) for one, holds in zip(fields, numeric, strict=False) if holds]
+        if len(fields) != len(numeric) or None in numbers or np.isnan(np.array(numbers, dtype=float)).all():
             continue
-        kept = [row for row in rows if len(row) == width]
-        numeric = [2 * sum(form.number(row[k]) is not None for row in kept) > len(kept) for k in range(width)]
-        score = (-(width - sum(numeric)), sum(numeric))
-        if any(numeric) and (best is None or score > best[0]):
-            best = score, form, numeric
-    if best is None:
-        at, line = lines[0]
-        fix = "write one row of numbers for each time, separated by comma, semicolon, tab or space"
-        raise FileError(Issue(f"line {line_number(source, at)}", "is not a row of numbers", line, fix))
-    return best[1], best[2]
-
-
-def _first(lines: list[Line], form: Form, numeric: list[bool]) -> int:
-    """Index of the first row of numbers."""
-    for index, (_, text) in enumerate(lines):
-        fields = form.fields(text)
-        numbers = [form.number(field) for field, holds in zip(fields, numeric, strict=False) if holds]
-        if len(fields) == len(numeric) and None not in numbers and not np.isnan(np.array(numbers, dtype=float)).all():
-            return index
+        if (
+            list(numeric) == [True]
+            and count_line.parsed((0, text))
+            and any("." in one for _, one in lines[index + 1 : index + 20])
+        ):
+            continue
+        return at
     raise FileError(Issue("file", "contains no complete row of numbers", fix="correct the rows or the separator"))
 
 
-def _heading(header: list[str], form: Form, width: int) -> tuple[list[str], list[str]]:
-    """Names and units of the columns, from the last lines before the numbers; no names where no line fits."""
-    rows = [form.fields(_COMMENT.sub("", text, count=1).strip() if _COMMENT.match(text) else text) for text in header]
-    fitting = [row for row in rows if len(row) == width and any(form.number(field) is None for field in row)]
-    if not fitting:
-        return [], [""] * width
-    for above, below in pairwise(fitting[-2:]):
-        if units_row.is_units_row(below):
-            return above, [unit_names.read(field).text for field in below]
-    return [name or f"column {k}" for k, name in enumerate(fitting[-1], start=1)], [""] * width
-
-
-def _refuse_ambiguous(source: Source, lines: list[Line], form: Form, names: list[str]) -> None:
-    if form.separator == "," and not names and all(re.fullmatch(r"[-+]?\d+,\d+", text) for _, text in lines[:_LOOKED_AT]):
-        at, line = lines[0]
-        fix = "write numbers with a decimal point, or name the columns in a first line"
-        raise FileError(Issue(f"line {line_number(source, at)}", "the comma can be a decimal sign or a separator", line, fix))
-
-
-def _other_line(source: Source, form: Form, numeric: list[bool], ending: str, at: int, raw: bytes) -> list[float] | None:
-    """The numbers of a line that is not written as plain numbers, such as one with `n/a`; None for an empty line."""
-    text = decoded(raw).removesuffix(ending)
-    if not text.strip():
-        return None
-    if _COMMENT.match(text.lstrip()):
-        raise _refused(source, at, "is a comment between rows of numbers", text)
-    fields = form.fields(text)
-    if len(fields) != len(numeric):
-        raise _refused(source, at, f"has {len(fields)} fields; the others have {len(numeric)}", text)
-    numbers: list[float] = []
-    for k, (field, holds) in enumerate(zip(fields, numeric, strict=True)):
-        if holds and (number := form.number(field)) is not None:
-            numbers.append(number)
-        elif holds:
-            raise _refused(source, at, f"column {k + 1} is not a number", field)
-    return numbers
-
-
-def _refused(source: Source, at: int, problem: str, text: str) -> FileError:
-    return FileError(Issue(f"line {line_number(source, at)}", problem, text, "correct or remove the line"))
+def _refuse_numbers_of_columns(source: Source, rows: Sequence[Line], own: Form, width: int) -> None:
+    """Raises FileError where the first row counts the columns, so that it can be a heading or a sample."""
+    fields = own.fields(rows[0][1])
+    if width > 2 and any(fields == [str(k) for k in range(first, first + width)] for first in (0, 1)):
+        fix = "remove the line if it numbers the columns"
+        raise FileError(
+            Issue(f"line {line_number(source, rows[0][0])}", "can number the columns or be a sample", rows[0][1], fix)
+        )
 
 
 FORMAT = Format(
@@ -184,8 +252,8 @@ FORMAT = Format(
     of="measurement",
     extensions=("csv", "tsv", "txt", "dat"),
     defined="RFC 4180 and its habitual variants",
-    header="names, a row of units, time step or sampling rate",
-    compared="number of fields in every row",
+    header="names, a row of units, dates and clocks; in several languages: count, time step or sampling rate, duration, peaks",
+    compared="number of fields in every row, count, step, duration, peaks, number of channels",
     looks_like=lambda source: bool(source.head_lines),
     read=read,
 )

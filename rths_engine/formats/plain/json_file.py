@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 from rths_engine.formats import tree
@@ -11,10 +12,12 @@ from rths_engine.formats.source import Source
 from rths_engine.formats.table import Table
 from rths_engine.foundation.errors import FileError, Issue
 
+_START = re.compile(rb"\{|\[\s*(?:[\[\]{\"\d-]|true\b|false\b|null\b|NaN\b|Infinity\b|$)")
+
 
 def looks_like(source: Source) -> bool:
-    """Whether the content begins with a JSON object or list."""
-    return source.head.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] in (b"{", b"[")
+    """Whether the content begins with a JSON object or list; `[s],[kN]` is a row of units."""
+    return _START.match(source.head.lstrip(b"\xef\xbb\xbf \t\r\n")) is not None
 
 
 def read(source: Source) -> Table:

@@ -1,158 +1,190 @@
 """Plain columns: acceleration only (one or several values a line), or time and one or more channels of acceleration.
 
 Tab, semicolon, comma or space separates the fields. Comment and header lines can come first and can state step and unit.
+Components can stand side by side; blocks, such as acceleration and velocity, one after another.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-import numpy as np
-
+from rths_engine.formats import statement
 from rths_engine.formats.format import Format
-from rths_engine.formats.lines import NUMBER, numbers, value
-from rths_engine.formats.source import Source
-from rths_engine.formats.table import Column, Table
-from rths_engine.formats.units_in_text import unit_in
-from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import FileError, Issue
-
-# chosen; see docs/decisions/0023
-_COMMENT = ("#", "%", "!", "//", '"', "'", ";", "*")
-_STEP = re.compile(
-    rf"\b(?:dt|delta[ _]?t|time[ _]?step|sampling interval|step)\b\s*(?:\((s|sec|ms)\))?\s*[=:]?\s*({NUMBER})\s*(ms)?",
-    re.IGNORECASE,
+from rths_engine.formats.plain import (
+    arranged,
+    blocks,
+    columns,
+    count_line,
+    header_facts,
+    headings,
+    markers,
+    peaks,
+    transposed,
 )
-_RATE = re.compile(rf"\b(?:sampling rate|sampling frequency|fs)\b\s*[=:]?\s*({NUMBER})\s*(?:hz|sps|samples)", re.IGNORECASE)
-_DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
-_UNIFORM = 0.05  # of a step: time stamps often have few digits
+from rths_engine.formats.plain.blocks import Block
+from rths_engine.formats.plain.header_facts import Facts
+from rths_engine.formats.plain.record_numbers import rows_of
+from rths_engine.formats.plain.record_table import has_names, named_header, of_table, with_unit
+from rths_engine.formats.plain.record_time import Step, step_of
+from rths_engine.formats.source import Source
+from rths_engine.formats.statement import Statement
+from rths_engine.formats.table import Column, Table, distinct
+from rths_engine.foundation import unit_names
+from rths_engine.foundation.errors import FileError
 
-Row = tuple[int, list[float]]
+_OF_BLOCK = {"velocity", "displacement"}
+
+
+@dataclass
+class _Read:
+    """Columns with what was stated and noted about them."""
+
+    columns: list[Column]
+    statements: list[Statement]
+    notes: list[str]
+    named: bool = False
 
 
 def looks_like(source: Source) -> bool:
     """Whether most lines, apart from comments, contain only numbers."""
-    texts = [text for line in source.head_lines if (text := line.strip()) and not text.startswith(_COMMENT)]
-    return 2 * sum(_only_numbers(text) for text in texts) > len(texts)
+    texts = [text for line in source.head_lines if (text := line.strip())]
+    return 2 * sum(blocks.is_numbers(text) for text in texts) > len(texts)
 
 
 def read(source: Source) -> Table:
-    """The record in a file of columns. Raises FileError with the line where the columns break off."""
-    lines = source.lines
-    header, data = _split(lines)
-    rows = _rows(data)
-    dt, unit = header_step(header), unit_in(" ".join(header)) or ""
-    if dt is None and (listed := _count_and_step(rows)) is not None:
-        dt, rows = listed, rows[1:]
-    widths = {len(row) for _, row in rows[:-1]} or {len(rows[0][1])}
-    if len(widths) == 1 and widths != {1} and len(rows[-1][1]) in widths and _is_time(table := np.array([r for _, r in rows])):
-        columns = _timed(table, rows, dt, unit)
-    else:
-        columns = (Column("acceleration", np.array([number for _, row in rows for number in row]), unit, dt),)
-    return Table("plain columns", columns, named=False, header="\n".join(header))
+    """The record in a text. Raises FileError with the line where its numbers break off."""
+    lines = list(enumerate(source.lines, start=1))
+    if len(lines) <= transposed.MOST_LINES and (rows := transposed.read(lines)) is not None:
+        return of_table(columns.read(source), header_facts.read(rows[0]))
+    try:
+        found = _joined(blocks.split(lines))
+    except FileError:
+        if (named := named_header(lines)) is not None:
+            return of_table(columns.read(source), header_facts.read(named))
+        raise
+    if len(found) == 1 and has_names(found[0]):
+        return of_table(columns.read(source), header_facts.read(found[0].header))
+    first = header_facts.read(found[0].header)
+    read_blocks = [_block(one, first if k == 0 else _inherited(one, first), k, len(found)) for k, one in enumerate(found)]
+    every = [column for one in read_blocks for column in one.columns]
+    stated = peaks.statements(every, first)
+    return Table(
+        "plain columns",
+        distinct(every),
+        named=any(one.named for one in read_blocks),
+        notes=tuple(note for one in read_blocks for note in one.notes),
+        statements=(*stated, *(one for block in read_blocks for one in block.statements)),
+        header="\n".join(text for block in found for _, text in block.header),
+    )
 
 
-def _timed(table: Array, rows: Sequence[Row], header_dt: float | None, unit: str) -> tuple[Column, ...]:
-    dt = _uniform_step(table[:, 0], rows)
-    if header_dt is not None and abs(header_dt / dt - 1) > _UNIFORM:
-        raise FileError(Issue("dt", f"the header says {header_dt:g} s, the time column {dt:g} s", fix="correct one of them"))
-    return tuple(Column(f"column {k + 1}", table[:, k], unit, dt) for k in range(1, table.shape[1]))
+def _inherited(block: Block, first: Facts) -> Facts:
+    """The facts of a later block; those of the file where the block does not state its own."""
+    own = header_facts.read(block.header)
+    if own.steps and first.steps:
+        first = replace(first, durations=())
+    quantity = _unit_and_quantity(block, own)[1]
+    return replace(
+        own,
+        unit=first.unit if own.unit.none and quantity not in _OF_BLOCK else own.unit,
+        steps=own.steps or first.steps,
+        counts=own.counts or (() if own.steps and not first.counts else first.counts),
+        durations=own.durations or first.durations,
+        missing=(*own.missing, *first.missing),
+        width=own.width or first.width,
+    )
 
 
-def _split(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
-    """Header and comment lines, and the numbered lines of data. `_rows` raises the error for text between the data."""
-    header: list[str] = []
-    data: list[tuple[int, str]] = []
-    for at, line in enumerate(lines, start=1):
-        text = line.strip()
-        if not text:
-            continue
-        if text.startswith(_COMMENT) or (not data and not _only_numbers(text)):
-            header.append(text)
-        else:
-            data.append((at, text))
-    if not data:
-        fix = "give PEER AT2, COSMOS V2, or columns of numbers"
-        raise FileError(Issue("file", "contains no numbers", lines[0].strip(), fix))
-    return header, data
+def _block(block: Block, facts: Facts, index: int, of: int) -> _Read:
+    rows, texts = rows_of(block.rows, facts.width)
+    rows, texts, facts = _without_count(rows, texts, facts, block)
+    single = sum(blocks.components_in(text) for _, text in block.header) == 1 and len(facts.components) < 2
+    found = arranged.arranged(rows, texts, facts, single)
+    step = step_of(found.times, facts, found.line, len(next(iter(found.signals.values()))))
+    for name, values in found.signals.items():
+        markers.refuse(values, name, found.line, facts.missing)
+    written, quantity = _unit_and_quantity(block, facts)
+    if written.none:
+        written = peaks.confirmed_unit(found.signals.values(), facts)
+    signals = [Column(name, values, dt=step.dt, start=step.start) for name, values in found.signals.items()]
+    columns = [with_unit(one, written, quantity) for one in signals]
+    statements = _statements(facts, found, step, len(rows))
+    notes = [*step.notes, *([found.note] if found.note else []), *(f"{one}: not used" for one in facts.unclear)]
+    if of == 1:
+        return _Read(columns, statements, notes, found.named)
+    title = _title(block, index)
+    several = len(columns) > 1
+    columns = [replace(one, name=f"{title} {one.name}" if several else title) for one in columns]
+    return _Read(columns, [*statements, *(peaks.statements(columns, facts) if index else [])], notes, True)
 
 
-def _only_numbers(text: str) -> bool:
-    fields = re.split(r"[\t;,\s]+", text)
-    return all(value(field) is not None for field in fields if field)
+def _statements(facts: Facts, found: arranged.Arranged, step: Step, rows: int) -> list[Statement]:
+    """Count and duration in the header beside the samples. Either count agrees where the arrangement is not clear."""
+    lengths = {len(values) for values in found.signals.values()}
+    stated = [
+        statement.count(round(one.value), min(lengths, key=lambda n: abs(n - one.value)), one.where) for one in facts.counts
+    ]
+    if step.dt is not None:
+        stated += facts.duration_statements(max(lengths), step.dt)
+    return [*step.statements, *stated]
 
 
-def _rows(data: list[tuple[int, str]]) -> list[Row]:
-    separator, decimal_comma = _separator(data)
-    rows: list[Row] = []
-    for at, text in data:
-        if separator:
-            fields = text.removesuffix(separator).split(separator)
-            if not all(field.strip() for field in fields):
-                raise FileError(Issue(f"line {at}", "has an empty field", text, "fill the field or remove the line"))
-            text = " ".join(fields)
-        rows.append((at, numbers(text.replace(",", ".") if decimal_comma else text, f"line {at}")))
-    return rows
+def _without_count(
+    rows: list[arranged.Row], texts: list[str], facts: Facts, block: Block
+) -> tuple[list[arranged.Row], list[str], Facts]:
+    """The rows of samples, and the facts with those of a line above them that states their count. Raises FileError."""
+    rest = sum(len(row) for _, row in rows[1:])
+    counted = {len(rows) - 1, rest}
+    last = block.header[-1:]
+    if last and (above := count_line.parsed(last[0])) is not None:
+        if above.count not in {len(rows), rest + len(rows[0][1])}:
+            raise count_line.refusal(last[0], rest + len(rows[0][1]))
+        return rows, texts, count_line.added(facts, above)
+    line = (rows[0][0], texts[0])
+    found = count_line.parsed(line)
+    whole = [k for k, text in enumerate(texts) if re.fullmatch(r"\s*[1-9]\d+\.?\s*", text)]
+    decimals = sum("." in text or "," in text for text in texts[1:]) > 0.9 * (len(texts) - 1)
+    if len(rows) > 2 and found is not None and (found.count in counted) and (decimals or len(rows[0][1]) != len(rows[1][1])):
+        return rows[1:], texts[1:], count_line.added(facts, found)
+    if len(rows) > 2 and (
+        len(rows[0][1]) != len(rows[1][1]) == len(rows[2][1]) or (whole[:1] == [0] and decimals and len(whole) < 3)
+    ):
+        raise count_line.refusal(line, rest)
+    if decimals and 0 < len(whole) < 3 and len(rows) > 8:
+        k = whole[0]
+        raise count_line.refusal((rows[k][0], texts[k]), sum(len(row) for _, row in rows[k + 1 :]))
+    return rows, texts, facts
 
 
-def _separator(data: list[tuple[int, str]]) -> tuple[str, bool]:
-    """Separator (empty: spaces), and whether the comma is the decimal sign. Raises FileError where this is ambiguous."""
-    text = "\n".join(line for _, line in data)
-    separator = next((sign for sign in ";\t" if sign in text), "")
-    if "," not in text:
-        return separator, False
-    if "." in text:
-        if separator:
-            at, line = next((at, line) for at, line in data if "," in line)
-            raise FileError(Issue(f"line {at}", "has both comma and point", line, "write numbers with a decimal point only"))
-        return ",", False
-    fields = re.split(separator or r"\s+", text.replace("\n", separator or "\n"))
-    if separator or any(len(line.split()) > 1 for _, line in data):
-        with_comma = [field.strip() for field in fields if "," in field]
-        if all(_DECIMAL_COMMA.fullmatch(field) for field in with_comma):
-            return separator, True
-    at, line = next((at, line) for at, line in data if "," in line)
-    fix = "write numbers with a decimal point, or separate the columns by semicolons"
-    raise FileError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
+def _unit_and_quantity(block: Block, facts: Facts) -> tuple[unit_names.Written, str]:
+    """The unit of the values, and their quantity where the header names velocity or displacement alone."""
+    named = {found for _, text in block.header if (found := headings.quantity_in(text)) in {"acceleration", *_OF_BLOCK}}
+    quantity = next(iter(named)) if len(named) == 1 else ""
+    if not facts.unit.none:
+        return facts.unit, quantity
+    for _, text in block.header:
+        unit = headings.name_and_unit(re.sub(r"^[#%!/\s]+", "", text))[1]
+        written = unit_names.read(unit)
+        if written.unit and written.dimension in headings.BY_DIMENSION:
+            return written, quantity
+    return facts.unit, quantity if quantity in _OF_BLOCK else ""
 
 
-def header_step(header: list[str]) -> float | None:
-    """The time step (s) from a header that states a step or a sampling rate; None where it states neither."""
-    for line in header:
-        if found := _STEP.search(line):
-            milli = "ms" in ((found[1] or "").lower(), (found[3] or "").lower())
-            return float(found[2]) * (1e-3 if milli else 1.0)
-        if (found := _RATE.search(line)) and float(found[1]) > 0:
-            return 1 / float(found[1])
-    return None
+def _title(block: Block, index: int) -> str:
+    """The name of a block: its component and quantity, else its lines."""
+    words = " ".join(text for _, text in block.header)
+    parts = [blocks.component_in(words), next((q for _, text in block.header if (q := headings.quantity_in(text))), "")]
+    return " ".join(part for part in parts if part) or f"block {index + 1} (lines {block.rows[0][0]} to {block.rows[-1][0]})"
 
 
-def _count_and_step(rows: list[Row]) -> float | None:
-    """The step (s) where the first line is `count step` for the samples after it; else None."""
-    first, rest = rows[0][1], sum(len(row) for _, row in rows[1:])
-    return first[1] if len(first) == 2 and rest > 2 and first[0] == rest and 0 < first[1] < 1 else None
-
-
-def _is_time(table: Array) -> bool:
-    """Whether the first column can be time: it always increases. Two columns are always time and acceleration."""
-    return len(table) > 2 and (table.shape[1] == 2 or bool(np.all(np.diff(table[:, 0]) > 0)))
-
-
-def _uniform_step(times: Array, rows: Sequence[Row]) -> float:
-    bad = np.flatnonzero(~np.isfinite(times))
-    if len(bad):
-        raise FileError(Issue(f"line {rows[bad[0]][0]}", "time needs a finite number", str(times[bad[0]])))
-    dt = float(f"{np.median(np.diff(times)):.9g}")
-    if len(times) > 1 and dt > 0:
-        dt = float(f"{(times[-1] - times[0]) / round((times[-1] - times[0]) / dt):.9g}")
-    off = np.flatnonzero(np.abs(times - times[0] - np.arange(len(times)) * dt) > _UNIFORM * abs(dt))
-    if dt <= 0 or len(off):
-        at = rows[off[0] if len(off) else 0][0]
-        fix = "resample the record to a uniform step; for acceleration only, write one value on each line"
-        problem = f"the first column is not a time with a uniform step (about {dt:g} s)"
-        raise FileError(Issue(f"line {at}", problem, f"{times[off[0] if len(off) else 0]:g}", fix))
-    return dt
+def _joined(found: list[Block]) -> list[Block]:
+    """The blocks; those that only blank lines part are one where the header states the count of all their numbers."""
+    stated = {round(one.value) for one in header_facts.read(found[0].header).counts}
+    rows = [row for one in found for row in one.rows]
+    if len(found) > 1 and all(one.apart for one in found[1:]) and blocks.count(rows) in stated:
+        return [Block(found[0].header, rows)]
+    return found
 
 
 FORMAT = Format(
@@ -160,9 +192,10 @@ FORMAT = Format(
     title="Plain text of one record",
     of="ground motion",
     extensions=("txt", "csv", "dat", "acc"),
-    defined="acceleration alone, or time and acceleration",
-    header="step or sampling rate, unit",
-    compared="step of the time column",
+    defined="acceleration alone, time and acceleration, components side by side, blocks one after another",
+    header="in several languages: number of samples, step or sampling rate, unit, duration, peaks and their times, components, "
+    "marks of missing values, Fortran format",
+    compared="number of samples, step of the time column, duration, peak of each component and its time",
     looks_like=looks_like,
     read=read,
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rths_engine.formats.plain.record_time import LONGEST_STEP, SHORTEST_STEP
 from rths_engine.formats.table import Column
 from rths_engine.formats.units_in_text import ACCELERATION_UNITS, checked_unit
 from rths_engine.foundation import unit_names, units
@@ -12,7 +13,6 @@ from rths_engine.foundation.errors import FileError, Issue, MotionError
 from rths_engine.foundation.units import STANDARD_GRAVITY
 
 # chosen; see docs/decisions/0023
-SHORTEST_STEP, LONGEST_STEP = 0.0005, 0.1  # s
 FEWEST_SAMPLES, MOST_SAMPLES = 50, 1_000_000
 LEAST_PGA, LARGEST_PGA = 0.001, 5.0  # g
 _SAME_STEP = 1e-3

@@ -93,7 +93,9 @@ def test_rows_of_any_form_give_their_numbers_back(
     text = end.join(written) + (end if last else "")
     layout = Layout(separator, decimal, (True, True, True), ending)
 
-    def by_python(at: int, line: bytes) -> list[float]:
+    def by_python(at: int, line: bytes) -> list[float] | None:
+        if not line.strip():
+            return None
         fields = line.decode().strip().removesuffix(separator if ending else "").split(separator or None)
         return [float(field.replace(decimal, ".")) for field in fields]
 

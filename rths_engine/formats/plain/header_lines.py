@@ -1,0 +1,182 @@
+"""What one line of a header states. The lines are plain text: lower case, without accents."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rths_engine.formats.plain import header_words as words
+from rths_engine.formats.statement import Written, last_digit
+
+# chosen; see docs/decisions/0023
+LONGEST_UNSTATED = 0.1  # s: a longer step without a unit can be in ms; a shorter one in ms would be above 10 kHz
+
+_SCALES = {"us": 1e-6, "ms": 1e-3, "mi": 60.0, "h": 3600.0, "s": 1.0}  # seconds, by definition
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """A peak in the header: of a component (empty: of the record), with its unit and its time (s) where they are stated."""
+
+    value: Written
+    unit: str = ""
+    component: str = ""
+    quantity: str = ""
+    time: Written | None = None
+
+
+_NUMBER = rf"(?P<v>{words.NUMBER})"
+_BEFORE = r"(?<![a-z0-9_])"
+_COUNT = re.compile(rf"{_BEFORE}(?:{words.COUNT}){words.BRACKET}{words.IS}{_NUMBER}(?!\s*(?:s|sec|hz)\b)")
+_COUNT_FIRST = re.compile(rf"(?<![\w.,-])(?P<v>\d[\d.,'\u2019]*)\s+(?:{words.COUNT_AFTER})")
+_RATE = re.compile(rf"{_BEFORE}(?:{words.RATE}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.RATE_UNIT})?")
+_RATE_FIRST = re.compile(
+    rf"(?:{words.RATE_BEFORE}|@\s*){_NUMBER}\s*(?P<unit>{words.RATE_UNIT})|{_BEFORE}(?P<n>\d+)\s*(?P<u>{words.PER_SECOND}|sps\b)"
+)
+_STEP = re.compile(rf"{_BEFORE}(?:{words.STEP}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.TIME_UNIT})?")
+_STEP_UNIT = re.compile(rf"(?:{words.STEP_WITH_UNIT}{words.IS}|{words.STEP_BEFORE}){_NUMBER}\s*(?P<unit>{words.TIME_UNIT})")
+_DURATION = re.compile(
+    rf"{_BEFORE}(?P<label>{words.DURATION}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.TIME_UNIT}|samples|points)?"
+)
+PEAK = re.compile(rf"{_BEFORE}(?P<label>{words.PEAK})")
+_PEAK_VALUE = re.compile(
+    rf"\s*(?P<component>{words.COMPONENT})?{words.BRACKET}{words.IS}{_NUMBER}\s*[(\[]?\s*(?P<unit>[a-z%][a-z/^*\d.-]*)?"
+)
+_OF_COMPONENT = re.compile(rf"[(\[]?(?<![a-z])(?P<component>{words.COMPONENT})(?![a-z])[)\]]?\s*[:=]?\s*{_NUMBER}")
+_AT_TIME = re.compile(rf"(?:\b(?:at|bei|a|t|time)\b|@)\s*[:=]?\s*(?:t\s*=\s*)?{_NUMBER}\s*(?P<unit>{words.TIME_UNIT})")
+_PEAK_TIME = re.compile(rf"(?:{words.PEAK_TIME}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.TIME_UNIT})?")
+_MISSING = re.compile(rf"{_BEFORE}(?:{words.MISSING}){words.BRACKET}(?:{words.IS}|\s*(?:as|als|par|como)\s*){_NUMBER}")
+_MISSING_FIRST = re.compile(
+    rf"{_NUMBER}\s*(?:[:=]|means|is|denotes|indicates|marks|bedeutet|steht\s+fur|signifie|significa)?\s*(?:{words.MISSING})"
+)
+_CHANNELS = re.compile(rf"{_BEFORE}(?:{words.CHANNELS}){words.IS}{_NUMBER}")
+_COMPONENTS = re.compile(rf"{_BEFORE}{words.COMPONENTS}(?=[a-z])(.+)")
+_FORTRAN = re.compile(r"[(\[]\s*\d*\s*(?:\d+p,?)?\s*\d*[feg](\d+)\.\d+\s*[)\]]")
+
+
+def _written(text: str, where: str, scale: float = 1.0) -> Written:
+    point = text if "." in text and "," not in text else text.replace(",", "" if "." in text else ".")
+    return Written(words.number(text) * scale, last_digit(re.sub("['\u2019\u00a0\u202f]", "", point)) / 2 * scale, where)
+
+
+def counts(text: str, where: str) -> Iterator[Written]:
+    """The stated count of samples."""
+    for match in (*_COUNT.finditer(text), *_COUNT_FIRST.finditer(text)):
+        if (count := words.whole(match["v"].rstrip(".,"))) is not None:
+            yield Written(count, 0.0, where)
+            return
+
+
+def steps(text: str, where: str) -> tuple[list[Written], list[str]]:
+    """The steps (s) in a line, and the statements whose unit is neither stated nor clear."""
+    found: list[Written] = []
+    unclear: list[str] = []
+    for match in _RATE.finditer(text):
+        value = words.number(match["v"])
+        unit = match["unit"] or match["bracket"] or ""
+        if value <= 0 or (not match["unit"] and unit and not re.fullmatch(words.RATE_UNIT, unit)):
+            continue
+        if not unit and value < 1 / LONGEST_UNSTATED:
+            unclear.append(f"{where} states a rate of {value:g} without a unit")
+            continue
+        found.append(_step_of_rate(match["v"], unit, where))
+    if not found:
+        found += [_step_of_rate(one["v"] or one["n"], one["unit"] or one["u"], where) for one in _RATE_FIRST.finditer(text)]
+    for match in (*_STEP.finditer(text), *_STEP_UNIT.finditer(text)):
+        unit = match["unit"] or match.groupdict().get("bracket") or ""
+        if not match["unit"] and unit and not re.fullmatch(words.TIME_UNIT, unit):
+            continue
+        value = words.number(match["v"])
+        if value <= 0:
+            continue
+        if not unit and value > LONGEST_UNSTATED:
+            unclear.append(f"{where} states a step of {value:g} without a unit")
+            continue
+        found.append(_written(match["v"], where, _scale(unit)))
+    return found, unclear
+
+
+def _step_of_rate(text: str, unit: str, where: str) -> Written:
+    scale = 1e3 if unit.startswith("k") else 1.0
+    rate = _written(text, where, scale)
+    return Written(1 / rate.value, rate.within / rate.value**2, where)
+
+
+def _scale(unit: str) -> float:
+    """Seconds in one unit of time as headers write it."""
+    plain = "us" if unit[:1] in {"u", "\u00b5", "\u03bc"} else "ms" if unit.startswith(("ms", "milli")) else unit
+    return next((scale for start, scale in _SCALES.items() if plain.startswith(start)), 1.0)
+
+
+def durations(text: str, where: str) -> Iterator[tuple[Written, bool]]:
+    """The stated durations (s), and whether the line states their unit."""
+    if words.OTHER_DURATION.search(text):
+        return
+    for match in _DURATION.finditer(text):
+        unit = match["unit"] or match["bracket"] or ""
+        timed = bool(re.fullmatch(words.TIME_UNIT, unit))
+        if timed or (not unit and "length" not in match["label"]):
+            yield _written(match["v"], where, _scale(unit) if timed else 1.0), timed
+
+
+def with_peaks(peaks: list[Peak], text: str, where: str) -> list[Peak]:
+    """The peaks so far and those in the line; a line with the time of the peak completes the last of them."""
+    if found := _PEAK_TIME.search(text):
+        alone = _written(found["v"], where, _scale(found["unit"] or found["bracket"] or ""))
+        last = peaks[-1] if peaks else Peak(Written(float("nan"), 0.0, where))
+        return [*peaks[:-1], Peak(last.value, last.unit, last.component, last.quantity, alone)]
+    label = PEAK.search(text)
+    if label is None or words.OTHER_PEAK.search(text):
+        return peaks
+    rest = text[label.end() :]
+    quantity = _quantity(label["label"], text)
+    several = list(_OF_COMPONENT.finditer(rest))
+    one = _PEAK_VALUE.match(rest)
+    bracket = re.match(r"\s*[(\[]\s*([^)\]]+?)\s*[)\]]", rest)
+    common = bracket[1] if bracket and not re.fullmatch(words.COMPONENT, bracket[1]) else ""
+    if len(several) > 1:
+        return [*peaks, *(Peak(_written(each["v"], where), common, each["component"], quantity) for each in several)]
+    if one is None:
+        return peaks
+    inside = one["bracket"] or ""
+    component = one["component"] or (inside if re.fullmatch(words.COMPONENT, inside) else "")
+    unit = common or (one["unit"] or "").rstrip(".")
+    timed = _AT_TIME.search(rest, one.end("v"))
+    time = _written(timed["v"], where, _scale(timed["unit"])) if timed else None
+    if unit in {"at", "sec", "s"}:
+        unit = ""
+    return [*peaks, Peak(_written(one["v"], where), unit, component, quantity, time)]
+
+
+def _quantity(label: str, text: str) -> str:
+    for quantity, sign in (
+        ("velocity", r"pgv|veloc|vel\b|geschwind|vitesse|velocid"),
+        ("displacement", r"pgd|disp|weg|deplac|desplaz"),
+    ):
+        if re.search(sign, label) or (not re.search("acc|pga|beschl|acel", label) and re.search(sign, text)):
+            return quantity
+    return "acceleration" if re.search("acc|pga|beschl|acel", label) else ""
+
+
+def missing(text: str, where: str) -> Iterator[Written]:
+    """The stated marks of missing values."""
+    for match in (*_MISSING.finditer(text), *_MISSING_FIRST.finditer(text)):
+        yield _written(match["v"], where)
+
+
+def channels(text: str, where: str) -> list[Written]:
+    """The stated numbers of channels."""
+    return [_written(match["v"], where) for match in _CHANNELS.finditer(text)]
+
+
+def components(text: str) -> tuple[str, ...]:
+    """The components that the line lists."""
+    listed = _COMPONENTS.search(text)
+    return tuple(re.findall(r"[^\s,;/|]+", listed[1])) if listed else ()
+
+
+def width(text: str) -> int:
+    """The width of a field in a Fortran format such as (8F10.4); 0 where the line has none."""
+    form = _FORTRAN.search(text)
+    return int(form[1]) if form else 0

@@ -1,0 +1,155 @@
+"""How headers name what they state, in English, German, French, Spanish, Italian, Portuguese, Turkish, Japanese and Chinese.
+
+Patterns for text in lower case without accents. A label that can also mean something else ("rate" of loading, "frequency" of
+a sine, "length" of a specimen) is listed only in a form that cannot.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from rths_engine.foundation import unit_text
+
+_GROUP = "['\u2019\u00a0\u202f]"  # between thousands
+NUMBER = (
+    rf"[-+]?(?:\d{{1,3}}(?:,\d{{3}})+\.\d+|\d{{1,3}}(?:{_GROUP}\d{{3}})+(?:[.,]\d+)?|\d+(?:[.,]\d+)?|[.,]\d+)"
+    r"(?:[ed][-+]?\d+)?(?![\d]|[.,]\d)"
+)
+BRACKET = r"(?:\s*[(\[]\s*(?P<bracket>[^)\]]{0,24}?)\s*[)\]])?"
+IS = r"\s*(?:[:=,;\t]|\.{2,}|\bis\b|\bof\b)*\s*"
+
+_OF_DATA = (
+    r"(?:(?:acceleration|accel|data|sample|raw|total|time|discrete|recorded)\s+)*"
+    r"(?:data|data\s*points?|points?|pts|samples?|values?|scans|ordinates)\b(?:\s+(?:recorded|in\s+record))?"
+)
+COUNT = "|".join(
+    (
+        r"n_?pts?|npoints?|n_?samples?|ndata|n_?data",
+        rf"(?:total\s+)?(?:number|num|no|nr|nb)\b\.?\s*(?:of\s+)?{_OF_DATA}|#\s*(?:of\s+)?{_OF_DATA}",
+        r"(?:data\s*points?|sample\s*count|samples|points|total\s+samples|scans|record\s+points)(?=\s*[:=])",
+        r"(?:anzahl|zahl)\s+(?:der\s+)?(?:daten(?:punkte)?|messpunkte|messwerte|werte|punkte|abtastwerte|samples|proben)",
+        r"datenpunkte|messwerte(?=\s*[:=])|werteanzahl|punktzahl|anzahl(?=\s*[:=])",
+        r"(?:nombre|nb|nbre)\b\.?\s+(?:de\s+|d['\u2019]\s*)?(?:points|donnees|echantillons|valeurs|mesures|pts)",
+        r"(?:numero|num|nro|no|n|cantidad|total|quantidade)\b\.?\s*(?:(?:de|di|dei|dos)\s+)?(?:datos|puntos|muestras|valores|punti|campioni"
+        r"|dati|valori|dados|pontos|amostras)",
+        r"(?:veri|nokta|ornek)\s+sayisi|\u30c7\u30fc\u30bf\u6570|\u30b5\u30f3\u30d7\u30eb\u6570|(?:\u6570\u636e|\u91c7\u6837|\u6837)?\u70b9\u6570",
+    )
+)
+COUNT_AFTER = (
+    r"(?:(?:acceleration|accel|data|sample)\s+)*(?:points|samples|values|datenpunkte|messwerte|werte|puntos|datos|muestras|punti"
+    r"|campioni|dati|echantillons|donnees)\b(?!\s*(?:/|per\b|pro\b|par\b|por\b|al\b|a\s+line|each|in\s+each))"
+)
+
+_PER = r"(?:/|\bper\b|\bpro\b|\bpar\b|\bpor\b|\bal\b)"
+PER_SECOND = (
+    r"(?:samples?|pts|points|scans|s|mesures?|werte|muestras|campioni|echantillons)?"
+    rf"\s*{_PER}\s*s(?:ec\w*|ekunde|egundo|econdo)?\b"
+)
+RATE_UNIT = rf"k?hz\b|k?sps\b|{PER_SECOND}|s\^?-1\b"
+RATE = "|".join(
+    (
+        r"samp(?:l(?:e|ing))?\.?\s*(?:rate|freq(?:uency|\.)?)|\bfs(?=\s*[:=(\[])|f_s|samplerate|samplefreq",
+        r"(?:scan|acquisition|acq|daq|data|storage|logging|log|recording|record|digiti[sz]ation|digiti[sz]ing|save|output|"
+        r"reading)\s*(?:rate|freq(?:uency|\.)?)",
+        r"abtast(?:rate|frequenz)|mess(?:rate|frequenz)|(?:aufzeichnungs|speicher|erfassungs)rate",
+        r"(?:frequence|taux|cadence|vitesse)\s+(?:d['\u2019]\s*|de\s+)(?:echantillonnage|acquisition|mesure)",
+        r"(?:frecuencia|tasa|velocidad)\s+de\s+(?:muestreo|adquisicion)|(?:frequencia|taxa)\s+de\s+(?:amostragem|aquisicao)",
+        r"(?:frequenza|velocita|tasso)\s+di\s+(?:campionamento|acquisizione)|ornekleme\s+(?:frekansi|hizi|orani)",
+        r"\u30b5\u30f3\u30d7\u30ea\u30f3\u30b0(?:\u5468\u6ce2\u6570|\u30ec\u30fc\u30c8)|\u91c7\u6837(?:\u9891\u7387|\u7387)",
+    )
+)
+RATE_BEFORE = (
+    r"(?:sampled|acquired|recorded|digiti[sz]ed|abgetastet|aufgezeichnet|echantillonne\w*|muestreado|campionat\w+)"
+    r"\s+(?:at|with|mit|bei|a|con)\s+"
+)
+
+TIME_UNIT = (
+    r"(?:ms(?:ec)?|milli\w*|us(?:ec)?|[u\u00b5\u03bc]s|s(?:ec(?:ond)?s?)?|sek\w*|seg\w*|second\w*"
+    r"|min(?:utes?|uten|uti)?|h(?:ours?)?)\b"
+)
+STEP = "|".join(
+    (
+        r"\bdt\b|[\u03b4\u2206\u0394]\s*t\b|delta[ _]?t\b|d_t|time[ _-]?(?:step|interval|increment)s?|timestep",
+        r"(?:sampl(?:e|ing)|scan|acquisition|recording|data|storage|logging|digiti[sz]ing)\s*(?:time\s*)?(?:interval|period|step|"
+        r"increment|spacing)",
+        r"zeitschritt(?:weite)?|abtast(?:intervall|zeit|periode|schritt)|messintervall|zeitintervall",
+        r"pas\s+(?:de\s+temps|d['\u2019]\s*(?:echantillonnage|acquisition)|temporel)|(?:periode|intervalle)\s+(?:de\s+temps|"
+        r"d['\u2019]\s*(?:echantillonnage|acquisition))",
+        r"(?:intervalo|paso|periodo|passo)\s+de\s+(?:muestreo|tiempo|amostragem|tempo)",
+        r"(?:passo|intervallo|periodo)\s+(?:di\s+(?:campionamento|tempo)|temporale)|ornekleme\s+araligi",
+        r"(?:\u30b5\u30f3\u30d7\u30ea\u30f3\u30b0|\u91c7\u6837|\u65f6\u95f4)(?:\u9593\u9694|\u95f4\u9694)",
+    )
+)
+STEP_WITH_UNIT = r"\b(?:step|interval|intervall|intervallo|intervalo|pas|paso|passo|schrittweite)\b"
+STEP_BEFORE = r"(?:(?:spaced|intervals?)\s+(?:at|of)|\bevery|\balle|\btoutes\s+les|\bcada|\bogni|points\s+at)\s+"
+
+DURATION = (
+    r"(?:(?:total|record(?:ing|ed)?|test|signal)\s+)?duration(?:\s+time)?|record\s*length|length\s+of\s+record|total\s+time"
+    r"|(?:mess|aufzeichnungs|versuchs|gesamt|signal)?dauer|messzeit|duree(?:\s+(?:totale|de\s+l['\u2019]?\s*\w+|d['\u2019]\s*\w+))?"
+    r"|duracion(?:\s+(?:total|del?\s+\w+))?|durata(?:\s+\w+)?|duracao|kayit\s+suresi"
+)
+OTHER_DURATION = re.compile(
+    r"5\s*-\s*[79]5|significant|bracketed|arias|strong|pre-?\s?(?:event|trigger)|post-?\s?(?:event|trigger)"
+)
+
+PEAK = (
+    r"(?:raw\s+|corrected\s+)?pg[avd]\b(?:\s+values?)?"
+    r"|(?:peak|max(?:\.|imum|imal)?|abs\.?\s*max(?:imum)?)\s+(?:ground\s+)?(?:acc\w*|vel\w*|displ?\w*|value|amplitude|load|force)\b\.?"
+    r"|(?:peak|max(?:\.|imum)?)(?=\s*[(\[:=])|a_?max\b|spitzen(?:wert|beschleunigung)|maximale\s+beschleunigung|maximalwert"
+    r"|(?:acceleration|valeur)\s+max(?:imale|\.)?|aceleracion\s+(?:max(?:ima|\.)?|pico)|valor\s+maximo"
+    r"|accelerazione\s+(?:massima|max\.?|di\s+picco)|valore\s+massimo|\u6700\u5927\u52a0\u901f\u5ea6"
+)
+PEAK_TIME = (
+    r"time\s+of\s+(?:the\s+)?(?:pga|peak|max\w*)|(?:pga|peak)\s+time|zeit(?:punkt)?\s+des\s+\w*(?:maximum|spitze)\w*"
+    r"|temps\s+d(?:u|e\s+la?)\s+(?:pic|max\w*|pga)|tiempo\s+(?:del?\s+)?(?:pico|pga|max\w*)|tempo\s+(?:del?\s+)?(?:picco|pga|max\w*)"
+)
+OTHER_PEAK = re.compile(r"full\s*scale|range|capacity|stroke|rated|limit|sensitivity|clip|filter|spectr|target|nominal|allow")
+OTHER_UNIT = re.compile(
+    r"full\s*scale|range|sensitivity|resolution|noise|\blsb\b|threshold|trigger|clip|filter|\bgain\b|capacity|messbereich|empfindlichkeit"
+)
+
+MISSING = (
+    r"missing(?:\s+(?:data|values?|samples?))?|no[\s-]*data(?:\s+values?)?|null(?:\s+values?)?|nan\s+value|_?fill\s*value"
+    r"|bad\s+(?:data|values?)|dummy(?:\s+values?)?|fehl(?:wert|end\w*(?:\s+\w+)?)|ungultig\w*|(?:valeurs?|donnees?)\s+manquantes?"
+    r"|(?:valor(?:es)?|datos?)\s+(?:faltantes?|ausentes?|perdidos?|nulos?)|sin\s+datos?|(?:valor[ei]|dat[oi])\s+mancant[ei]"
+)
+CHANNELS = (
+    r"(?:number|no|num)\b\.?\s*(?:of\s+)?(?:channels|columns|signals)|(?:channels|columns)(?=\s*[:=]\s*\d)|kanalanzahl"
+    r"|anzahl\s+(?:der\s+)?(?:kanale|spalten)|nombre\s+de\s+(?:canaux|voies|colonnes)|numero\s+(?:de|di)\s+(?:canales|canali|columnas|colonne)"
+)
+UNIT = (
+    r"\b(?:units?|einheit(?:en)?|unites?|unidad(?:es)?|unita(?:\s+di\s+misura)?|unidade|birim)\b(?:\s+of\s+\w+)?"
+    r"\s*(?:[:=]|\bof\b|\bin\b|\bare\b|\bis\b|\bde\b)\s*"
+)
+COMPONENT = (
+    r"n\s*-?\s*s|[eo]\s*-?\s*w|e\s*-\s*o|u\s*-?\s*d|north\s*-?\s*south|east\s*-?\s*west|nord\s*-?\s*sud|ost\s*-?\s*west"
+    r"|est\s*-?\s*ouest|n\d{2,3}[ew]?|h[12]|vert(?:ical|ikal|icale)?|up|long(?:itudinal)?|trans(?:versal|verse)?|[nezvltxy]"
+)
+COMPONENTS = r"(?:components?|komponenten?|composantes?|componentes?|componenti|channels?|kanale)\s*[:=]\s*"
+
+
+def plain(text: str) -> str:
+    """The text in lower case, without accents, in the signs of a keyboard."""
+    return without_accents(unit_text.ascii_signs(text)).lower()
+
+
+def without_accents(text: str) -> str:
+    """The text without accents, in the case in which it is written."""
+    apart = unicodedata.normalize("NFD", text.replace("\u00df", "ss"))
+    return "".join(sign for sign in apart if not unicodedata.combining(sign))
+
+
+def number(text: str) -> float:
+    """The number in a text of the pattern NUMBER, with a decimal point or comma."""
+    digits = re.sub(_GROUP, "", text).replace("d", "e")
+    digits = digits.replace(",", "") if "," in digits and "." in digits else digits.replace(",", ".")
+    return float(digits)
+
+
+def whole(text: str) -> int | None:
+    """The number in a text of the pattern NUMBER as a count: `1,200` is 1200; None where it is no whole number."""
+    if re.fullmatch(r"[1-9]\d{0,2}(?:['\u2019\u00a0\u202f.,]\d{3})+", text):
+        return int(re.sub(r"\D", "", text))
+    found = number(text)
+    return int(found) if found == int(found) and found >= 0 else None
