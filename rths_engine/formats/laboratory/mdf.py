@@ -18,6 +18,7 @@ from rths_engine.foundation.errors import FileError, Issue
 
 _SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}  # by definition s; files differ
 _TIME = 1  # by definition, MDF 4: the master channel holds times
+_NONE_4, _NONE_3 = 0, 65535  # by definition: the conversion that changes nothing
 _RANGE_4, _RANGE_3 = 0x08, 1  # by definition: the flag by which the range of the raw values is valid
 
 
@@ -115,9 +116,9 @@ def _range(file: Any, number: int, index: int, channel: Any) -> list[Statement]:
 
 def _applied(channel: Any) -> str:
     law = getattr(channel, "conversion", None)
-    a, b = getattr(law, "a", None), getattr(law, "b", None)
-    if law is None:
+    if law is None or law.conversion_type == (_NONE_4 if hasattr(channel, "flags") else _NONE_3):
         return ""
+    a, b = getattr(law, "a", None), getattr(law, "b", None)
     return f"raw x {a:g} + {b:g}" if isinstance(a, float) and isinstance(b, float) else "the conversion of the channel"
 
 

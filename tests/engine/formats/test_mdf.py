@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -66,6 +68,17 @@ def test_conversion_and_samples_that_are_not_valid() -> None:
     np.testing.assert_array_equal(a.values, 0.25 * raw + 2.0)
     assert a.applied == "raw x 0.25 + 2"
     assert len(b.values) == 100 and np.flatnonzero(np.isnan(b.values)).tolist() == [7, 9]
+
+
+def test_version_3_as_asammdf_writes_it(tmp_path: Path) -> None:
+    asammdf = pytest.importorskip("asammdf")
+    with asammdf.MDF(version="3.30") as file:
+        file.append([asammdf.Signal(X, FAST, name="stroke", unit="mm")])
+        file.append([asammdf.Signal(F, SLOW, name="force", unit="kN")])
+        file.save(tmp_path / "a.mdf")
+    stroke, force = read((tmp_path / "a.mdf").read_bytes()).columns
+    np.testing.assert_array_equal(force.values, F)
+    assert (force.unit, force.start, stroke.unit, stroke.applied) == ("kN", 10.0, "mm", "")
 
 
 @pytest.mark.parametrize(("unit", "factor"), [("s", 1.0), ("ms", 1e-3), ("ns", 1e-9)])
