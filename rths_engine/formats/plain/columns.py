@@ -220,17 +220,15 @@ def _filled(source: Source, start: int, size: int) -> list[Line]:
 
 
 def _start(lines: Sequence[Line], own: Form, numeric: Sequence[bool]) -> int:
-    """The byte at which the first row of numbers starts; a count above a single column is no row."""
+    """The byte at which the first row of numbers starts; a count above them is no row, also in a row of empty fields."""
     for index, (at, text) in enumerate(lines):
         fields = own.fields(text)
         numbers = [own.number(one) for one, holds in zip(fields, numeric, strict=False) if holds]
         if len(fields) != len(numeric) or None in numbers or np.isnan(np.array(numbers, dtype=float)).all():
             continue
-        if (
-            list(numeric) == [True]
-            and count_line.parsed((0, text))
-            and any("." in one for _, one in lines[index + 1 : index + 20])
-        ):
+        below = [one for _, one in lines[index + 1 : index + 20]]
+        alone = sum(map(bool, fields)) == 1 and any(sum(map(bool, own.fields(one))) > 1 for one in below)
+        if count_line.parsed((0, text)) and (alone or (list(numeric) == [True] and any("." in one for one in below))):
             continue
         return at
     raise FileError(Issue("file", "contains no complete row of numbers", fix="correct the rows or the separator"))
@@ -256,4 +254,6 @@ FORMAT = Format(
     compared="number of fields in every row, count, step, duration, peaks, number of channels",
     looks_like=lambda source: bool(source.head_lines),
     read=read,
+    public=39,
+    public_check="every number by a parser of a few lines, in files of laboratories without a format of their own",
 )

@@ -198,4 +198,6 @@ FORMAT = Format(
     compared="number of samples, step of the time column, duration, peak of each component and its time",
     looks_like=looks_like,
     read=read,
+    public=4,
+    public_check="every sample and the step by a parser of a few lines",
 )

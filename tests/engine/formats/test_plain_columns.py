@@ -283,9 +283,11 @@ def test_rows_of_signals_are_read_as_signals() -> None:
     refused(made.text([lines[0], lines[1] + ",5"]), "line 2", "has 401 numbers; the others have 400")
 
 
-def test_a_count_above_a_single_column_is_compared_and_never_a_sample() -> None:
+def test_a_count_above_the_rows_is_compared_and_never_a_sample() -> None:
     same(read("400\n" + made.table([F])), F)
     refused("401\n" + made.table([F]), "line 1", "400 samples")
+    same(read("400,,\n" + ROWS), T, F, D)  # as a spreadsheet fills the row up
+    refused("401,,\n" + ROWS, "line 1", "400 samples")
 
 
 def test_numbers_of_columns_above_the_data_are_refused() -> None:
