@@ -1,7 +1,8 @@
 """The JSON forms of a diagnosis, `rths-diagnosis/1` and `rths-diagnosis-pictures/1`. They import no code that diagnoses."""
 
+from rths_engine.diagnosis.schema.certificate import Certificate, Rate
 from rths_engine.diagnosis.schema.components import ComponentVerdict, Kind, Where
-from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, Parameter
+from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, Parameter, RejectedEffect
 from rths_engine.diagnosis.schema.fit import Errors, Fit, Unexplained
 from rths_engine.diagnosis.schema.form import Form
 from rths_engine.diagnosis.schema.pictures import Pictures
@@ -9,6 +10,7 @@ from rths_engine.diagnosis.schema.verdict import Verdict
 
 __all__ = [
     "Candidate",
+    "Certificate",
     "ComponentVerdict",
     "Errors",
     "Fit",
@@ -18,6 +20,8 @@ __all__ = [
     "NextTest",
     "Parameter",
     "Pictures",
+    "Rate",
+    "RejectedEffect",
     "Unexplained",
     "Verdict",
     "Where",

@@ -1,4 +1,4 @@
-"""The named effects with their parameters, the candidates, and the next test."""
+"""The named effects with their parameters and their proof, the rejected effects, the candidates, and the next test."""
 
 from __future__ import annotations
 
@@ -26,14 +26,54 @@ class NamedEffect(Form):
         "`configuration_error` where the controller's output differs from the replay of the plan"
     )
     probability: float | None = field(
-        "Probability that the effect is present: the sum of the probabilities of the candidates that contain it; "
-        "null for `unknown` and `configuration_error`",
+        "Calibrated probability that the effect is truly present; null for `unknown` and `configuration_error`",
         NUMBERS,
         ge=0,
         le=1,
     )
     sentence: str = field("Place, size and proof of the effect, in one or more sentences")
     parameters: tuple[Parameter, ...] = field("Fitted parameters of the effect")
+    part_of_it: bool = field(
+        "True where more than half of the held-out error beyond the noise remains with all named effects: the effect is at "
+        "most a part of the mismatch",
+        default=False,
+    )
+    gain: float | None = field(
+        "Held-out log score that is lost where this effect alone is left out and everything else is refitted: the mean over "
+        "the held-out blocks; null for `unknown` and `configuration_error`",
+        NUMBERS,
+        default=None,
+    )
+    gain_ci90: tuple[float, float] | None = field(
+        "Confidence interval of the gain at 90 % over the held-out blocks, [low, high]; null with fewer than two blocks",
+        NUMBERS,
+        default=None,
+    )
+    share_of_error: float | None = field(
+        "Share of the held-out squared error beyond the noise that returns where this effect alone is left out; 1 is all the "
+        "error that the planned model leaves; null as the gain",
+        NUMBERS,
+        default=None,
+    )
+    blocks: int | None = field("Number of contiguous held-out blocks that the gain is measured on", NUMBERS, default=None)
+    other_motion: bool = field(
+        "True where the blocks belong to held-out recordings; false where they are held-out blocks of a fitted recording",
+        default=False,
+    )
+
+
+class RejectedEffect(Form):
+    """An effect that the evidence selected and that the proof of claims did not confirm. It is not named."""
+
+    component: str = field("Component that the effect acts on, as for a named effect")
+    id: str = field("Name of the effect in the library")
+    contradicted: str | None = field(
+        "What in the recording contradicts the effect, in words; null where its held-out gain or its interval rejects it",
+        default=None,
+    )
+    reason: str = field("Reason why the effect is not named, as a sentence")
+    gain: float | None = field("Held-out gain of the effect, as for a named effect; null where it was not computed", NUMBERS)
+    gain_ci90: tuple[float, float] | None = field("Confidence interval of the gain at 90 %, [low, high]", NUMBERS)
 
 
 class Candidate(Form):

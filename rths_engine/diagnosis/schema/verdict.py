@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from rths_engine.diagnosis.schema.certificate import Certificate
 from rths_engine.diagnosis.schema.components import ComponentVerdict, Kind, Where
-from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest
+from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, RejectedEffect
 from rths_engine.diagnosis.schema.fit import Fit, Unexplained
-from rths_engine.diagnosis.schema.form import Form, field
+from rths_engine.diagnosis.schema.form import NUMBERS, Form, field
 
 
 class Verdict(Form):
@@ -30,5 +31,23 @@ class Verdict(Form):
     next_test: NextTest | None = field(
         "Test that separates two indistinguishable candidates; null where there are none, "
         "or where no test within the limits of the rig separates them"
+    )
+    remaining_share: float | None = field(
+        "Share of the held-out squared error beyond the noise that remains with all named effects of the worst component: 1 is "
+        "all the error that the planned model leaves, 0 none; null where the planned model leaves no error beyond the noise",
+        NUMBERS,
+        default=None,
+    )
+    replicated: bool = field(
+        "True where two or more held-out recordings each confirm the named effects of the worst component: the held-out gain "
+        "of every effect is above zero on each of them",
+        default=False,
+    )
+    rejected: tuple[RejectedEffect, ...] = field(
+        "Effects that the evidence selected and that the held-out data did not confirm; they are not named", default=()
+    )
+    certificate: Certificate | None = field(
+        "Measured error rates of diagnoses of this kind of test; null where the kind has no line in the certificate",
+        default=None,
     )
     extended_plan: dict[str, Any] | None = field("The plan with the named effects; null where no effect can be added")
