@@ -10,6 +10,7 @@ from fastapi.testclient import TestClient
 
 from rths_engine.planning.reading import read_plan
 from tests.app.conftest import plan
+from tests.engine.formats.writers import mseed
 
 MOTIONS = "/api/v1/motions"
 COLUMNS = "\n".join(f"{0.01 * i:.2f} {0.2 * np.sin(i / 9):.6f}" for i in range(400))
@@ -86,6 +87,15 @@ def test_a_file_says_what_it_does_not_state_and_what_its_header_states(client: T
     wrong = upload(client, record.replace("NPTS=  400", "NPTS=  500"), "record.AT2", "/contents").json()["errors"][0]
     assert "500" in wrong["problem"] and "400" in wrong["problem"]
     assert wrong["lines"][-3]["text"].startswith("NPTS")
+
+
+def test_a_record_in_counts_asks_for_the_acceleration_of_one_count(client: TestClient) -> None:
+    raw = mseed.written(mseed.Channel("BK.VALB.40.HN1", [round(1e5 * np.sin(k / 9)) for k in range(1000)]))
+    (channel,) = upload(client, raw, "valb.mseed", "/contents").json()["channels"]
+    assert (channel["asks"], channel["dt_s"]) == (["count"], 0.005)
+    assert upload(client, raw, "valb.mseed", "/preview").json()["errors"][0]["where"] == "unit"
+    shown = upload(client, raw, "valb.mseed", "/preview", unit="1e-5 m/s^2").json()
+    assert shown["pga"] == pytest.approx(1.0, rel=0.02)  # the mean is removed
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from tests.browser.checks import checked
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 from tests.browser.test_pages import expect_accessible
+from tests.engine.formats.writers import mseed
 
 
 @pytest.fixture
@@ -144,19 +145,29 @@ def test_a_channel_of_a_file_is_chosen_by_name_and_what_the_file_states_is_not_a
     expect(form.get_by_label("Time step, s")).to_be_hidden()
     expect(upload).to_contain_text("Give the unit.")
     form.get_by_label("Unit of the acceleration").select_option("g")
-    expect(upload).to_contain_text("PGA 0.10 g, 3.990 s in steps of 0.01 s")
+    expect(upload).to_contain_text("PGA 0.1 g, 3.990 s in steps of 0.01 s")
     expect_accessible(form)
     form.get_by_role("button", name="Add to the library").click()
     expect(form.get_by_label("Record", exact=True)).to_have_value(re.compile("site"))
 
 
-def test_a_refused_line_of_a_record_is_shown_with_its_neighbours(form: Page, tmp_path: Path) -> None:
-    record = tmp_path / "Gap.txt"
-    record.write_text("\n".join(["0.01", "0.02", "0.03", "cable", *["0.05"] * 400]))
+def test_a_record_in_counts_asks_for_the_acceleration_of_one_count(form: Page, tmp_path: Path) -> None:
+    record = tmp_path / "valb.mseed"
+    record.write_bytes(mseed.written(mseed.Channel("BK.VALB.40.HN1", [round(1e5 * math.sin(k / 9)) for k in range(1000)])))
     form.get_by_text("Upload a record").click()
     form.get_by_label("File").set_input_files(record)
-    lines = form.locator(".upload").get_by_role("region", name="Lines 2 to 6 of the file")
-    expect(lines).to_contain_text("4cable")
+    expect(form.locator(".upload")).to_contain_text("Give the acceleration of one count.")
+    form.get_by_label("Acceleration of one count").fill("1e-5 m/s^2")
+    expect(form.locator(".upload")).to_contain_text("PGA 0.103 g, 4.995 s in steps of 0.005 s")
+
+
+def test_a_refused_line_of_a_record_is_shown_with_its_neighbours(form: Page, tmp_path: Path) -> None:
+    record = tmp_path / "Gap.txt"
+    record.write_text("\n".join([*(f"{k / 1000}" for k in range(100)), "cable", *["0.05"] * 400]))
+    form.get_by_text("Upload a record").click()
+    form.get_by_label("File").set_input_files(record)
+    lines = form.locator(".upload").get_by_role("region", name="Lines 99 to 103 of the file")
+    expect(lines).to_contain_text("101cable")
 
 
 def test_two_gigabytes_are_refused_before_they_are_sent(form: Page, tmp_path: Path) -> None:

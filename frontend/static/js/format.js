@@ -10,6 +10,9 @@ export function number(value, digits = 4) {
   return value.toFixed(decimals);
 }
 
+/** A number with at most `digits` significant digits, without trailing zeros. @param {number} value */
+export const significant = (value, digits = 3) => String(Number(value.toPrecision(digits)));
+
 /** A value read off a chart: like `number`, but a value below 0.001 is shown with three decimals. @param {number | null | undefined} value */
 export function reading(value) {
   return value != null && Math.abs(value) < 1e-3 ? fixed(value, 3) : number(value);

@@ -97,7 +97,8 @@ class ColumnMap(Value):
         """What is missing before the column can be imported: its unit, or the gain of a reading in V, mV, mV/V or counts."""
         role = ROLES[self.role]
         if not self.unit:
-            fix = f"choose one of {', '.join(units_of(self.role))}; a reading in {', '.join(_RAW_UNITS)} needs a gain too"
+            reading = f"; a reading in {', '.join(_RAW_UNITS)} needs a gain too" if self.role != "t" else ""
+            fix = f"choose one of {', '.join(units_of(self.role))}{reading}"
             return Issue("unit", f"the unit of column '{self.column}' is not stated: choose the unit", fix=fix)
         kind = dimension(self.unit)
         if self.gain is None and kind in RAW and kind not in role.dimensions:

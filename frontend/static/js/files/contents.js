@@ -1,5 +1,6 @@
 // @ts-check
 import { el } from "../dom.js";
+import { significant } from "../format.js";
 
 /**
  * What stands in a file, as the service describes it.
@@ -78,4 +79,4 @@ function table(label, heads, rows, kind = "") {
 }
 
 /** A number as it was read, at most nine digits; a dash where there is none. @param {number | null | undefined} value */
-const plain = (value) => (value == null ? "–" : String(Number(value.toPrecision(9))));
+const plain = (value) => (value == null ? "–" : significant(value, 9));

@@ -1,6 +1,7 @@
 // @ts-check
 import uPlot from "/static/vendor/uplot/uPlot.esm.js";
 import { el } from "../dom.js";
+import { significant } from "../format.js";
 import { axis, fit, padded, themed } from "../run/plot_style.js";
 
 /**
@@ -100,10 +101,7 @@ export function samplePlot(signal) {
 }
 
 /** @param {Signal} signal @param {number} x @param {number} y */
-const reading = ({ xUnit, yUnit }, x, y) => `${brief(y, 6)} ${yUnit} at ${brief(x, 9)} ${xUnit}`;
-
-/** @param {number} value @param {number} digits */
-const brief = (value, digits) => String(Number(value.toPrecision(digits)));
+const reading = ({ xUnit, yUnit }, x, y) => `${significant(y, 6)} ${yUnit} at ${significant(x, 9)} ${xUnit}`;
 
 /** @param {Samples} all @param {number} from @param {number} to @returns {Samples} */
 function within({ x, y }, from, to) {

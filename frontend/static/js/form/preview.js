@@ -1,7 +1,7 @@
 // @ts-check
 import { el } from "../dom.js";
 import { samplePlot } from "../files/sample_plot.js";
-import { number } from "../format.js";
+import { number, significant } from "../format.js";
 
 /**
  * The preview of a record from the service: its samples and its response spectrum with `damping`, in SI units.
@@ -17,7 +17,7 @@ export function previewOf(preview) {
   const inG = (/** @type {number[]} */ values) => values.map((value) => value / GRAVITY);
   const sa = inG(spectrum.sa);
   const peak = sa.indexOf(Math.max(...sa));
-  const facts = `${preview.title || preview.name}: PGA ${number(preview.pga / GRAVITY, 3)} g, ${number(preview.duration, 4)} s in steps of ${number(preview.dt, 3)} s`;
+  const facts = `${preview.title || preview.name}: PGA ${significant(preview.pga / GRAVITY)} g, ${number(preview.duration, 4)} s in steps of ${significant(preview.dt, 6)} s`;
   const damping = `${number(100 * spectrum.damping, 2)} % damping`;
   return el(
     "div",
@@ -39,7 +39,7 @@ export function previewOf(preview) {
       }),
       samplePlot({
         title: `Response spectrum Sa, g (${damping})`,
-        said: `largest ${number(sa[peak], 3)} g at a period of ${number(spectrum.periods[peak], 3)} s`,
+        said: `largest ${significant(sa[peak])} g at a period of ${number(spectrum.periods[peak], 3)} s`,
         xLabel: "Period, s",
         xUnit: "s",
         yUnit: "g",

@@ -1,6 +1,6 @@
 // @ts-check
 import { el } from "../dom.js";
-import { number } from "../format.js";
+import { number, significant } from "../format.js";
 
 /**
  * A column of a file. `unit` is as the file writes it, `stated` the unit of the program that it names, `problem` why it names none.
@@ -12,7 +12,7 @@ import { number } from "../format.js";
 export function factsOf(column) {
   const { samples, missing, smallest, largest, dt_s, start_s, applied, quantity } = column;
   const range = smallest == null ? "no values" : `${number(smallest)} to ${number(largest)}, mean ${meanOf(column)}`;
-  const clock = dt_s && `${String(Number((1 / dt_s).toPrecision(6)))} Hz${start_s ? ` from ${number(start_s)} s` : ""}`;
+  const clock = dt_s && `${significant(1 / dt_s, 6)} Hz${start_s ? ` from ${number(start_s)} s` : ""}`;
   const lines = [
     [[`${samples} samples`, clock, missing && `${missing} missing`].filter(Boolean).join("; ")],
     [range],

@@ -2,7 +2,7 @@
 import uPlot from "/static/vendor/uplot/uPlot.esm.js";
 import { el } from "../dom.js";
 import { samplePlot } from "../files/sample_plot.js";
-import { number } from "../format.js";
+import { number, significant } from "../format.js";
 import { loopPath } from "../run/loop_chart.js";
 import { axis, fit, padded, themed } from "../run/plot_style.js";
 import { meanOf } from "./column_facts.js";
@@ -34,11 +34,8 @@ export function plotsOf({ channels, loops }, part) {
 /** Number of samples, rate and duration. @param {Preview} preview */
 export function factsLine({ samples, dt_s, start_s }) {
   const from = start_s ? `, from ${number(start_s)} s of the file` : "";
-  return `${samples} samples at ${short(1 / dt_s)} Hz, ${short((Number(samples) - 1) * dt_s)} s${from}`;
+  return `${samples} samples at ${significant(1 / dt_s, 6)} Hz, ${significant((Number(samples) - 1) * dt_s, 6)} s${from}`;
 }
-
-/** @param {number} value */
-const short = (value) => String(Number(value.toPrecision(6)));
 
 /** @param {Channel} channel @param {(from: number, to: number) => Promise<Preview>} part */
 function plot({ key, role, label, unit, smallest, largest, mean, samples, time, values }, part) {
