@@ -77,11 +77,22 @@ def parser() -> argparse.ArgumentParser:
     )
     table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
 
-    imports = _command(commands, "import", "app.cli.measurements:measurements", "import a file of measurements as a recording")
-    imports.add_argument("file", type=Path, metavar="FILE", help="measurements, in a format of docs/formats.md")
+    about = "import a file of measurements, or all files of a folder or ZIP archive, as recordings"
+    imports = _command(commands, "import", "app.cli.measurements:measurements", about)
+    imports.add_argument(
+        "file", type=Path, metavar="FILE", help="measurements, in a format of docs/formats.md; a folder or .zip of such files"
+    )
     imports.add_argument("--map", type=Path, metavar="MAP.yaml", help="file with the mapping: role and unit of each column")
-    imports.add_argument("--out", type=Path, metavar="REC.h5", help="file to write the recording to (HDF5)")
+    imports.add_argument(
+        "--out", type=Path, metavar="OUT", help="file to write the recording to (HDF5); a folder for many files"
+    )
     imports.add_argument("--guess", action="store_true", help="print a proposed mapping and import nothing")
+    imports.add_argument("--table", type=Path, metavar="FILE.csv", help="of many files: write the table of what differs as CSV")
+    imports.add_argument(
+        "--trust-mapping",
+        action="store_true",
+        help="of many files: take the units and the step of the mapping where most files state others",
+    )
 
     diagnose = _command(
         commands,

@@ -11,16 +11,21 @@ from pathlib import Path
 
 import numpy as np
 
+from app.cli import many, mapping_file
 from app.cli.run_input import check_folder
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, MeasuredError
 from rths_engine.recordings import measured
-from rths_engine.recordings.measured import Mapping, Measured, MeasuredChannel, mapping_yaml
+from rths_engine.recordings.measured import Measured, MeasuredChannel, mapping_yaml
 from rths_engine.recordings.measured.roles import shown
 
 
-def measurements(given: Namespace) -> None:
-    """`rths import`: import a file, or print a proposed mapping. Raises MeasuredError for an invalid file or mapping."""
+def measurements(given: Namespace) -> int | None:
+    """`rths import`: import a file or many files, or print a proposed mapping. Raises MeasuredError for an invalid input."""
+    if many.asked(given.file):
+        return many.measurements(given)
+    if given.table is not None or given.trust_mapping:
+        raise MeasuredError(Issue("--table and --trust-mapping", "need a folder or a .zip of files", str(given.file)))
     if given.guess == (given.map is not None) or given.guess == (given.out is not None):
         raise MeasuredError(Issue("", "needs either --guess, or --map MAP.yaml and --out REC.h5"))
     content, checksum = _content(given.file)
@@ -30,11 +35,11 @@ def measurements(given: Namespace) -> None:
         print(mapping_yaml.write(found.mapping, found.reasons, found.left_out), end="")
         for note in found.notes:
             print(f"# {note}")
-        return
+        return None
     check_folder(given.out, "--out", "rec.h5")
     if given.out.exists() and given.out.samefile(given.file):
         raise MeasuredError(Issue("--out", "is the file of measurements itself", str(given.out), "choose another file"))
-    mapping = Mapping.from_yaml(_text(given.map))
+    mapping = mapping_file.mapping(given.map)
     recording = measured.imported(table, mapping, str(given.file.resolve()), checksum())
     try:
         measured.save(given.out, recording, durable=False)  # the file of measurements remains
@@ -45,12 +50,13 @@ def measurements(given: Namespace) -> None:
     for warning in recording.warnings:
         print(warning, file=sys.stderr)
     print(_report(given.out, recording))
+    return None
 
 
 def _content(path: Path) -> tuple[Path | bytes, Callable[[], str]]:
     """What to read the measurements from, and a function that gives their checksum, computed while they are read."""
     if not path.is_file():
-        raw = _bytes(path, "FILE")  # a pipe
+        raw = mapping_file.content(path, "FILE")  # a pipe
         return raw, lambda: hashlib.sha256(raw).hexdigest()
     try:
         path.open("rb").close()
@@ -60,21 +66,6 @@ def _content(path: Path) -> tuple[Path | bytes, Callable[[], str]]:
     checksum = with_reading.submit(files.checksum, path)
     with_reading.shutdown(wait=False)
     return path, checksum.result
-
-
-def _bytes(path: Path, where: str) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise MeasuredError(Issue(where, f"cannot be read: {error.strerror}", str(path))) from None
-
-
-def _text(path: Path) -> str:
-    try:
-        return _bytes(path, "--map").decode("utf-8")
-    except UnicodeDecodeError:
-        fix = "`rths import FILE --guess` prints a proposed mapping"
-        raise MeasuredError(Issue("--map", "is not valid UTF-8 text", str(path), fix)) from None
 
 
 def _report(path: Path, recording: Measured) -> str:

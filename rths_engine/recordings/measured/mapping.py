@@ -143,6 +143,13 @@ class Mapping(Value):
         """Step (s) where no column is time."""
         return self.dt if self.dt is not None else None if self.rate is None else 1 / self.rate
 
+    def step_of(self, channel: ColumnMap) -> float | None:
+        """Step (s) that the mapping gives a channel; None where a time column or the file gives it."""
+        if channel.rate is not None:
+            return 1 / channel.rate
+        timed = channel.role == "t" or channel.time is not None or bool(self.times)
+        return None if timed else self.step
+
     @property
     def times(self) -> tuple[ColumnMap, ...]:
         return tuple(channel for channel in self.channels if channel.role == "t")

@@ -11,6 +11,8 @@ from rths_engine.recordings.measured import names
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.mapping import ColumnMap, Mapping
 
+STEP_AGREES = 1e-3  # relative: rounding of a step in a header; chosen, see docs/decisions/0023
+
 
 def unit_of(column: Column) -> Written:
     """The unit that the file states for a column: beside its name, or certainly in its name."""
@@ -19,19 +21,35 @@ def unit_of(column: Column) -> Written:
 
 
 def differing(table: Table, mapping: Mapping) -> list[Finding]:
-    """A warning for each column whose unit in the file differs from the unit in the mapping, or is not known."""
-    found = []
+    """A warning for each column whose unit or step in the file differs from the mapping's, or whose unit is not known."""
+    found = contradicting(table, mapping)
     for channel in mapping.channels:
         column = table.column(channel.column, "")
         written = unit_of(column)
-        key = f"t ({column.name})" if channel.role == "t" else channel.key
         if written.problem and column.unit:
             problem = f"{written.problem}; the mapping takes {_of(column)} as {channel.unit}"
-            found.append(Finding("warning", key, problem, written.text, fix="check the unit and the gain"))
-        elif written.unit and not _same(written, channel):
+            found.append(Finding("warning", _key(channel, column), problem, written.text, fix="check the unit and the gain"))
+    return found
+
+
+def contradicting(table: Table, mapping: Mapping) -> list[Finding]:
+    """A warning for each column of which the file states a known unit, or a step, other than the mapping's."""
+    found = []
+    for channel in mapping.channels:
+        column = table.column(channel.column, "")
+        written, key = unit_of(column), _key(channel, column)
+        if written.unit and not _same(written, channel):
             problem = f"the file states {written.text} for {_of(column)}; the mapping says {channel.unit}"
             found.append(Finding("warning", key, problem, fix=f"choose {written.unit}, unless the file is wrong"))
+        step = mapping.step_of(channel)
+        if step is not None and column.dt is not None and abs(step - column.dt) > STEP_AGREES * step:
+            problem = f"the file states a time step of {column.dt:.7g} s for {_of(column)}; the mapping says {step:.7g} s"
+            found.append(Finding("warning", key, problem, fix="leave out dt and rate, unless the file is wrong"))
     return found
+
+
+def _key(channel: ColumnMap, column: Column) -> str:
+    return f"t ({column.name})" if channel.role == "t" else channel.key
 
 
 def _of(column: Column) -> str:

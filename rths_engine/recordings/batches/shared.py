@@ -1,0 +1,79 @@
+"""Values that more than half of the files of a batch share, and the differences of a file from them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from statistics import median
+from typing import TypeVar
+
+from rths_engine.recordings.batches.difference import NOTHING, Difference
+from rths_engine.recordings.batches.facts import ChannelFacts, Facts, RecordingFacts
+
+# chosen; see docs/decisions/0023
+FAR = 30  # between the largest values of a channel in two files
+FEWEST = 3  # files of which most can share a value
+
+_CLOCK = (("rate_hz", "sampling rate", "Hz"), ("start_s", "start", "s"), ("duration_s", "duration", "s"))
+_STATED = ("not stated", "stated")
+_VARIES = ("varies", "constant")
+
+T = TypeVar("T")
+
+
+class Shared:
+    """What most of `files` share: clock, statements and entries of the header, and the sizes of their channels."""
+
+    def __init__(self, files: Sequence[Facts]):
+        recordings = [one.recording for one in files if one.recording is not None]
+        self._clock = {name: _most([getattr(one, name) for one in recordings]) for name, _, _ in _CLOCK}
+        self._samples = _most([one.samples for one in recordings])
+        self._stated = {what: _most([what in one.stated for one in files]) for what in _all(one.stated for one in files)}
+        self._about = {name: _most([one.about.get(name, "") for one in files]) for name in _all(one.about for one in files)}
+        keys = _all(one.channels for one in recordings)
+        channels = {key: [one.channels[key] for one in recordings if key in one.channels] for key in keys}
+        self._constant = {key: _most([one.constant for one in each]) for key, each in channels.items()}
+        self._middle = {key: median(one.largest for one in each) for key, each in channels.items() if len(each) >= FEWEST}
+
+    def differences(self, one: Facts) -> Iterator[Difference]:
+        """The differences of a file from what most files share."""
+        if one.recording is not None:
+            yield from self._times(one.recording)
+            for key, channel in one.recording.channels.items():
+                yield from self._channel(key, channel)
+        for what, usual in self._stated.items():
+            if usual is not None and (what in one.stated) != usual:
+                yield Difference("note", "statement in the header", what, _STATED[what in one.stated], _STATED[usual])
+        for name, text in self._about.items():
+            if text is not None and one.about.get(name, "") != text:
+                yield Difference("note", "entry of the header", name, one.about.get(name) or NOTHING, text or NOTHING)
+
+    def _times(self, own: RecordingFacts) -> Iterator[Difference]:
+        for name, what, unit in _CLOCK:
+            here, usual = getattr(own, name), self._clock[name]
+            if usual is not None and here != usual:
+                severity = "warning" if name == "rate_hz" else "note"
+                yield Difference(severity, what, "", f"{here:.6g} {unit}", f"{usual:.6g} {unit}")  # type: ignore[arg-type]
+        if self._samples is not None and own.samples != self._samples:
+            yield Difference("note", "number of samples", "", str(own.samples), str(self._samples))
+
+    def _channel(self, key: str, own: ChannelFacts) -> Iterator[Difference]:
+        constant, middle = self._constant.get(key), self._middle.get(key, 0.0)
+        if constant is not None and own.constant != constant:
+            yield Difference("warning", "signal", key, _VARIES[own.constant], _VARIES[constant])
+        if middle > 0 and own.largest > 0 and not middle / FAR < own.largest < middle * FAR:
+            here, there = f"{own.largest:.3g} {own.unit}", f"{middle:.3g} {own.unit} (median)"
+            yield Difference("warning", "largest value", key, here, there)
+
+
+def _most(values: Sequence[T]) -> T | None:
+    """The value that more than half of the files share; None where there is none, or where there are too few files."""
+    if len(values) < FEWEST:
+        return None
+    value, count = Counter(values).most_common(1)[0]
+    return value if 2 * count > len(values) else None
+
+
+def _all(texts: Iterable[Iterable[str]]) -> list[str]:
+    """Every text once, in the order in which it is first there."""
+    return list(dict.fromkeys(text for some in texts for text in some))
