@@ -21,6 +21,7 @@ from app.health import router as health
 from app.jobs import queue as durable
 from app.live.endpoints import router as live
 from app.live.hub import Hub
+from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
 from app.measured.mapping_endpoints import router as mappings
 from app.motions.endpoints import router as motions
@@ -55,6 +56,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     openapi.install(app)
     for router in (runs, motions, plans, mappings, diagnoses, stability, table4, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
+    app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)

@@ -128,6 +128,23 @@ class SavedMapping(Base):
     saved_at: Mapped[datetime]
 
 
+class ImportBatch(Base):
+    """Many files imported by one mapping, and the table of what differs between them: a row for each file."""
+
+    __tablename__ = "import_batch"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    mapping: Mapped[dict[str, Any]]
+    trust_mapping: Mapped[bool]
+    reference: Mapped[str] = mapped_column(sa.Text)
+    imported: Mapped[int]
+    refused: Mapped[int]
+    rows: Mapped[list[dict[str, Any]]] = mapped_column(sa.JSON)
+    imported_by: Mapped[str] = mapped_column(sa.String(80))
+    imported_at: Mapped[datetime]
+
+
 class Diagnosis(Job, Base):
     """A diagnosis: a job that compares a recording with the models of a plan, and its result after it has completed."""
 

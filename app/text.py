@@ -23,6 +23,15 @@ def _storable(text: str) -> str:
 Storable = Annotated[str, AfterValidator(_storable)]
 
 
+def cleaned(data: Any) -> Any:
+    """JSON data of which every text can be stored: characters that cannot be stored become U+FFFD."""
+    if isinstance(data, str):
+        return _UNSTORABLE.sub("\N{REPLACEMENT CHARACTER}", data)
+    if isinstance(data, dict):
+        return {cleaned(key): cleaned(value) for key, value in data.items()}
+    return [cleaned(one) for one in data] if isinstance(data, list | tuple) else data
+
+
 def refuse_unstorable(data: Any) -> None:
     """Raise PlanError with an issue for every text in `data`, keys included, that can't be stored."""
     issues = tuple(_issues(data))

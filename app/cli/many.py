@@ -81,9 +81,11 @@ class Zipped:
     """The files of an archive, each unpacked to a temporary file while it is read."""
 
     def __init__(self, path: Path, stack: ExitStack):
-        if not path.is_file():
-            raise MeasuredError(Issue("FOLDER_OR_ZIP", "cannot be read: there is no such file", str(path)))
-        self.archive = Archive(path, str(path))
+        try:
+            file = stack.enter_context(path.open("rb"))
+        except OSError as error:
+            raise MeasuredError(Issue("FOLDER_OR_ZIP", f"cannot be read: {error.strerror}", str(path))) from None
+        self.archive = Archive(file, str(path))
         stack.callback(self.archive.close)
 
     @property

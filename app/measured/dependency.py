@@ -1,4 +1,4 @@
-"""The service of measured recordings of a request."""
+"""The services of measured recordings and of batches of a request."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import Depends
 
 from app.dependencies import Configured, OneSession
+from app.measured.batches import UNPACKED, BatchService
 from app.measured.service import MeasuredService
 
 
@@ -16,3 +17,11 @@ def measured_service(session: OneSession, configured: Configured) -> MeasuredSer
 
 
 Recordings = Annotated[MeasuredService, Depends(measured_service)]
+
+
+def batch_service(recordings: Recordings, configured: Configured) -> BatchService:
+    """The service of batches in the session of the request."""
+    return BatchService(recordings, UNPACKED * configured.measurements_limit)
+
+
+Batches = Annotated[BatchService, Depends(batch_service)]

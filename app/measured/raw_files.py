@@ -6,7 +6,7 @@ import hashlib
 import threading
 from functools import lru_cache
 from pathlib import Path
-from typing import BinaryIO
+from typing import Protocol
 
 from app.problems import NotFound
 from rths_engine.foundation import files
@@ -16,13 +16,19 @@ PART = 1 << 20  # bytes
 _READING = threading.Lock()  # reading takes several times the size of a file in memory, so one file is read at a time
 
 
+class Stream(Protocol):
+    """What is read from its start to its end."""
+
+    def read(self, size: int, /) -> bytes: ...
+
+
 class RawFiles:
     """Uploaded files in a folder, each under its SHA-256."""
 
     def __init__(self, folder: Path):
         self.folder = folder
 
-    def keep(self, stream: BinaryIO) -> tuple[str, int]:
+    def keep(self, stream: Stream) -> tuple[str, int]:
         """Store the stream as a file, complete or not at all; returns its checksum and size (bytes)."""
         digest, size = hashlib.sha256(), 0
         self.folder.mkdir(parents=True, exist_ok=True)

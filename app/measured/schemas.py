@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -93,6 +93,74 @@ class EarlierMapping(BaseModel):
     name: str
     imported_at: datetime
     mapping: dict[str, Any]
+
+
+class ReasonOut(BaseModel):
+    """A reason against the import of a file."""
+
+    where: str
+    problem: str
+    value: str | None
+    fix: str | None
+    lines: list[dict[str, Any]] = Field([], description="the line of the file that `where` names, with its neighbours")
+
+
+class DifferenceOut(BaseModel):
+    """A difference of a file from the other files of its batch."""
+
+    severity: Literal["error", "warning", "note"] = Field(description="an error would change the meaning and refuses the file")
+    what: str
+    of: str
+    here: str
+    others: str
+    text: str
+
+
+class BatchRow(BaseModel):
+    """A file of a batch: its recording, or the reasons against its import, and what differs."""
+
+    file: str
+    size: int
+    sha256: str
+    imported: bool
+    recording: str | None = Field(description="null for a refused file, and for a recording that was deleted since")
+    reasons: list[ReasonOut]
+    differences: list[DifferenceOut]
+    warnings: list[dict[str, Any]] = Field(description="findings of the checks, which the recording stores")
+    format: str | None
+    columns: int | None
+    samples: int | None
+    rate_hz: float | None
+    start_s: float | None
+    duration_s: float | None
+
+
+class BatchSummary(BaseModel):
+    """A batch without its rows."""
+
+    model_config = ConfigDict(from_attributes=True)
+
+    id: str
+    imported: int = Field(description="number of imported files")
+    refused: int
+    reference: str = Field(description="the file that stands for the layout of most files")
+    trust_mapping: bool
+    imported_by: str
+    imported_at: datetime
+
+
+class BatchOut(BatchSummary):
+    """Many files imported by one mapping: a row for each file, in the order of the files."""
+
+    mapping: dict[str, Any]
+    rows: list[BatchRow]
+
+
+class BatchList(BaseModel):
+    """A page of batches, and the total number."""
+
+    batches: list[BatchSummary]
+    total: int
 
 
 class SavedMappingOut(BaseModel):

@@ -25,7 +25,7 @@ from app.text import refuse_unstorable
 from rths_engine import __version__
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import MeasuredError
-from rths_engine.recordings.measured import Mapping, Table, examine, fingerprint, guess, imported, mapping_yaml, save
+from rths_engine.recordings.measured import Mapping, Measured, Table, examine, fingerprint, guess, imported, mapping_yaml, save
 from rths_engine.recordings.opening import load
 
 KEPT_UNUSED = timedelta(days=1)  # a file from which nothing is imported
@@ -43,7 +43,7 @@ class MeasuredService:
 
     def upload(self, stream: BinaryIO, filename: str) -> Uploaded:
         """Store a file that can be read. Raises MeasuredError for any other file, and stores nothing of it."""
-        name = _storable(filename)
+        name = storable(filename)
         sha256, size = self.raw_files.keep(stream)
         if self.rows.raw(sha256) is None:
             afterwards(self.session, "after_rollback", lambda: self.raw_files.path(sha256).unlink(missing_ok=True))
@@ -59,47 +59,52 @@ class MeasuredService:
 
     def preview(self, asked: Preview) -> dict[str, Any]:
         """The channels by a mapping, decimated, with all findings. Raises MeasuredError for a mapping that does not fit."""
-        raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
+        raw, mapping = self._raw(asked.file), read_mapping(asked.mapping)
         found = examine(self.raw_files.table(raw.sha256, raw.filename), mapping)
         return shown.examined(found, mapping, shown.Part(asked.from_s, asked.to_s))
 
     def save_mapping(self, asked: NewMapping) -> SavedMapping:
         """Save a mapping under a name for files of the layout of an uploaded file."""
-        raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
+        raw, mapping = self._raw(asked.file), read_mapping(asked.mapping)
         table = self.raw_files.table(raw.sha256, raw.filename)
         return self.saved.save(asked.name, mapping, table, asked.saved_by.strip() or NOBODY)
 
     def import_(self, asked: Import) -> MeasuredRecording:
         """Write the recording, then its row. Raises MeasuredError with every error."""
-        raw, mapping = self._raw(asked.file), _mapping(asked.mapping)
+        raw, mapping = self._raw(asked.file), read_mapping(asked.mapping)
         measured = imported(self.raw_files.table(raw.sha256, raw.filename), mapping, raw.filename, raw.sha256)
         name = asked.name.strip() or mapping.title or raw.filename
-        recording_id = str(uuid.uuid4())
-        path = self.path(recording_id)
+        recording = self.written(replace(measured, title=name), mapping, asked.imported_by)
+        path = self.path(recording.id)
         afterwards(self.session, "after_rollback", lambda: path.unlink(missing_ok=True))
-        save(path, replace(measured, title=name))
         if not self.rows.locked_raw(raw.sha256):
             raise NotFound(f"The file {raw.filename} is no longer stored. Upload it again.")
-        recording = MeasuredRecording(
+        self.rows.add(recording)
+        return recording
+
+    def written(self, measured: Measured, mapping: Mapping, imported_by: str) -> MeasuredRecording:
+        """The row of a recording, which is not added yet; the file of the recording is written."""
+        recording_id = str(uuid.uuid4())
+        path = self.path(recording_id)
+        save(path, measured)
+        return MeasuredRecording(
             id=recording_id,
-            name=name,
+            name=measured.title,
             test=measured.test,
-            raw_sha256=raw.sha256,
-            filename=raw.filename,
+            raw_sha256=measured.source_sha256,
+            filename=measured.source,
             mapping=mapping.as_dict(),
             channels=[shown.described(channel) for channel in measured.channels],
             warnings=[warning.as_dict() for warning in measured.warnings],
             dt_s=measured.dt,
             start_s=measured.start,
             samples=measured.samples,
-            imported_by=asked.imported_by.strip() or NOBODY,
+            imported_by=imported_by.strip() or NOBODY,
             imported_at=datetime.now(UTC),
             code_version=__version__,
             sha256=files.checksum(path),
             size=path.stat().st_size,
         )
-        self.rows.add(recording)
-        return recording
 
     def get(self, recording_id: str) -> MeasuredRecording:
         recording = self.rows.get(recording_id)
@@ -193,7 +198,8 @@ def _guessed(table: Table) -> dict[str, Any]:
     return {"guess": found.mapping.as_dict(), **explained}
 
 
-def _mapping(given: dict[str, Any] | str) -> Mapping:
+def read_mapping(given: dict[str, Any] | str) -> Mapping:
+    """The mapping in JSON, or in YAML as text. Raises MeasuredError with every issue."""
     mapping = Mapping.from_yaml(given) if isinstance(given, str) else Mapping.read(given)
     refuse_unstorable({"mapping": mapping.as_dict()})
     return mapping
@@ -210,7 +216,7 @@ def _there(path: Path) -> Path:
     return path
 
 
-def _storable(filename: str) -> str:
+def storable(filename: str) -> str:
     """A file name without its folder and without characters that a database or an HTTP header cannot hold."""
     name = re.split(r"[/\\]", filename)[-1]
     return re.sub("[\x00-\x1f\x7f\ud800-\udfff]", "", name).strip()[-255:] or "measurements"

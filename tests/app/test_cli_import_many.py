@@ -76,7 +76,7 @@ def test_names_of_folders_and_extensions_keep_recordings_apart_and_the_mapping_i
         (["data", "--map", "map.yaml", "--out", "map.yaml"], "--out = map.yaml"),
         (["data", "--map", "map.yaml", "--out", "none/out"], "there is no folder none"),
         (["data", "--map", "map.yaml", "--out", "out", "--table", "none/table.csv"], "there is no folder none"),
-        (["none.zip", "--map", "map.yaml", "--out", "out"], "there is no such file"),
+        (["none.zip", "--map", "map.yaml", "--out", "out"], "cannot be read: No such file"),
         (["bad.zip", "--map", "map.yaml", "--out", "out"], "bad.zip: is not a complete ZIP archive"),
         (["out.zip", "--map", "map.yaml", "--out", "out"], "leads out of the archive"),
         (["empty", "--map", "map.yaml", "--out", "out"], "contains no file"),

@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 from typing import IO, BinaryIO
 
 from rths_engine.foundation.errors import Issue, MeasuredError
@@ -26,7 +26,7 @@ MOST_RATIO = 300  # unpacked over packed size of one file; text of measurements 
 SMALL = 10**6  # bytes: the ratio of smaller files does not matter
 LONGEST_ENTRY = 1000  # bytes of the directory of an archive for each file
 
-# the end of the directory of an archive: APPNOTE 6.3.10, 4.3.14 to 4.3.16, in docs/decisions/0027
+# the end of the directory of an archive: APPNOTE 6.3.10, 4.3.14 to 4.3.16, in docs/decisions/0028
 _END, _LOCATOR, _END64 = b"PK\x05\x06", b"PK\x06\x07", b"PK\x06\x06"
 _END_SIZE, _LOCATOR_SIZE, _LONGEST_COMMENT = 22, 20, 1 << 16
 
@@ -59,13 +59,13 @@ class Unpacked:
 
 
 class Archive:
-    """A ZIP archive. Raises MeasuredError where it is not one, or is beyond the limits; `name` names it in errors."""
+    """A ZIP archive in an open file. Raises MeasuredError where it is not one or is beyond the limits; `name` is for errors."""
 
-    def __init__(self, path: Path, name: str, limits: Limits | None = None):
+    def __init__(self, file: BinaryIO, name: str, limits: Limits | None = None):
         self.name, self.limits = name, limits or Limits()
-        self._refuse_directory(path)
+        self._refuse_directory(file)
         try:
-            self._file = zipfile.ZipFile(path)
+            self._file = zipfile.ZipFile(file)
         except _DAMAGED as error:
             raise self._refused(f"is not a complete ZIP archive: {error}", fix="make the archive again") from None
         self._members = {one.filename: one for one in self._file.infolist() if not one.is_dir() and wanted(one.filename)}
@@ -123,10 +123,9 @@ class Archive:
             problem = f"contains more than {self.limits.files} files"
             raise self._refused(problem, str(files), "import fewer files at a time")
 
-    def _refuse_directory(self, path: Path) -> None:
+    def _refuse_directory(self, file: BinaryIO) -> None:
         """Refuse an archive whose directory is larger than the limits allow, before it is read into memory."""
-        with path.open("rb") as file:
-            size = _directory_size(file)
+        size = _directory_size(file)
         if size is None:
             raise self._refused("is not a complete ZIP archive", fix="make the archive again")
         if size > self.limits.files * LONGEST_ENTRY:
