@@ -25,6 +25,7 @@ from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
 from app.measured.mapping_endpoints import router as mappings
 from app.motions.endpoints import router as motions
+from app.pages.batches import router as batches_page
 from app.pages.diagnoses import router as diagnoses_page
 from app.pages.recordings import router as recordings_page
 from app.pages.stability import router as stability_page
@@ -61,6 +62,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(stability_page)
+    app.include_router(batches_page)
     app.include_router(recordings_page)
     app.include_router(diagnoses_page)
     app.include_router(table4_page)

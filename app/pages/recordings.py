@@ -9,12 +9,13 @@ from fastapi.responses import HTMLResponse
 
 from app.config import MEGABYTE
 from app.dependencies import Configured
-from app.measured.dependency import Recordings
+from app.measured.dependency import Batches, Recordings
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
 from rths_engine.formats.registry import TITLES
 
 LIMIT = 50
+BATCHES = 5  # latest batches on the page
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
 
@@ -24,13 +25,16 @@ def listed(
     request: Request,
     configured: Configured,
     recordings: Recordings,
+    batches: Batches,
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
     """The page of all recordings with the import of files."""
     found, total = recordings.listed(LIMIT, LIMIT * (number - 1))
     part: dict[str, Any] = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
     offered: dict[str, Any] = {"formats": TITLES, "limit_mb": configured.measurements_limit // MEGABYTE}
-    return page(request, "recordings.html", **part, **offered)
+    mappings: dict[str, Any] = {"saved": recordings.saved.listed(), "earlier": recordings.mappings()}
+    many = {"batches": batches.listed(BATCHES, 0)[0], "most_files": batches.limits.files, **mappings}
+    return page(request, "recordings.html", **part, **offered, **many)
 
 
 @router.get("/recordings/{recording_id}")

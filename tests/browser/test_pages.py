@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from tests.app.test_diagnoses import LEFT_OUT, ask, until_state
 from tests.app.test_diagnoses import plan as specimen
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
+from tests.engine import batch_files
 
 LOOKS: dict[str, dict[str, Any]] = {
     "light": {"color_scheme": "light"},
@@ -29,6 +31,7 @@ CONTENT = {
     "/table4": ".table4 tbody tr",
     "/recordings": "tbody tr",
     "/recordings/{recording}": "#plots canvas",
+    "/recordings/batches/{batch}": "tbody tr",
     "/diagnoses": "tbody tr",
     "/diagnoses/{diagnosis}": "#detail-1 + .panels figure:last-child svg.main-svg",
 }
@@ -50,6 +53,13 @@ def recording(service: Service) -> str:
 
 
 @pytest.fixture(scope="module")
+def batch(service: Service) -> str:
+    files = [("files", (name, raw)) for name, raw in batch_files.fifty().items()]
+    form = {"mapping": json.dumps(batch_files.mapping())}
+    return str(service.http.post("/api/v1/recordings/batches", files=files, data=form).json()["id"])
+
+
+@pytest.fixture(scope="module")
 def diagnosis(service: Service) -> str:
     run: str = service.post("/runs", {"plan": specimen(specimen_physics=LEFT_OUT)})["runs"][0]["id"]
     service.wait(run, "completed")
@@ -57,16 +67,14 @@ def diagnosis(service: Service) -> str:
 
 
 @pytest.fixture(scope="module")
-def shown(run: str, recording: str, diagnosis: str) -> dict[str, str]:
-    return {"run": run, "recording": recording, "diagnosis": diagnosis}
+def shown(run: str, recording: str, batch: str, diagnosis: str) -> dict[str, str]:
+    return {"run": run, "recording": recording, "batch": batch, "diagnosis": diagnosis}
 
 
 @pytest.mark.parametrize("look", LOOKS)
 @pytest.mark.parametrize("path", CONTENT)
-def test_a_page_is_whole_quiet_and_accessible(
-    path: str, look: str, run: str, recording: str, diagnosis: str, opened: Opener
-) -> None:
-    page = opened(path.format(run=run, recording=recording, diagnosis=diagnosis), **LOOKS[look])
+def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, shown: dict[str, str], opened: Opener) -> None:
+    page = opened(path.format(**shown), **LOOKS[look])
     expect(page.locator(CONTENT[path]).first).to_be_visible()
     expect_accessible(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
