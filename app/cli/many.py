@@ -144,7 +144,7 @@ def _folder(out: Path, source: Folder | Zipped) -> Path:
 
 def _keep(path: Path, measured: Measured) -> None:
     try:
-        save(path, measured)
+        save(path, measured, durable=False)  # the files of measurements remain
     except OSError as error:
         fix = "free disk space, or choose another folder"
         raise MeasuredError(Issue("--out", f"was not written: {error.strerror}", str(path.parent.parent), fix)) from None

@@ -32,8 +32,8 @@ def listed(
     found, total = recordings.listed(LIMIT, LIMIT * (number - 1))
     part: dict[str, Any] = {"recordings": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
     offered: dict[str, Any] = {"formats": TITLES, "limit_mb": configured.measurements_limit // MEGABYTE}
-    mappings: dict[str, Any] = {"saved": recordings.saved.listed(), "earlier": recordings.mappings()}
-    many = {"batches": batches.listed(BATCHES, 0)[0], "most_files": batches.limits.files, **mappings}
+    latest, _ = batches.listed(BATCHES, 0)
+    many: dict[str, Any] = {"batches": latest, "most_files": batches.limits.files, "earlier": recordings.mappings()}
     return page(request, "recordings.html", **part, **offered, **many)
 
 

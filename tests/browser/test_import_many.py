@@ -59,6 +59,7 @@ def test_several_files_are_imported_by_keyboard_with_a_saved_mapping(opened: Ope
     page = opened("/recordings")
     page.get_by_label("Files or ZIP archive").set_input_files([folder / made.name(number) for number in range(3)])
     chosen = page.get_by_label("Mapping of all files")
+    expect(chosen.locator("option", has_text="Damper rig")).to_have_count(1)
     chosen.focus()
     page.keyboard.type("Damper rig")
     expect(chosen.locator("option:checked")).to_have_text("Damper rig")

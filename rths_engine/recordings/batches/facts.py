@@ -8,7 +8,7 @@ import numpy as np
 
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.unit_names import Written
-from rths_engine.recordings.measured import names, stated
+from rths_engine.recordings.measured import blocks, names, stated
 from rths_engine.recordings.measured.layout import fingerprint
 from rths_engine.recordings.measured.mapping import Mapping
 from rths_engine.recordings.measured.recording import Measured
@@ -88,8 +88,9 @@ def of_recording(measured: Measured) -> RecordingFacts:
     """The facts of a recording."""
     channels = {}
     for one in measured.channels:
-        values, unit = shown(one.values, one.unit)
-        channels[one.key] = ChannelFacts(rounded(float(np.max(np.abs(values)))), unit, bool(np.ptp(one.values) == 0))
+        extent = blocks.extent(one.values)
+        ends, unit = shown(np.array([extent.low, extent.high]), one.unit)
+        channels[one.key] = ChannelFacts(rounded(float(np.max(np.abs(ends)))), unit, extent.low == extent.high)
     duration = rounded((measured.samples - 1) * measured.dt)
     return RecordingFacts(measured.samples, rounded(1 / measured.dt), rounded(measured.start), duration, channels)
 

@@ -1,6 +1,7 @@
 // @ts-check
-import { ApiError, api, explain } from "../api.js";
+import { api } from "../api.js";
 import { byId } from "../dom.js";
+import { refusalOf } from "../files/refusal.js";
 import { size } from "../format.js";
 import { person, remember } from "../person.js";
 
@@ -41,7 +42,7 @@ async function mapping() {
 /** @param {Event} event */
 async function send(event) {
   event.preventDefault();
-  for (const place of form.querySelectorAll("small.error, #many-refusal, #many-status")) place.textContent = "";
+  for (const place of form.querySelectorAll("small.error, #many-refusal, #many-status")) place.replaceChildren();
   for (const field of [files, yaml]) field.removeAttribute("aria-invalid");
   button.disabled = true;
   try {
@@ -61,7 +62,7 @@ async function send(event) {
       byId(`${error.field.id}-error`).textContent = error.message;
       error.field.setAttribute("aria-invalid", "true");
       error.field.focus();
-    } else byId("many-refusal").textContent = error instanceof ApiError ? explain(error) : String(error);
+    } else byId("many-refusal").replaceChildren(refusalOf(error));
   }
 }
 

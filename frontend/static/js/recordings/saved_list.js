@@ -7,15 +7,25 @@ import { when } from "../format.js";
 
 const HEADS = ["Mapping", "Layout: format and columns", "Saved by", "Saved", "Download", ""];
 
-/** Show the saved mappings in #saved, with rename and delete. */
+/** Show the saved mappings in #saved, with rename and delete, and offer them for many files. */
 export async function showSaved() {
   const host = byId("saved");
   try {
     const { mappings } = await api.get("/mappings");
+    offer(mappings);
     host.replaceChildren(mappings.length ? table(mappings) : el("p", { class: "empty" }, "There is no saved mapping yet. Choose a file above, complete its mapping, and save it under a name."));
   } catch (error) {
     host.replaceChildren(el("p", { class: "note bad", role: "alert" }, explain(error)));
   }
+}
+
+/** Offer the mappings in #many-mapping; a chosen mapping stays chosen while it exists. @param {Saved[]} mappings */
+function offer(mappings) {
+  const list = byId("many-mapping");
+  const { value } = list;
+  byId("many-saved").replaceChildren(...mappings.map(({ id, name }) => el("option", { value: `/mappings/${id}` }, name)));
+  list.value = [...list.options].some((one) => one.value === value) ? value : "";
+  list.dispatchEvent(new Event("change"));
 }
 
 /** @param {Saved[]} mappings */
