@@ -15,6 +15,7 @@ import { chooser, fitting, startsOf } from "./starts.js";
 /** @typedef {import("./column_row.js").Roles} Roles */
 
 const QUIET_MS = 400;
+const MANY = 12; // columns from which their table scrolls by itself, so that the rest of the page stays near
 const HEADS = ["Column", "Role", "Station or floor", "Unit", "Gain", "Offset", "Reversed", "Lag, ms", "Reason and problems"];
 
 /** The editor of a mapping: assigns roles to the columns of an uploaded file, previews the recording and imports it. */
@@ -65,7 +66,7 @@ export class Editor {
       el("h4", {}, "Columns and their roles"),
       notes.length > 0 && el("ul", { class: "warnings" }, ...notes),
       el("div", { class: "starters" }, labelled("mapping.from", "Mapping", from, fitting(sent)), labelled("mapping.text", "Load a mapping from YAML", text)),
-      el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Columns of the file" }, this.table),
+      el("div", { class: this.rows.length > MANY ? "scroll long" : "scroll", tabindex: "0", role: "region", "aria-label": "Columns of the file" }, this.table),
       this.settings.element,
       this.general,
       this.verdict,
