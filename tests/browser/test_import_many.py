@@ -55,7 +55,7 @@ def test_a_zip_of_fifty_files_is_imported_and_its_table_read_and_downloaded(open
 
 def test_several_files_are_imported_by_keyboard_with_a_saved_mapping(opened: Opener, folder: Path, service: Service) -> None:
     sent = service.http.post("/api/v1/recordings/files", files={"file": ("a.csv", made.file(0))}).json()
-    service.post("/mappings", {"file": sent["sha256"], "mapping": made.mapping(), "name": "Damper rig"})
+    saved = service.post("/mappings", {"file": sent["sha256"], "mapping": made.mapping(), "name": "Damper rig"})
     page = opened("/recordings")
     page.get_by_label("Files or ZIP archive").set_input_files([folder / made.name(number) for number in range(3)])
     chosen = page.get_by_label("Mapping of all files")
@@ -74,6 +74,7 @@ def test_several_files_are_imported_by_keyboard_with_a_saved_mapping(opened: Ope
     expect(page.get_by_role("heading", name="run01", exact=True)).to_be_visible()
     page.goto("/recordings")
     expect(page.get_by_role("link", name="3 imported, 0 refused").first).to_be_visible()
+    service.http.delete(f"/api/v1/mappings/{saved['id']}").raise_for_status()
 
 
 def test_what_is_missing_is_said_at_its_field_and_a_refusal_below(opened: Opener, folder: Path) -> None:
