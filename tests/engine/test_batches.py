@@ -85,6 +85,19 @@ def test_by_numbers_another_order_of_columns_without_units_is_refused() -> None:
     assert "column 2 = Force: differs from the other files in its name, Disp there" in reasons(batch, "swapped.csv")
 
 
+def test_by_numbers_a_record_of_another_component_is_imported_with_a_warning() -> None:
+    def at2(component: str) -> bytes:
+        rows = "\n".join(" ".join(f"{0.01 * np.sin(k + j):.7E}" for j in range(5)) for k in range(0, 100, 5))
+        head = f"PEER STRONG MOTION RECORD\nQuake, 10/15/1979, Station, {component}\n"
+        units = "ACCELERATION IN UNITS OF G\nNPTS= 100, DT= .01 SEC\n"
+        return (head + units + rows).encode()
+
+    mapping = {"channels": [{"column": 1, "role": "ag", "unit": "g"}]}
+    batch, kept = imported({f"{k}.AT2": at2(k) for k in ("090", "180", "UP")}, mapping)
+    assert len(kept) == 3
+    assert differences(batch, "180.AT2") == ["warning: name of column 1: 180; in the other files 090"]
+
+
 def test_columns_without_names_are_imported_only_where_their_number_is_the_same() -> None:
     files = {f"{k}.txt": made.csv(made.signals(k)).split(b"\n", 1)[1] for k in range(5)}
     more = made.csv({**made.signals(9), "Temp": made.T}).split(b"\n", 1)[1]

@@ -60,7 +60,7 @@ def _columns(one: Facts, usual: Facts, by_number: bool) -> Iterator[Difference]:
         if new is not None:
             missing.remove(name)
             added.remove(new)
-            yield Difference("note", "name of a column", "", new, name)
+            yield Difference("note", "name", f"column {here.index(new) + 1}", new, name)
     for name in missing:
         yield Difference("note", f"column '{name}'", "", "missing", f"column {there.index(name) + 1}")
     for name in added:
@@ -95,7 +95,8 @@ def _meaning(one: Facts, usual: Facts, selector: str | int) -> Iterator[Differen
     own = one.columns[here]
     of = f"column '{own.name}'"
     if isinstance(selector, int) and (own.plain, one.named) != (other.plain, usual.named):
-        yield Difference("error", "name", f"column {selector}", own.name, other.name)
+        severity: Severity = "warning" if _same_signal(one, usual, here) else "error"
+        yield Difference(severity, "name", f"column {selector}", own.name, other.name)
     if not one.named and len(one.columns) != len(usual.columns):
         yield Difference("error", "number of columns", "", str(len(one.columns)), str(len(usual.columns)))
     if own.unit != other.unit:
@@ -104,6 +105,18 @@ def _meaning(one: Facts, usual: Facts, selector: str | int) -> Iterator[Differen
         yield Difference("error", "quantity", of, own.quantity or NOTHING, other.quantity or NOTHING)
     if own.applied != other.applied:
         yield Difference("note", "scale or offset", of, own.applied or NOTHING, other.applied or NOTHING)
+
+
+def _same_signal(one: Facts, usual: Facts, at: int) -> bool:
+    """Whether a column with another name can only be the signal of the other files: their component has another azimuth.
+
+    The format itself states its quantity, or it is the only column; and neither name stands at another number.
+    """
+    if len(one.columns) != len(usual.columns):
+        return False
+    own, other = one.columns[at], usual.columns[at]
+    moved = other.plain in [each.plain for each in one.columns] or own.plain in [each.plain for each in usual.columns]
+    return not moved and (len(one.columns) == 1 or (bool(own.quantity) and own.quantity == other.quantity))
 
 
 def _selectors(mapping: Mapping) -> list[str | int]:
