@@ -22,7 +22,7 @@ from rths_engine.recordings.measured import Mapping, Measured
 
 # docs/decisions/0028
 MOST_FILES = 200
-UNPACKED = 5  # times the largest request: bytes of all files of the archives of a batch
+UNPACKED = 2  # times the largest request: bytes of all files of the archives of a batch
 SECONDS = 300.0  # for one batch; files that are not read by then are refused
 
 
