@@ -23,6 +23,9 @@ def addresses(client: TestClient) -> Iterator[str]:
         rows = client.get(f"/api/v1/{kind}").json()[kind]
         ids[parameter] = [*(row["id"] for row in rows), "nothing"]
         yield from (f"/{kind}/{one}" for one in ids[parameter])
+    mappings, batches = client.get("/api/v1/mappings").json(), client.get("/api/v1/recordings/batches").json()
+    ids["mapping_id"] = [*(row["id"] for row in mappings["mappings"]), "nothing"]
+    ids["batch_id"] = [*(row["id"] for row in batches["batches"]), "nothing"]
     ids["sha256"] = [row["raw_sha256"] for row in client.get("/api/v1/recordings").json()["recordings"]]
     described: Any = client.app
     for path, item in described.openapi()["paths"].items():
