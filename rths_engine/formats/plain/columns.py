@@ -21,6 +21,7 @@ from rths_engine.formats.plain import (
     peaks,
     stamps,
     text_columns,
+    time_columns,
     timing,
     transposed,
 )
@@ -94,7 +95,7 @@ def _table(
     others = sum(timing.time_like(one, k, named) != "" or one.quantity == "time" for k, one in enumerate(done.columns))
     return Table(
         "columns of text",
-        distinct(done.columns),
+        time_columns.assigned(distinct(done.columns)),
         named=named,
         notes=(*notes, *done.notes),
         statements=(

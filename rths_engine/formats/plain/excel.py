@@ -70,7 +70,9 @@ def read(source: Source) -> Table:
     notes += [f"left out: {issue.where} {issue.problem}" for issue in refused]
     several = len(found) > 1
     named = [
-        replace(one, name=f"{sheet}/{one.name}" if several else one.name) for sheet, table in found for one in table.columns
+        replace(one, name=f"{sheet}/{one.name}", time=f"{sheet}/{one.time}" if one.time else "") if several else one
+        for sheet, table in found
+        for one in table.columns
     ]
     notes += [f"sheet {sheet}: {note}" if several else note for sheet, table in found for note in table.notes]
     statements = tuple(one for _, table in found for one in table.statements)

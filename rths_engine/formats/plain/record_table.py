@@ -5,29 +5,29 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rths_engine.formats.plain import arranged, blocks, form, headings, peaks, timing
+from rths_engine.formats.plain import arranged, blocks, form, headings, peaks, time_columns, timing
 from rths_engine.formats.plain.blocks import Block
 from rths_engine.formats.plain.form import Line
 from rths_engine.formats.plain.header_facts import Facts
-from rths_engine.formats.plain.record_time import step_of
+from rths_engine.formats.plain.record_time import Step, step_of
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation import unit_names
-from rths_engine.foundation.errors import FileError
+from rths_engine.foundation.errors import FileError, Issue
 
 _OF_TIME = ("time step", "peak", "time of")  # statements that are made anew in the units of ground motions
 
 
 def of_table(table: Table, facts: Facts) -> Table:
     """The signals of a table with names, each with its unit and with the step of its time column."""
-    time = next((one for one in table.columns if one.quantity == "time"), None)
-    if time is None and not table.named and arranged.is_time(table.columns[0].values):
-        time = table.columns[0]
+    clocks = [one for one in table.columns if one.quantity == "time"]
+    if not clocks and not table.named and arranged.is_time(table.columns[0].values):
+        clocks = [table.columns[0]]
     signals = [
         one
         for k, one in enumerate(table.columns)
-        if one is not time and one.quantity != "time" and timing.time_like(one, k, table.named) != "sample number"
+        if not any(one is clock for clock in clocks) and timing.time_like(one, k, table.named) != "sample number"
     ]
-    step = step_of(time.values if time else None, facts, lambda k: k + 1, len(table.columns[0].values), time)
+    steps = {one.name: _step(_clock_of(one, clocks), facts, len(table.columns[0].values)) for one in signals}
     found = []
     confirmed = peaks.confirmed_unit([one.values for one in signals], facts)
     for column in signals:
@@ -36,10 +36,29 @@ def of_table(table: Table, facts: Facts) -> Table:
         quantity = headings.quantity_of(name, column.unit or own)
         if written.none and quantity in {"", headings.BY_DIMENSION.get(facts.unit.dimension, "acceleration")}:
             written = confirmed if facts.unit.none else facts.unit
-        found.append(with_unit(replace(column, dt=step.dt, start=step.start), written, quantity))
+        step = steps[column.name]
+        found.append(with_unit(replace(column, dt=step.dt, start=step.start, time=""), written, quantity))
     stated = [one for one in table.statements if not one.what.startswith(_OF_TIME)]
-    every = (*step.statements, *stated, *peaks.statements(found, facts))
-    return replace(table, format="plain columns", columns=tuple(found), statements=every, notes=(*table.notes, *step.notes))
+    of_steps = [one for step in steps.values() for one in step.statements]
+    every = (*dict.fromkeys(of_steps), *stated, *peaks.statements(found, facts))
+    notes = dict.fromkeys([*table.notes, *(one for step in steps.values() for one in step.notes)])
+    return replace(table, format="plain columns", columns=tuple(found), statements=every, notes=tuple(notes))
+
+
+def _clock_of(column: Column, clocks: Sequence[Column]) -> Column | None:
+    """The time column of a signal. Raises FileError where the table has several clocks and assigns none of them to it."""
+    if column.time:
+        return next(one for one in clocks if one.name == column.time)
+    other = next((one for one in clocks[1:] if not time_columns.same(clocks[0], one)), None)
+    if other is not None:
+        problem = f"has two time columns with other times, {clocks[0].name} and {other.name}: which is that of {column.name}?"
+        fix = "put each time column left of its signals, or give each component in a file of its own"
+        raise FileError(Issue("file", problem, fix=fix))
+    return clocks[0] if clocks else None
+
+
+def _step(clock: Column | None, facts: Facts, count: int) -> Step:
+    return step_of(clock.values if clock else None, facts, lambda k: k + 1, count, clock)
 
 
 def with_unit(column: Column, written: unit_names.Written, quantity: str = "") -> Column:

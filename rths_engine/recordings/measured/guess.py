@@ -62,7 +62,12 @@ def guess(table: Table) -> Guess:
         raise MeasuredError(Issue("file", problem, ", ".join(list(table.names)[:8]), "write a mapping: docs/importing.md"))
     notes = [*table.notes, *progress.notes]
     timed = any(channel.role == "t" for channel in channels)
-    if not timed and any(not (one.dt or one.time) for one in (table.column(channel.column, "") for channel in channels)):
+    asked = any(why == guess_time.SEVERAL for why in progress.left.values())
+    if (
+        not timed
+        and not asked
+        and any(not (one.dt or one.time) for one in (table.column(channel.column, "") for channel in channels))
+    ):
         notes.append("the file does not state its time step: give dt or rate")
     reasons = {name: one.why for name, one in progress.taken.items() if name not in progress.left}
     return Guess(Mapping(test=_test(channels), channels=tuple(channels)), reasons, progress.left, tuple(notes))

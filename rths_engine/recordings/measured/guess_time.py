@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rths_engine.formats.plain import time_columns
 from rths_engine.formats.table import Column
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.guess_progress import MARK, Progress
@@ -12,6 +13,8 @@ from rths_engine.recordings.measured.roles import to_si
 
 # chosen; see docs/decisions/0023
 _AGREES = 1e-3  # between the step of the column and the step that the file states
+
+SEVERAL = "one of several time columns with other times: map the one that belongs to the channels as t"
 
 
 def choose(progress: Progress) -> None:
@@ -25,9 +28,7 @@ def choose(progress: Progress) -> None:
             progress.left[column.name] = f"counts {first} ...: a sample number, not a time with a unit"
     called = progress.of("t")
     rising = [name for name in called if _rises(progress.table.names[name].values)]
-    for name in called:
-        if name != (rising or called)[0]:
-            progress.left[name] = "a second time column"
+    called, rising = _of_other_clocks(progress, called, rising)
     if not called and len(progress.table.columns) > 1:
         found = next((one for one in progress.unclear() if _rises(one.values, equally=True)), None)
         if found is not None:
@@ -38,6 +39,26 @@ def choose(progress: Progress) -> None:
     else:
         progress.step = progress.seconds = next((one.dt for one in progress.table.columns if one.dt), 0.0)
     _other_times(progress, (rising or called)[0] if called else "")
+
+
+def _of_other_clocks(progress: Progress, called: list[str], rising: list[str]) -> tuple[list[str], list[str]]:
+    """Leave out every time column but the first; all, where they are different clocks and the file assigns none of them."""
+    if not called:
+        return called, rising
+    first = progress.table.names[(rising or called)[0]]
+    others = [progress.table.names[name] for name in called if name != first.name]
+    different = [one for one in others if one.name in rising and not time_columns.same(first, one)]
+    assigned = {one.time for one in progress.table.columns if one.time}
+    if any(len(one.values) == len(first.values) and one.name not in assigned for one in different) and not assigned:
+        listed = " and ".join(one.name for one in (first, *different))
+        for one in (first, *others):
+            progress.left[one.name] = SEVERAL
+        progress.notes.append(f"{listed} are times of different clocks: map as t the one that belongs to the channels")
+        return [], []
+    for one in others:
+        of = [each.name for each in progress.table.columns if each.time == one.name]
+        progress.left[one.name] = f"the time of {', '.join(of)}" if of else "a second time column"
+    return called, rising
 
 
 def _other_times(progress: Progress, name: str) -> None:
