@@ -105,8 +105,7 @@ def _cut(column: Column, end: int) -> Column:
 
 def _end(values: Array) -> int:
     """The index after the last value."""
-    filled = np.flatnonzero(~np.isnan(values[-1:])) if len(values) else []
-    if len(filled):
+    if len(values) and not np.isnan(values[-1]):
         return len(values)
     every = np.flatnonzero(~np.isnan(values))
     return int(every[-1]) + 1 if len(every) else 0
