@@ -24,7 +24,7 @@ from rths_engine.formats.laboratory import (
     tracerdaq,
     uff,
 )
-from rths_engine.formats.plain import columns, excel, json_file, record
+from rths_engine.formats.plain import columns, excel, json_file, markers, record
 from rths_engine.formats.source import Source
 from rths_engine.formats.strong_motion import (
     asa,
@@ -103,7 +103,9 @@ def _read(source: Source, otherwise: Format, format: str | None) -> Table:
     if format is not None and format not in BY_KEY:
         raise FileError(Issue("format", "is not a known format", format, "choose one of " + ", ".join(BY_KEY)))
     chosen = BY_KEY[format] if format else detected(source, otherwise)
-    return checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
+    table = checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
+    markers.refuse_in(table)
+    return table
 
 
 def detected(source: Source, otherwise: Format = COLUMNS) -> Format:

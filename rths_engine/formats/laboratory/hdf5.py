@@ -19,6 +19,11 @@ from rths_engine.formats.table import MOST_COLUMNS, Table, refuse_many
 from rths_engine.foundation.errors import FileError, Issue
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
+# by definition of HDF5's dimension scales and tables, and of PyTables
+_OF_LIBRARIES = {
+    "CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "DIMENSION_LABELS", "TITLE", "VERSION", "FLAVOR", "NROWS",
+    "PYTABLES_FORMAT_VERSION", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties",
+}  # fmt: skip
 _RUN = "rths-recording/"
 
 
@@ -68,7 +73,7 @@ def _add(found: dict[str, Any], name: str, item: h5py.Dataset) -> None:
 
 
 def _attributes(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
-    plain = {name: _plain(value) for name, value in item.attrs.items() if not name.startswith("_") and name.upper() != name}
+    plain = {name: _plain(value) for name, value in item.attrs.items() if name not in _OF_LIBRARIES and name[:6] != "FIELD_"}
     return {name: value for name, value in plain.items() if value is not None}
 
 
@@ -87,7 +92,7 @@ def _run(file: h5py.File) -> dict[str, Any]:
     refuse_many(signals.size)
     values = signals[()]
     channels = json.loads(file.attrs["channels"])
-    return {one["key"]: {"data": values[:, k], "dt": dt, "units": one["unit"]} for k, one in enumerate(channels)}
+    return {one["key"]: {"data": values[:, k], "dt": f"{dt!r} s", "units": one["unit"]} for k, one in enumerate(channels)}
 
 
 FORMAT = Format(

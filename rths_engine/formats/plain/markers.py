@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from rths_engine.formats.scratch import on_disk
 from rths_engine.formats.statement import Written
+from rths_engine.formats.table import Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -27,6 +30,7 @@ _JUMP = 8.0  # times the largest step beside it, on both sides
 _BESIDE = 50  # samples
 _STATES = 2  # of a switch
 _BLOCK = 1 << 16  # samples looked at in one go
+_CODES = 10  # a column of fewer values is one of codes, such as a status, in which 99 can be a code
 
 
 MARKERS = frozenset((*_DIGITS, *_POWERS))
@@ -109,6 +113,21 @@ def refuse_infinite(values: Array, name: str, line: Callable[[int], int]) -> Non
         problem = f"{name} is infinite"
         fix = "leave the field empty where the value is missing, or leave the column out"
         raise FileError(Issue(f"line {line(int(at[0]))}", problem, f"{values[at[0]]:g}", fix))
+
+
+def refuse_in(table: Table) -> None:
+    """Raises FileError where a sample is a usual marker that stands out, in a file of any format; it names the sample."""
+    issues: list[Issue] = []
+    for column in table.columns:
+        if on_disk(column.values) or not len(column.values):
+            continue  # of a text, whose reader has named the line
+        try:
+            refuse(column.values, column.name, lambda at: at + 1)
+        except FileError as refusal:
+            if len(np.unique(column.values)) >= _CODES:
+                issues += [replace(one, where=one.where.replace("line", "sample", 1)) for one in refusal.issues]
+    if issues:
+        raise FileError(issues)
 
 
 def _refusal(values: Array, at: np.ndarray, name: str, line: Callable[[int], int], why: str) -> FileError:
