@@ -24,7 +24,11 @@ _OLE, _ZIP = b"\xd0\xcf\x11\xe0", b"PK\x03\x04"
 _BOOK = "Workbook".encode("utf-16-le")
 _PARTS = {"xl/workbook.xml", "xl/workbook.bin"}
 _OPEN_DOCUMENT = b"application/vnd.oasis.opendocument.spreadsheet"
-_SHORTEST = 0.01  # s; chosen; see docs/decisions/0023
+# chosen; see docs/decisions/0023
+_SHORTEST = 0.01  # s
+_SURE = 1.0  # s: steps that stay equal for so long, to the millisecond, are right within 0.1 %
+_EQUAL = 1e-4  # s
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 def looks_like(source: Source) -> bool:
@@ -56,7 +60,7 @@ def read(source: Source) -> Table:
                 notes.append(f"sheet {about.name} is hidden: left out")
                 continue
             rows = sheet.to_python(skip_empty_area=False)
-            if sum(any(_is_number(cell) for cell in row) for row in rows) < 2:
+            if not _has_numbers(rows):
                 notes.append(f"sheet {about.name} contains no rows of numbers")
                 continue
             try:
@@ -69,15 +73,38 @@ def read(source: Source) -> Table:
         )
     notes += [f"left out: {issue.where} {issue.problem}" for issue in refused]
     several = len(found) > 1
-    named = [
-        replace(one, name=f"{sheet}/{one.name}", time=f"{sheet}/{one.time}" if one.time else "") if several else one
-        for sheet, table in found
-        for one in table.columns
-    ]
+    named = distinct(
+        [replace(one, name=f"{sheet}/{one.name}" if several else one.name) for sheet, table in found for one in table.columns]
+    )
     notes += [f"sheet {sheet}: {note}" if several else note for sheet, table in found for note in table.notes]
     statements = tuple(one for _, table in found for one in table.statements)
     header = "\n\n".join(f"{sheet}\n{table.header}" for sheet, table in found)
-    return Table("spreadsheet", distinct(named), all(table.named for _, table in found), {}, tuple(notes), statements, header)
+    return Table(
+        "spreadsheet",
+        _timed(named, [table for _, table in found]),
+        all(table.named for _, table in found),
+        {},
+        tuple(notes),
+        statements,
+        header,
+    )
+
+
+def _timed(named: Sequence[Column], sheets: Sequence[Table]) -> tuple[Column, ...]:
+    """The columns, each with the time of its sheet where the file has several different times: the nearest to its left."""
+    clocks = [one.values for table in sheets for one in table.columns if one.quantity == "time"]
+    if all(np.array_equal(clocks[0], one) for one in clocks[1:]):
+        return tuple(replace(one, time="") for one in named)
+    result: list[Column] = []
+    for table in sheets:
+        own = named[len(result) : len(result) + len(table.columns)]
+        times = [k for k, one in enumerate(table.columns) if one.quantity == "time"]
+        names = [one.name for one in table.columns]
+        for k, column in enumerate(own):
+            given = table.columns[k].time
+            nearest = names.index(given) if given else max((at for at in times if at < k), default=times[0] if times else k)
+            result.append(replace(column, time="" if k in times or not times else own[nearest].name))
+    return tuple(result)
 
 
 def _table(sheet: str, rows: Sequence[Sequence[Any]]) -> Table:
@@ -106,9 +133,10 @@ def _seconds(sheet: str, cells: Sequence[Any]) -> dict[int, float]:
     if len(moments) < 2:
         return {}
     first = min(moments.values())
-    found = {at: moment - first for at, moment in moments.items()}
-    step = float(np.median(np.diff(list(found.values()))))
-    if 0 <= step < _SHORTEST:
+    found = {at: (moment - first) / timedelta(seconds=1) for at, moment in moments.items()}
+    steps = np.diff(list(found.values()))
+    step = float(np.median(steps))
+    if 0 <= step < _SHORTEST and (sum(steps) < _SURE or float(np.ptp(steps)) > _EQUAL):
         problem = f"has times in steps of {step:g} s; cells of times are rounded to 0.001 s"
         raise FileError(
             Issue(f"sheet {sheet}", problem, fix="save the time as numbers in s, or leave it out and give the rate")
@@ -116,14 +144,22 @@ def _seconds(sheet: str, cells: Sequence[Any]) -> dict[int, float]:
     return found
 
 
-def _moment(cell: Any) -> float | None:
+def _moment(cell: Any) -> timedelta | None:
     if isinstance(cell, datetime):
-        return (cell - datetime(1900, 1, 1)).total_seconds()
+        return cell - datetime(1900, 1, 1)
     if isinstance(cell, date):
-        return (cell - date(1900, 1, 1)).total_seconds()
+        return datetime.combine(cell, time()) - datetime(1900, 1, 1)
     if isinstance(cell, time):
-        return cell.hour * 3600 + cell.minute * 60 + cell.second + cell.microsecond * 1e-6
-    return cell.total_seconds() if isinstance(cell, timedelta) else None
+        return timedelta(hours=cell.hour, minutes=cell.minute, seconds=cell.second, microseconds=cell.microsecond)
+    return cell if isinstance(cell, timedelta) else None
+
+
+def _has_numbers(rows: Sequence[Sequence[Any]]) -> bool:
+    """Whether two rows contain a number, or most rows contain only numbers that are stored as text."""
+    if sum(any(_is_number(cell) for cell in row) for row in rows) >= 2:
+        return True
+    filled = [[str(cell).strip() for cell in row if cell != ""] for row in rows]
+    return 2 * sum(bool(row) and all(_NUMBER.fullmatch(cell) for cell in row) for row in filled) > len(rows)
 
 
 def _text(cell: Any, clock: dict[int, float], at: int) -> str:

@@ -16,6 +16,7 @@ from rths_engine.formats.plain.markers import MARKERS
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Table
 from rths_engine.foundation.errors import FileError
+from rths_engine.recordings.measured import guess, imported
 from tests.engine.formats import binaries
 from tests.engine.formats.writers import xlsx
 from tests.engine.formats.writers.xlsx import Sheet
@@ -79,6 +80,60 @@ def test_other_documents_are_no_workbooks() -> None:
         registry.read(Source("a.zip", content=b"PK\x03\x04" + bytes(60)))
     with pytest.raises(FileError, match="old Office document"):
         registry.read(Source("a.doc", content=b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600)))
+
+
+def clocked(step: float, name: str, begin: float = 0.0) -> list[list[Any]]:
+    return [["Time (s)", name], *([begin + step * k, float(f)] for k, f in enumerate(F))]
+
+
+@pytest.mark.parametrize(
+    "other", [clocked(0.008, "Disp (mm)"), clocked(0.004, "Disp (mm)", 0.1), clocked(0.004, "Disp (mm)")[:31]]
+)
+def test_each_sheet_has_its_own_time_where_their_times_differ(other: list[list[Any]]) -> None:
+    table = read(xlsx.file(Sheet("daq", clocked(0.004, "Force (kN)")), Sheet("lvdt", other)))
+    assert [(one.name, one.time) for one in table.columns] == [
+        ("daq/Time (s)", ""),
+        ("daq/Force (kN)", "daq/Time (s)"),
+        ("lvdt/Time (s)", ""),
+        ("lvdt/Disp (mm)", "lvdt/Time (s)"),
+    ]
+
+
+def test_two_times_in_a_sheet_are_those_of_the_columns_at_their_right() -> None:
+    rows = [[*one, *other] for one, other in zip(clocked(0.004, "Force (kN)"), clocked(0.008, "Disp (mm)"), strict=True)]
+    table = read(xlsx.file(Sheet("Data", rows)))
+    assert [one.time for one in table.columns] == ["", "Time (s) (column 1)", "", "Time (s) (column 3)"]
+    measured = imported(table, guess(table).mapping)
+    values = {one.role: one.values for one in measured.channels}
+    np.testing.assert_allclose(values["f_meas"], 1e3 * F[: len(values["f_meas"])], rtol=1e-12)
+    np.testing.assert_allclose(values["x_meas"][::2], 1e-3 * F[: len(values["x_meas"][::2])], atol=1e-5)
+
+
+def test_equal_times_on_two_sheets_are_one_time() -> None:
+    table = read(xlsx.file(Sheet("A", clocked(0.004, "Force (kN)")), Sheet("B", clocked(0.004, "Disp (mm)"))))
+    assert not any(one.time for one in table.columns)
+
+
+@pytest.mark.parametrize("begin", [datetime(2020, 1, 1), timedelta(hours=7)])
+@pytest.mark.parametrize("step", [0.004, 0.005, 0.002])
+def test_short_steps_of_whole_milliseconds_that_stay_equal_are_read(begin: Any, step: float) -> None:
+    rows: list[list[Any]] = [["Time", "Force (kN)"], *([begin + timedelta(seconds=step * k), 1.0 + k] for k in range(600))]
+    time, _ = read(xlsx.file(Sheet("Data", rows))).columns
+    np.testing.assert_allclose(time.values, step * np.arange(600), atol=1e-9)
+
+
+@pytest.mark.parametrize("step", [1 / 1024, 1 / 256, 1 / 300])
+def test_short_steps_that_milliseconds_cannot_hold_are_refused(step: float) -> None:
+    rows: list[list[Any]] = [["Time", "Force (kN)"], *([timedelta(seconds=step * k), 1.0 + k] for k in range(2000))]
+    with pytest.raises(FileError, match=r"cells of times are rounded to 0\.001 s"):
+        read(xlsx.file(Sheet("Data", rows)))
+
+
+@pytest.mark.parametrize("texts", [(0, 1), (0,), (1,)])
+def test_numbers_that_are_stored_as_text_are_numbers(texts: tuple[int, ...]) -> None:
+    rows = [[repr(cell) if k in texts else cell for k, cell in enumerate(row)] for row in ROWS]
+    time, force = read(xlsx.file(Sheet("Data", HEAD + rows))).columns
+    assert np.array_equal(time.values, T) and np.array_equal(force.values, F)
 
 
 CELLS = st.floats(-1e9, 1e9, allow_nan=False).filter(lambda value: abs(value) not in MARKERS)  # marks of missing values
