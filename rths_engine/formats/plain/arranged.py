@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from rths_engine.foundation.arrays import Array
 
 _MOSTLY = 0.5  # share of equal steps from which a first column is time; chosen, see docs/decisions/0023
 _UNIFORM = 0.05  # of a step: time stamps often have few digits; chosen, see docs/decisions/0023
+_ROWS = 40  # rows of which the steps are compared; chosen, see docs/decisions/0023
+_ALIKE = 2.0  # of the mean squares of the steps of one record in order; chosen, see docs/decisions/0023
+_MORE = 3.0  # times these is the mean square of a step over a whole row; chosen, see docs/decisions/0023
 
 Row = tuple[int, list[float]]
 
@@ -67,6 +70,9 @@ def arranged(rows: Sequence[Row], texts: Sequence[str], facts: Facts, single: bo
         return in_order
     if len(rows) in counts or _names(facts, width):
         return Arranged(beside, None, lambda k: rows[k][0], bool(_names(facts, width)))
+    if continues(table):
+        note = f"one record of {width} values a line: it goes on from line to line as it does within a line"
+        return replace(in_order, note=note)
     note = (
         f"the file does not state whether its lines are {width} values of one record in order or {width} columns: "
         "choose the channel, or state the number of samples in the header"
@@ -74,6 +80,19 @@ def arranged(rows: Sequence[Row], texts: Sequence[str], facts: Facts, single: bo
     return Arranged(
         {f"one record, {width} values a line": flat, **beside}, None, lambda k: rows[min(k, len(rows) - 1)][0], note=note
     )
+
+
+def continues(table: Array) -> bool:
+    """Whether the rows are one record in order: steps are alike within and between rows, and its columns change more.
+
+    In columns of signals that resemble one another the steps within a row are other steps than those from row to row.
+    """
+    if len(table) < _ROWS:
+        return False
+    within = np.mean(np.diff(table, axis=1) ** 2, axis=0)
+    steps = np.append(within, np.mean((table[1:, 0] - table[:-1, -1]) ** 2))
+    down = np.mean(np.diff(table, axis=0) ** 2, axis=0)
+    return bool(np.max(steps) < _ALIKE * np.min(steps) and np.min(down) > _MORE * np.max(steps))
 
 
 def off_the_steps(times: Array, dt: float) -> np.ndarray:

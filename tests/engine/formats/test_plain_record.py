@@ -284,3 +284,27 @@ def test_what_agrees_or_states_something_else_does_not_refuse_the_record(stateme
 def test_a_unit_that_only_the_peak_states_counts_where_the_peak_agrees() -> None:
     assert read(made.record(A, ["dt = 0.01 s", "PGA: 182.0 gal"])).columns[0].unit == "gal"
     assert read(made.record(A, ["dt = 0.01 s", "PGA: 0.18559 g"])).columns[0].unit == ""
+
+
+def lines_of_five(values: np.ndarray) -> str:
+    return "\n".join("".join(f"{value:14.6E}" for value in row) for row in values.reshape(-1, 5))
+
+
+def test_a_smooth_record_in_lines_of_five_is_read_in_order_without_a_stated_count() -> None:
+    record = np.random.default_rng(1).standard_normal(2005).cumsum()[:2000] * np.hanning(2000)
+    table = read(f"# {GAL}\n{lines_of_five(record)}\n")
+    values(table, record, within=1e-4)
+    assert "goes on from line to line" in " ".join(table.notes)
+
+
+@pytest.mark.parametrize("kind", ["like one another", "independent", "noise"])
+def test_columns_without_names_are_not_taken_for_one_record(kind: str) -> None:
+    random = np.random.default_rng(2)
+    motion = random.standard_normal((400, 5)).cumsum(axis=0)
+    columns = {
+        "like one another": motion[:, :1] + 0.01 * random.standard_normal((400, 5)),
+        "independent": motion,
+        "noise": random.standard_normal((400, 5)),
+    }[kind]
+    table = read(f"# {GAL}\n{lines_of_five(columns)}\n")
+    assert len(table.columns) == 6 and "choose the channel" in " ".join(table.notes)
