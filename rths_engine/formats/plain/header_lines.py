@@ -28,16 +28,21 @@ class Peak:
 
 _NUMBER = rf"(?P<v>{words.NUMBER})"
 _BEFORE = r"(?<![a-z0-9_])"
+_IN, _END = r"(?:(?:\s*|(?P<apart>\s*[,;\t]\s*))", r"(?(apart)(?=\s*(?:$|[,;\t]))))?"  # a unit can be a field of its own
+_GROUPED = re.compile(r"[1-9]\d{0,2},\d{3}")
 _COUNT = re.compile(rf"{_BEFORE}(?:{words.COUNT}){words.BRACKET}{words.IS}{_NUMBER}(?!\s*(?:s|sec|hz)\b)")
 _COUNT_FIRST = re.compile(rf"(?<![\w.,-])(?P<v>\d[\d.,'\u2019]*)\s+(?:{words.COUNT_AFTER})")
-_RATE = re.compile(rf"{_BEFORE}(?:{words.RATE}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.RATE_UNIT})?")
+_RATE = re.compile(rf"{_BEFORE}(?P<label>{words.RATE}){words.BRACKET}{words.IS}{_NUMBER}{_IN}(?P<unit>{words.RATE_UNIT}){_END}")
 _RATE_FIRST = re.compile(
-    rf"(?:{words.RATE_BEFORE}|@\s*){_NUMBER}\s*(?P<unit>{words.RATE_UNIT})|{_BEFORE}(?P<n>\d+)\s*(?P<u>{words.PER_SECOND}|sps\b)"
+    rf"(?:{words.RATE_BEFORE}|@\s*){_NUMBER}\s*(?P<unit>{words.RATE_UNIT})"
+    rf"|(?<![\w*^.,/-])(?P<n>{words.NUMBER})\s*(?P<u>{words.PER_SECOND}|{words.PER_LONGER}|k?sps\b)(?!\s*[:=])"
 )
-_STEP = re.compile(rf"{_BEFORE}(?:{words.STEP}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.TIME_UNIT})?")
+_OTHER_RATE_UNIT = re.compile(words.OTHER_RATE_UNIT)
+_STEP = re.compile(rf"{_BEFORE}(?:{words.STEP}){words.BRACKET}{words.IS}{_NUMBER}{_IN}(?P<unit>{words.TIME_UNIT}){_END}")
 _STEP_UNIT = re.compile(rf"(?:{words.STEP_WITH_UNIT}{words.IS}|{words.STEP_BEFORE}){_NUMBER}\s*(?P<unit>{words.TIME_UNIT})")
 _DURATION = re.compile(
-    rf"{_BEFORE}(?P<label>{words.DURATION}){words.BRACKET}{words.IS}{_NUMBER}\s*(?P<unit>{words.TIME_UNIT}|samples|points)?"
+    rf"{_BEFORE}(?P<label>{words.DURATION}){words.BRACKET}{words.IS}{_NUMBER}"
+    rf"{_IN}(?P<unit>{words.TIME_UNIT}|samples|points){_END}"
 )
 PEAK = re.compile(rf"{_BEFORE}(?P<label>{words.PEAK})")
 _PEAK_VALUE = re.compile(
@@ -74,14 +79,22 @@ def steps(text: str, where: str) -> tuple[list[Written], list[str]]:
     unclear: list[str] = []
     for match in _RATE.finditer(text):
         value = words.number(match["v"])
-        unit = match["unit"] or match["bracket"] or ""
-        if value <= 0 or (not match["unit"] and unit and not re.fullmatch(words.RATE_UNIT, unit)):
+        unit = match["unit"] or match["bracket"] or (match["label"] if re.search(words.PER_LONGER, match["label"]) else "")
+        if _GROUPED.fullmatch(match["v"]):
+            unclear.append(f"{where} states a rate of {match['v']}, which can be {value:g} or {match['v'].replace(',', '')}")
             continue
+        if not match["unit"] and (other := _OTHER_RATE_UNIT.match(text, match.end("v"))):
+            unclear.append(f"{where} states a rate of {value:g} in the unknown unit '{other[0].strip()}'")
+            continue
+        if value <= 0 or (not match["unit"] and unit and not re.search(words.RATE_UNIT, unit)):
+            continue
+        if not unit and re.search(words.PER_SECOND, match["label"]):
+            unit = "hz"
         if not unit and value < 1 / LONGEST_UNSTATED:
             unclear.append(f"{where} states a rate of {value:g} without a unit")
             continue
         found.append(_step_of_rate(match["v"], unit, where))
-    if not found:
+    if not found and not unclear:
         found += [_step_of_rate(one["v"] or one["n"], one["unit"] or one["u"], where) for one in _RATE_FIRST.finditer(text)]
     for match in (*_STEP.finditer(text), *_STEP_UNIT.finditer(text)):
         unit = match["unit"] or match.groupdict().get("bracket") or ""
@@ -97,8 +110,16 @@ def steps(text: str, where: str) -> tuple[list[Written], list[str]]:
     return found, unclear
 
 
+def decimation(text: str) -> str:
+    """The statement that only every n-th sample was kept; empty where the line has none."""
+    found = words.DECIMATED.search(text)
+    return found[0].strip() if found and words.number(found["v"] or found["e"]) != 1 else ""
+
+
 def _step_of_rate(text: str, unit: str, where: str) -> Written:
     scale = 1e3 if unit.startswith("k") else 1.0
+    if re.search(words.PER_LONGER, unit):
+        scale = 1 / 3600 if re.search(words.PER_HOUR, unit) else 1 / 60
     rate = _written(text, where, scale)
     return Written(1 / rate.value, rate.within / rate.value**2, where)
 

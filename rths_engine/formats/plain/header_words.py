@@ -42,13 +42,23 @@ COUNT_AFTER = (
 )
 
 _PER = r"(?:/|\bper\b|\bpro\b|\bpar\b|\bpor\b|\bal\b)"
-PER_SECOND = (
-    r"(?:samples?|pts|points|scans|s|mesures?|werte|muestras|campioni|echantillons)?"
-    rf"\s*{_PER}\s*s(?:ec\w*|ekunde|egundo|econdo)?\b"
+_SAMPLES = r"(?:samples?|smpls?|pts|points|scans|readings?|values?|mesures?|werte|muestras|campioni|echantillons|ornek)"
+_SECOND = r"s(?:ec\w*|ekunde|egundo|econdo|n|aniye)?"
+_MINUTE = r"min(?:ut\w*|\.)?"
+_HOUR = r"(?:h(?:r|our)?|std|stunde|hora|heure|ora)"
+PER_SECOND = rf"(?:k(?:ilo)?\s*(?={_SAMPLES}|s\s*/))?(?:{_SAMPLES}|s|1)?\s*{_PER}\s*{_SECOND}\b"
+PER_LONGER = rf"(?:{_SAMPLES}|s|1)?\s*{_PER}\s*(?:{_MINUTE}|{_HOUR})(?![a-z])|(?:min|h)\^?-1\b"
+PER_HOUR = rf"{_PER}\s*{_HOUR}(?![a-z])|h\^?-1"
+RATE_UNIT = rf"k?hz\b|k?sps\b|(?:kilo)?hertz\b|{PER_SECOND}|{PER_LONGER}|s\^?-1\b"
+OTHER_RATE_UNIT = rf"(?!\s*{_PER}\s*(?:ch|k?can))\s*(?:[a-z]*hz\b|[a-z]*\s*{_PER}\s*[a-z]+|[a-z]+\^?-1\b|cpm\b|[a-z]?sp[a-rt-z]\b)"
+DECIMATED = re.compile(
+    r"(?:(?:decimat|dezimier|dezimation|decimaci|decimaz|downsampl|down-sampl|subsampl|sub-sampl)\w*"
+    r"|(?:data\s+)?reduction\s+(?:factor|ratio))\s*(?:factor|ratio|faktor|by|of|to|from|auf|um|von|:|=|,|;|\t|\()*\s*(?P<v>\d+(?:\.\d+)?)"
+    r"|every\s+(?P<e>\d+)(?:st|nd|rd|th)\s+(?:sample|point|scan|value)"
 )
-RATE_UNIT = rf"k?hz\b|k?sps\b|{PER_SECOND}|s\^?-1\b"
 RATE = "|".join(
     (
+        rf"sps(?=\s*[:=,;\t(\[]\s*\d)|{_SAMPLES}\s*{_PER}\s*(?:{_SECOND}|{_MINUTE})(?=\s*[:=,;\t]\s*\d)",
         r"samp(?:l(?:e|ing))?\.?\s*(?:rate|freq(?:uency|\.)?)|\bfs(?=\s*[:=(\[])|f_s|samplerate|samplefreq",
         r"(?:scan|acquisition|acq|daq|data|storage|logging|log|recording|record|digiti[sz]ation|digiti[sz]ing|save|output|"
         r"reading)\s*(?:rate|freq(?:uency|\.)?)",
@@ -56,6 +66,7 @@ RATE = "|".join(
         r"(?:frequence|taux|cadence|vitesse)\s+(?:d['\u2019]\s*|de\s+)(?:echantillonnage|acquisition|mesure)",
         r"(?:frecuencia|tasa|velocidad)\s+de\s+(?:muestreo|adquisicion)|(?:frequencia|taxa)\s+de\s+(?:amostragem|aquisicao)",
         r"(?:frequenza|velocita|tasso)\s+di\s+(?:campionamento|acquisizione)|ornekleme\s+(?:frekansi|hizi|orani)",
+        r"ornekleme\s+sikligi|(?:frequency|frequenz)\s+of\s+sampling",
         r"\u30b5\u30f3\u30d7\u30ea\u30f3\u30b0(?:\u5468\u6ce2\u6570|\u30ec\u30fc\u30c8)|\u91c7\u6837(?:\u9891\u7387|\u7387)",
     )
 )
@@ -128,6 +139,9 @@ COMPONENT = (
 )
 COMPONENTS = r"(?:components?|komponenten?|composantes?|componentes?|componenti|channels?|kanale)\s*[:=]\s*"
 
+_WIDE = re.compile("[\uff01-\uff9f]+")  # letters, digits and kana of another width
+_VOICED = "\u3099\u309a"  # marks of Japanese sounds, which tell one syllable from another
+
 
 def plain(text: str) -> str:
     """The text in lower case, without accents, in the signs of a keyboard."""
@@ -135,9 +149,11 @@ def plain(text: str) -> str:
 
 
 def without_accents(text: str) -> str:
-    """The text without accents, in the case in which it is written."""
-    apart = unicodedata.normalize("NFD", text.replace("\u00df", "ss"))
-    return "".join(sign for sign in apart if not unicodedata.combining(sign))
+    """The text without accents, in the case in which it is written; Japanese sounds keep their marks, wide signs are narrow."""
+    narrow = _WIDE.sub(lambda wide: unicodedata.normalize("NFKC", wide[0]), text)
+    apart = unicodedata.normalize("NFD", narrow.replace("\u00df", "ss").replace("\u0131", "i"))
+    kept = "".join(sign for sign in apart if sign in _VOICED or not unicodedata.combining(sign))
+    return unicodedata.normalize("NFC", kept)
 
 
 def number(text: str) -> float:
