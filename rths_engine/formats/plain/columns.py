@@ -16,6 +16,7 @@ from rths_engine.formats.plain import (
     count_line,
     form,
     header_facts,
+    heading_units,
     headings,
     markers,
     peaks,
@@ -59,6 +60,7 @@ def read(source: Source) -> Table:
     header = _numbered(source, [(at, text) for at, text in filled if at < start])
     rows_of_text = [(at, text) for at, text in filled if at >= start]
     heading = headings.find(header, own, len(numeric), empty)
+    stated_units = heading_units.settled(heading, header)
     _refuse_numbers_of_columns(source, rows_of_text, own, len(numeric))
     form.refuse_ambiguous([*_numbered(source, rows_of_text[:1]), *rows_of_text[1:]], own, bool(heading.names))
     body = _Body(source, own, numeric, [text for _, text in header])
@@ -71,12 +73,13 @@ def read(source: Source) -> Table:
     left = {k for k in empty if not heading.names or names[k] == f"column {k + 1}"}
     numbers = iter(values)
     columns = [
-        texts.times[k] if k in texts.times else _column(names[k], next(numbers), heading.units[k])
+        texts.times[k] if k in texts.times else _column(names[k], next(numbers), stated_units[k])
         for k, holds in enumerate(numeric)
         if holds or k in texts.times
     ]
     columns = [one for one in columns if one.name not in {names[k] for k in left}]
-    notes = [*texts.notes, *(one for one in (heading.note, units_row.evidence(heading.units)) if one)]
+    scaled = [f"{where} states '{text}': not applied" for where, text in facts.factors]
+    notes = [*texts.notes, *scaled, *(one for one in (heading.note, units_row.evidence(heading.units)) if one)]
     return _table(columns, facts, header, bool(heading.names), notes, line)
 
 

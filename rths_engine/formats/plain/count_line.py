@@ -47,8 +47,8 @@ def added(facts: Facts, found: CountLine) -> Facts:
     """The facts with those of the line."""
     where = f"line {found.line[0]}"
     steps = (*facts.steps, found.step) if found.step is not None else facts.steps
-    unit = facts.unit if found.unit.none else found.unit
-    return replace(facts, counts=(*facts.counts, Written(found.count, 0.0, where)), steps=steps, unit=unit)
+    units = facts.units if found.unit.none else (found.unit,)
+    return replace(facts, counts=(*facts.counts, Written(found.count, 0.0, where)), steps=steps, units=units)
 
 
 def with_numbers_above(facts: Facts, header: Sequence[Line], count: int, columns: int) -> Facts:

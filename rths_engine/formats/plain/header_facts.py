@@ -5,32 +5,28 @@ Both readers of plain text read it, and compare each of these with the data.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rths_engine.formats.plain import header_lines
+from rths_engine.formats.plain import header_lines, header_span, header_units
 from rths_engine.formats.plain import header_words as words
 from rths_engine.formats.plain.form import Line
 from rths_engine.formats.plain.header_lines import Peak
 from rths_engine.formats.statement import Statement, Written
-from rths_engine.formats.units_in_text import acceleration_in
 from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.errors import FileError, Issue
-
-_UNIT = re.compile(words.UNIT, re.IGNORECASE)
 
 # chosen; see docs/decisions/0023
 _SAME_STEP = 2e-3  # relative: two statements of one step in a header
 _ROUNDED = 0.02  # relative: rounding of a stated step, rate or duration, at most
 
 
-_NONE = unit_names.Written("")
-
-
 @dataclass(frozen=True)
 class Facts:
-    """What a header states. `steps` and `durations` in s; `unclear` names what lacks a unit; `width`: of a Fortran field."""
+    """What a header states. `steps` and `durations` in s; `unclear` names what lacks a unit; `width`: of a Fortran field.
+
+    `units`: of the data, one for each column or block where there are several. `factors`: line and statement of each.
+    """
 
     counts: tuple[Written, ...] = ()
     steps: tuple[Written, ...] = ()
@@ -39,9 +35,16 @@ class Facts:
     missing: tuple[Written, ...] = ()
     channels: tuple[Written, ...] = ()
     components: tuple[str, ...] = ()
-    unit: unit_names.Written = _NONE
+    units: tuple[unit_names.Written, ...] = ()
     width: int = 0
     unclear: tuple[str, ...] = ()
+    spans: tuple[tuple[Written, bool], ...] = ()
+    factors: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def unit(self) -> unit_names.Written:
+        """The unit of the data; no unit where the header states none, or several."""
+        return self.units[0] if len(self.units) == 1 else header_units.NONE
 
     @property
     def dt(self) -> float | None:
@@ -63,9 +66,9 @@ class Facts:
             found.append(Statement("number of channels", one.where, one.value, read))
         return found
 
-    def duration_statements(self, count: int, dt: float) -> list[Statement]:
+    def duration_statements(self, count: int, dt: float, start: float = 0.0) -> list[Statement]:
         """Each stated duration beside `count` samples at `dt`: from the first to the last sample, or one step more."""
-        found = []
+        found = header_span.statements(self.spans, count, dt, start)
         for one, sure in self.durations:
             spans = (count * dt, (count - 1) * dt)
             read = min(spans, key=lambda span: abs(span - one.value))
@@ -88,6 +91,8 @@ def read(header: Sequence[Line]) -> Facts:
     channels: list[Written] = []
     components: tuple[str, ...] = ()
     unclear: list[str] = []
+    factors: list[tuple[str, str, list[unit_names.Written]]] = []
+    decimated = ""
     width = 0
     for at, typed in header:
         text, where = words.plain(typed), f"line {at}"
@@ -101,8 +106,14 @@ def read(header: Sequence[Line]) -> Facts:
         channels += header_lines.channels(text, where)
         components = header_lines.components(text) or components
         width = header_lines.width(text) or width
+        if scaled := header_lines.factor(text):
+            factors.append((where, scaled, header_units.per_count(typed)))
+        if kept := header_lines.decimation(text):
+            decimated = f"{where} states '{kept}', and the header a time step: which samples it is of is not clear"
+    if decimated and steps:
+        steps, unclear = [], [decimated]
     _refuse_two(steps)
-    unit = _unit(header)
+    units_of_data = header_units.stated(header)
     clear = tuple(dict.fromkeys(unclear)) if not steps else ()
     return Facts(
         tuple(counts),
@@ -112,9 +123,11 @@ def read(header: Sequence[Line]) -> Facts:
         tuple(missing),
         tuple(channels),
         components,
-        unit,
+        units_of_data,
         width,
         clear,
+        header_span.spans(header),
+        tuple((where, text) for where, text, used in factors if not used or units_of_data[:1] != tuple(used)),
     )
 
 
@@ -124,22 +137,6 @@ def _refuse_two(steps: Sequence[Written]) -> None:
         if abs(one.value - first.value) > max(_SAME_STEP * first.value, min(one.within + first.within, _ROUNDED * first.value)):
             problem = f"states a time step of {one.value:.7g} s; {first.where} states {first.value:.7g} s"
             raise FileError(Issue(one.where, problem, fix="the file contradicts itself: get it again, or correct the header"))
-
-
-def _unit(header: Sequence[Line]) -> unit_names.Written:
-    """The unit of the data: after `units:`, else in a sentence about neither peaks nor sensors."""
-    own = []
-    for _, typed in header:
-        text = words.plain(typed)
-        if not words.OTHER_UNIT.search(text) and not header_lines.PEAK.search(text):
-            own.append(words.without_accents(typed))
-    for text in own:
-        if label := _UNIT.search(text):
-            named = re.split(r"[,;]|\s{2,}|\t|\bdt\b", text[label.end() :].strip(" \"'"), maxsplit=1)[0].strip(" \"'.")
-            whole, first = unit_names.read(named), unit_names.read(named.split(" ")[0])
-            if whole.unit or not first.none:
-                return whole if whole.unit else first
-    return acceleration_in("\n".join(own))
 
 
 def in_unit(peak: Peak, unit: str) -> Written | None:

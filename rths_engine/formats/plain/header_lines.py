@@ -24,6 +24,7 @@ class Peak:
     component: str = ""
     quantity: str = ""
     time: Written | None = None
+    least: bool = False
 
 
 _NUMBER = rf"(?P<v>{words.NUMBER})"
@@ -45,6 +46,8 @@ _DURATION = re.compile(
     rf"{_IN}(?P<unit>{words.TIME_UNIT}|samples|points){_END}"
 )
 PEAK = re.compile(rf"{_BEFORE}(?P<label>{words.PEAK})")
+MINIMUM = re.compile(rf"{_BEFORE}(?P<label>{words.MINIMUM})")
+_BARE_MINIMUM = re.compile(rf"{_BEFORE}(?P<label>{words.BARE_MINIMUM})")
 _PEAK_VALUE = re.compile(
     rf"\s*(?P<component>{words.COMPONENT})?{words.BRACKET}{words.IS}{_NUMBER}\s*[(\[]?\s*(?P<unit>[a-z%][a-z/^*\d.-]*)?"
 )
@@ -60,7 +63,8 @@ _COMPONENTS = re.compile(rf"{_BEFORE}{words.COMPONENTS}(?=[a-z])(.+)")
 _FORTRAN = re.compile(r"[(\[]\s*\d*\s*(?:\d+p,?)?\s*\d*[feg](\d+)\.\d+\s*[)\]]")
 
 
-def _written(text: str, where: str, scale: float = 1.0) -> Written:
+def written(text: str, where: str, scale: float = 1.0) -> Written:
+    """The number in a line, in the unit of which one is `scale`."""
     point = text if "." in text and "," not in text else text.replace(",", "" if "." in text else ".")
     return Written(words.number(text) * scale, last_digit(re.sub("['\u2019\u00a0\u202f]", "", point)) / 2 * scale, where)
 
@@ -106,7 +110,7 @@ def steps(text: str, where: str) -> tuple[list[Written], list[str]]:
         if not unit and value > LONGEST_UNSTATED:
             unclear.append(f"{where} states a step of {value:g} without a unit")
             continue
-        found.append(_written(match["v"], where, _scale(unit)))
+        found.append(written(match["v"], where, scale(unit)))
     return found, unclear
 
 
@@ -120,11 +124,11 @@ def _step_of_rate(text: str, unit: str, where: str) -> Written:
     scale = 1e3 if unit.startswith("k") else 1.0
     if re.search(words.PER_LONGER, unit):
         scale = 1 / 3600 if re.search(words.PER_HOUR, unit) else 1 / 60
-    rate = _written(text, where, scale)
+    rate = written(text, where, scale)
     return Written(1 / rate.value, rate.within / rate.value**2, where)
 
 
-def _scale(unit: str) -> float:
+def scale(unit: str) -> float:
     """Seconds in one unit of time as headers write it."""
     plain = "us" if unit[:1] in {"u", "\u00b5", "\u03bc"} else "ms" if unit.startswith(("ms", "milli")) else unit
     return next((scale for start, scale in _SCALES.items() if plain.startswith(start)), 1.0)
@@ -138,18 +142,34 @@ def durations(text: str, where: str) -> Iterator[tuple[Written, bool]]:
         unit = match["unit"] or match["bracket"] or ""
         timed = bool(re.fullmatch(words.TIME_UNIT, unit))
         if timed or (not unit and "length" not in match["label"]):
-            yield _written(match["v"], where, _scale(unit) if timed else 1.0), timed
+            yield written(match["v"], where, scale(unit) if timed else 1.0), timed
 
 
 def with_peaks(peaks: list[Peak], text: str, where: str) -> list[Peak]:
     """The peaks so far and those in the line; a line with the time of the peak completes the last of them."""
     if found := _PEAK_TIME.search(text):
-        alone = _written(found["v"], where, _scale(found["unit"] or found["bracket"] or ""))
+        alone = written(found["v"], where, scale(found["unit"] or found["bracket"] or ""))
         last = peaks[-1] if peaks else Peak(Written(float("nan"), 0.0, where))
         return [*peaks[:-1], Peak(last.value, last.unit, last.component, last.quantity, alone)]
-    label = PEAK.search(text)
-    if label is None or words.OTHER_PEAK.search(text):
+    if words.OTHER_PEAK.search(text):
         return peaks
+    return [*peaks, *_peaks(text, where)]
+
+
+def _peaks(text: str, where: str) -> Iterator[Peak]:
+    """The largest and smallest values in a line."""
+    highest, lowest = list(PEAK.finditer(text)), list(MINIMUM.finditer(text))
+    if highest and not lowest:
+        lowest = list(_BARE_MINIMUM.finditer(text))
+    labels = sorted([*((one, False) for one in highest), *((one, True) for one in lowest)], key=lambda pair: pair[0].start())
+    for k, (label, least) in enumerate(labels):
+        end = labels[k + 1][0].start() if k + 1 < len(labels) else len(text)
+        if label.end() <= end:
+            yield from _after(label, text[:end], where, least)
+
+
+def _after(label: re.Match[str], text: str, where: str, least: bool) -> Iterator[Peak]:
+    """The values behind a label: one, or one for each component."""
     rest = text[label.end() :]
     quantity = _quantity(label["label"], text)
     several = list(_OF_COMPONENT.finditer(rest))
@@ -157,44 +177,50 @@ def with_peaks(peaks: list[Peak], text: str, where: str) -> list[Peak]:
     bracket = re.match(r"\s*[(\[]\s*([^)\]]+?)\s*[)\]]", rest)
     common = bracket[1] if bracket and not re.fullmatch(words.COMPONENT, bracket[1]) else ""
     if len(several) > 1:
-        return [*peaks, *(Peak(_written(each["v"], where), common, each["component"], quantity) for each in several)]
+        for each in several:
+            yield Peak(written(each["v"], where), common, each["component"], quantity, least=least)
+        return
     if one is None:
-        return peaks
+        return
     inside = one["bracket"] or ""
     component = one["component"] or (inside if re.fullmatch(words.COMPONENT, inside) else "")
     unit = common or (one["unit"] or "").rstrip(".")
     timed = _AT_TIME.search(rest, one.end("v"))
-    time = _written(timed["v"], where, _scale(timed["unit"])) if timed else None
+    time = written(timed["v"], where, scale(timed["unit"])) if timed else None
     if unit in {"at", "sec", "s"}:
         unit = ""
-    return [*peaks, Peak(_written(one["v"], where), unit, component, quantity, time)]
+    yield Peak(written(one["v"], where), unit, component, quantity, time, least)
 
 
 def _quantity(label: str, text: str) -> str:
-    for quantity, sign in (
-        ("velocity", r"pgv|veloc|vel\b|geschwind|vitesse|velocid"),
-        ("displacement", r"pgd|disp|weg|deplac|desplaz"),
-    ):
-        if re.search(sign, label) or (not re.search("acc|pga|beschl|acel", label) and re.search(sign, text)):
-            return quantity
-    return "acceleration" if re.search("acc|pga|beschl|acel", label) else ""
+    if re.search(words.OF_ACCELERATION, label):
+        return "acceleration"
+    return next((quantity for quantity, sign in words.OF_QUANTITY if re.search(sign, label)), "") or next(
+        (quantity for quantity, sign in words.OF_QUANTITY[:2] if re.search(sign, text)), ""
+    )
 
 
 def missing(text: str, where: str) -> Iterator[Written]:
     """The stated marks of missing values."""
     for match in (*_MISSING.finditer(text), *_MISSING_FIRST.finditer(text)):
-        yield _written(match["v"], where)
+        yield written(match["v"], where)
 
 
 def channels(text: str, where: str) -> list[Written]:
     """The stated numbers of channels."""
-    return [_written(match["v"], where) for match in _CHANNELS.finditer(text)]
+    return [written(match["v"], where) for match in _CHANNELS.finditer(text)]
 
 
 def components(text: str) -> tuple[str, ...]:
     """The components that the line lists."""
     listed = _COMPONENTS.search(text)
     return tuple(re.findall(r"[^\s,;/|]+", listed[1])) if listed else ()
+
+
+def factor(text: str) -> str:
+    """The factor that the line states for the values; empty where it states none, or one."""
+    found = words.FACTOR.search(text)
+    return found[0].strip() if found and words.number(found["v"]) != 1 and not words.OTHER_FACTOR.search(text) else ""
 
 
 def width(text: str) -> int:

@@ -50,7 +50,7 @@ PER_SECOND = rf"(?:k(?:ilo)?\s*(?={_SAMPLES}|s\s*/))?(?:{_SAMPLES}|s|1)?\s*{_PER
 PER_LONGER = rf"(?:{_SAMPLES}|s|1)?\s*{_PER}\s*(?:{_MINUTE}|{_HOUR})(?![a-z])|(?:min|h)\^?-1\b"
 PER_HOUR = rf"{_PER}\s*{_HOUR}(?![a-z])|h\^?-1"
 RATE_UNIT = rf"k?hz\b|k?sps\b|(?:kilo)?hertz\b|{PER_SECOND}|{PER_LONGER}|s\^?-1\b"
-OTHER_RATE_UNIT = rf"(?!\s*{_PER}\s*(?:ch|k?can))\s*(?:[a-z]*hz\b|[a-z]*\s*{_PER}\s*[a-z]+|[a-z]+\^?-1\b|cpm\b|[a-z]?sp[a-rt-z]\b)"
+OTHER_RATE_UNIT = rf"(?!\s*{_PER}\s*(?:ch|k?can))\s*(?:[a-z]*hz\b|[a-z]*\s*{_PER}\s*[a-z]+|[a-z]+\^?-1\b|cpm\b)"
 DECIMATED = re.compile(
     r"(?:(?:decimat|dezimier|dezimation|decimaci|decimaz|downsampl|down-sampl|subsampl|sub-sampl)\w*"
     r"|(?:data\s+)?reduction\s+(?:factor|ratio))\s*(?:factor|ratio|faktor|by|of|to|from|auf|um|von|:|=|,|;|\t|\()*\s*(?P<v>\d+(?:\.\d+)?)"
@@ -100,20 +100,59 @@ DURATION = (
     r"|(?:mess|aufzeichnungs|versuchs|gesamt|signal)?dauer|messzeit|duree(?:\s+(?:totale|de\s+l['\u2019]?\s*\w+|d['\u2019]\s*\w+))?"
     r"|duracion(?:\s+(?:total|del?\s+\w+))?|durata(?:\s+\w+)?|duracao|kayit\s+suresi"
 )
+START = (
+    r"(?:record(?:ing)?\s+|test\s+|data\s+|acquisition\s+)?(?:start(?:ed)?|begin(?:ning)?)(?:\s*time)?(?:\s+at)?|t_?min|start_?time"
+    r"|(?:start|anfangs)zeit|beginn|debut|heure\s+de\s+debut|(?:hora\s+de\s+)?inicio|(?:ora\s+di\s+)?inizio|baslangic"
+)
+END = (
+    r"(?:record(?:ing)?\s+|test\s+|data\s+|acquisition\s+)?(?:end(?:ed)?|stop(?:ped)?|finish(?:ed)?)(?:\s*time)?(?:\s+at)?|t_?max|t_?end"
+    r"|end_?time|stop_?time|(?:end|stopp?)zeit|ende|(?:heure\s+de\s+)?fin|(?:hora\s+(?:de\s+fin|final))|(?:ora\s+di\s+)?fine|bitis"
+)
 OTHER_DURATION = re.compile(
     r"5\s*-\s*[79]5|significant|bracketed|arias|strong|pre-?\s?(?:event|trigger)|post-?\s?(?:event|trigger)"
 )
 
+_OF = (
+    r"(?:acc\w*|vel\w*|disp\w*|value|amplitude|load|force|stroke|beschleunigung|kraft|last|weg|verschiebung|ivme|kuvvet"
+    r"|aceleracion|carga|fuerza|desplazamiento|valor|aceleracao|forca|deslocamento|effort|charge|deplacement|valeur"
+    r"|accelerazione|carico|forza|spostamento|valore|deger)"
+)
+_GREATEST = r"max(?:\.|imum|imal\w*|im[ao]|imale)?|massim[ao]|maksimum|pico|en\s+buyuk"
+_LEAST = r"minimum|minimal\w*|minim[ao]|minimale|minimo|en\s+kucuk|min\."
 PEAK = (
     r"(?:raw\s+|corrected\s+)?pg[avd]\b(?:\s+values?)?"
-    r"|(?:peak|max(?:\.|imum|imal)?|abs\.?\s*max(?:imum)?)\s+(?:ground\s+)?(?:acc\w*|vel\w*|displ?\w*|value|amplitude|load|force)\b\.?"
-    r"|(?:peak|max(?:\.|imum)?)(?=\s*[(\[:=])|a_?max\b|spitzen(?:wert|beschleunigung)|maximale\s+beschleunigung|maximalwert"
-    r"|(?:acceleration|valeur)\s+max(?:imale|\.)?|aceleracion\s+(?:max(?:ima|\.)?|pico)|valor\s+maximo"
-    r"|accelerazione\s+(?:massima|max\.?|di\s+picco)|valore\s+massimo|\u6700\u5927\u52a0\u901f\u5ea6"
+    rf"|(?:peak|{_GREATEST}|abs\.?\s*max(?:imum)?)\s+(?:ground\s+)?{_OF}\b\.?"
+    r"|abs(?:olute)?\.?\s*max(?:imum|\.)?(?![a-z])|max(?:imum|\.)?\s*abs(?:olute)?\.?(?:\s+value)?(?![a-z])"
+    r"|(?:peak|max(?:\.|imum)?)(?=\s*[(\[:=,;\t]\s*[-+\d.a-z])|a_?max\b|[fp]_?max\b|spitzen(?:wert|beschleunigung|kraft|last)|maximalwert"
+    rf"|(?:hochst|maximal)(?:wert|kraft|last|weg)|{_OF}\s+(?:{_GREATEST}|di\s+picco|de\s+pico|pico)(?![a-z])"
+    r"|(?:\u6700\u5927|\u5cf0)(?:\u52a0\u901f\u5ea6|\u8377\u91cd|\u5024|\u503c|\u529b|\u5909\u4f4d|\u4f4d\u79fb)"
+)
+MINIMUM = (
+    rf"(?:{_LEAST}|min)\s+(?:ground\s+)?{_OF}\b\.?|(?:{_LEAST})(?=\s*[(\[:=,;\t]\s*[-+\d.a-z])|{_OF}\s+(?:{_LEAST})(?![a-z])"
+    r"|[af]_?min\b|(?:kleinst|minimal|mindest)wert|\u6700\u5c0f(?:\u5024|\u503c|\u52a0\u901f\u5ea6|\u8377\u91cd)"
+)
+OF_ACCELERATION = "acc|pga|beschl|acel|ivme|\u52a0\u901f\u5ea6"
+OF_QUANTITY = (
+    ("velocity", r"pgv|veloc|vel\b|geschwind|vitesse|velocid"),
+    ("displacement", r"pgd|disp|weg|deplac|desplaz|spostam|deslocam|stroke|\u5909\u4f4d|\u4f4d\u79fb"),
+    (
+        "force",
+        r"force\b|load\b|kraft|last\b|carga|fuerza|forza|forca|carico|effort|charge|kuvvet|\b[fp]_?max|\u8377\u91cd|\u529b",
+    ),
+)
+BARE_MINIMUM = r"min(?=\s*[:=]\s*[-+]?[\d.])"  # beside a maximum only: it can be a minute too
+FACTOR = re.compile(
+    r"(?:(?:scale|scaling|conversion|calibration|multiplication)[\s_-]*factor|scaling|multiplier|(?:multipl\w+|divid\w+)(?:\s+\w+){0,2}?\s+(?:by|with)"
+    r"|(?:skalierungs|umrechnungs|kalibrier)faktor|mit\s+faktor|facteur\s+(?:d['\u2019]\s*echelle|de\s+\w+)|factor\s+de\s+\w+"
+    r"|fattore\s+di\s+\w+|fator\s+de\s+\w+|olcek\s+faktoru|carpan|(?<![a-z])factor(?=\s*[:=])|(?<![a-z])gain(?=\s*[:=]))"
+    rf"\s*(?:[:=,;\t(]|\bis\b|\bof\b|\bby\b|\bwith\b)*\s*(?P<v>{NUMBER})"
 )
 PEAK_TIME = (
     r"time\s+of\s+(?:the\s+)?(?:pga|peak|max\w*)|(?:pga|peak)\s+time|zeit(?:punkt)?\s+des\s+\w*(?:maximum|spitze)\w*"
     r"|temps\s+d(?:u|e\s+la?)\s+(?:pic|max\w*|pga)|tiempo\s+(?:del?\s+)?(?:pico|pga|max\w*)|tempo\s+(?:del?\s+)?(?:picco|pga|max\w*)"
+)
+OTHER_FACTOR = re.compile(
+    r"sensor|amplifier|filter|damping|safety|similitude|geometr|model|length|participation|importance|ductility"
 )
 OTHER_PEAK = re.compile(r"full\s*scale|range|capacity|stroke|rated|limit|sensitivity|clip|filter|spectr|target|nominal|allow")
 OTHER_UNIT = re.compile(

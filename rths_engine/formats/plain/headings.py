@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rths_engine.formats import units_row
+from rths_engine.formats.plain import header_units
 from rths_engine.formats.plain import header_words as words
 from rths_engine.formats.plain.form import COMMENT, Form, Line
 from rths_engine.foundation import unit_names
@@ -55,6 +56,10 @@ def find(header: Sequence[Line], form: Form, width: int, empty: Sequence[int] = 
     rows: list[list[str]] = []
     note = ""
     for at, text in reversed(header):
+        if header_units.is_line(_bare(text)) and (
+            not form.separator or form.fields(_bare(text))[0].rstrip("= :").find(" ") >= 0
+        ):
+            continue
         row = _cells(text, form, width, empty)
         if row is None or len(rows) == _MOST_ROWS:
             own = form.fields(_bare(text)) if form.separator else []

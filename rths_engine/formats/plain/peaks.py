@@ -12,7 +12,7 @@ from rths_engine.formats.plain import header_words as words
 from rths_engine.formats.plain.header_facts import Facts, in_unit
 from rths_engine.formats.plain.header_lines import Peak
 from rths_engine.formats.plain.headings import name_and_unit, quantity_of
-from rths_engine.formats.statement import Statement
+from rths_engine.formats.statement import Statement, Written
 from rths_engine.formats.table import Column
 from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.arrays import Array
@@ -38,7 +38,7 @@ def statements(columns: Sequence[Column], facts: Facts) -> list[Statement]:
 
 def confirmed_unit(signals: Iterable[Array], facts: Facts) -> unit_names.Written:
     """The unit of the stated peaks, where they have one unit and the largest of them equals that of a signal; else no unit."""
-    stated = {one.unit: one for one in sorted(facts.peaks, key=lambda one: abs(one.value.value)) if one.unit}
+    stated = {one.unit: one for one in sorted(facts.peaks, key=lambda one: abs(one.value.value)) if one.unit and not one.least}
     if len(stated) != 1:
         return unit_names.read("")
     ((unit, peak),) = stated.items()
@@ -85,6 +85,8 @@ def _beside(peak: Peak, column: Column, several: bool) -> list[Statement]:
     found: list[Statement] = []
     of = column.name if several else ""
     if np.isfinite(stated.value):
+        if peak.least:
+            return [_lowest(stated, values, written.unit, of)]
         one = statement.peak(stated, values, written.unit, _rounding(values), of)
         largest = float(np.max(values))
         found.append(
@@ -97,12 +99,21 @@ def _beside(peak: Peak, column: Column, several: bool) -> list[Statement]:
     return found
 
 
+def _lowest(stated: Written, values: Array, unit: str, of: str) -> Statement:
+    """The smallest value; a value stated without its sign can be its size."""
+    read = float(np.min(values))
+    if stated.value > 0 > read and abs(stated.value + read) < abs(stated.value - read):
+        read = -read
+    within = stated.within + _rounding(values) + 1e-6 * abs(read)
+    return Statement(f"minimum{of and f' of {of}'}", stated.where, stated.value, read, unit, within)
+
+
 def _in_some_unit(peak: Peak, values: Array) -> bool:
     """Whether the peak equals that of the values in another unit of its dimension, which the file does not state for them."""
     written = unit_names.read(peak.unit)
     if not written.unit:
         return written.problem != ""
-    size, rounding = float(np.max(np.abs(values))), _rounding(values)
+    size, rounding = abs(float(np.min(values) if peak.least else np.max(np.abs(values)))), _rounding(values)
     others = [in_unit(peak, unit) for unit in units.of_dimension(written.dimension)]
     return any(one is not None and abs(abs(one.value) - size) <= one.within + rounding for one in others)
 

@@ -7,6 +7,7 @@ Components can stand side by side; blocks, such as acceleration and velocity, on
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rths_engine.formats import statement
@@ -23,6 +24,7 @@ from rths_engine.formats.plain import (
     transposed,
 )
 from rths_engine.formats.plain.blocks import Block
+from rths_engine.formats.plain.form import Line
 from rths_engine.formats.plain.header_facts import Facts
 from rths_engine.formats.plain.record_numbers import rows_of
 from rths_engine.formats.plain.record_table import has_names, named_header, of_table, with_unit
@@ -31,7 +33,7 @@ from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation import unit_names
-from rths_engine.foundation.errors import FileError
+from rths_engine.foundation.errors import FileError, Issue
 
 _OF_BLOCK = {"velocity", "displacement"}
 
@@ -56,16 +58,16 @@ def read(source: Source) -> Table:
     """The record in a text. Raises FileError with the line where its numbers break off."""
     lines = list(enumerate(source.lines, start=1))
     if len(lines) <= transposed.MOST_LINES and (rows := transposed.read(lines)) is not None:
-        return of_table(columns.read(source), header_facts.read(rows[0]))
+        return of_table(columns.read(source), _facts(rows[0]))
     try:
         found = _joined(blocks.split(lines))
     except FileError:
         if (named := named_header(lines)) is not None:
-            return of_table(columns.read(source), header_facts.read(named))
+            return of_table(columns.read(source), _facts(named))
         raise
     if len(found) == 1 and has_names(found[0]):
-        return of_table(columns.read(source), header_facts.read(found[0].header))
-    first = header_facts.read(found[0].header)
+        return of_table(columns.read(source), _facts(found[0].header))
+    first = _facts(found[0].header)
     read_blocks = [_block(one, first if k == 0 else _inherited(one, first), k, len(found)) for k, one in enumerate(found)]
     every = [column for one in read_blocks for column in one.columns]
     stated = peaks.statements(every, first)
@@ -79,15 +81,25 @@ def read(source: Source) -> Table:
     )
 
 
+def _facts(header: Sequence[Line]) -> Facts:
+    """The facts of a header. Raises FileError for a factor of which it does not state whether the samples contain it."""
+    facts = header_facts.read(header)
+    if facts.factors:
+        where, text = facts.factors[0]
+        fix = "apply the factor to the samples if they do not contain it yet, and remove it from the header"
+        raise FileError(Issue(where, "states a factor, and not whether the samples contain it", text, fix))
+    return facts
+
+
 def _inherited(block: Block, first: Facts) -> Facts:
     """The facts of a later block; those of the file where the block does not state its own."""
-    own = header_facts.read(block.header)
+    own = _facts(block.header)
     if own.steps and first.steps:
         first = replace(first, durations=())
     quantity = _unit_and_quantity(block, own)[1]
     return replace(
         own,
-        unit=first.unit if own.unit.none and quantity not in _OF_BLOCK else own.unit,
+        units=first.units if not own.units and (quantity not in _OF_BLOCK or len(first.units) > 1) else own.units,
         steps=own.steps or first.steps,
         counts=own.counts or (() if own.steps and not first.counts else first.counts),
         durations=own.durations or first.durations,
@@ -108,7 +120,9 @@ def _block(block: Block, facts: Facts, index: int, of: int) -> _Read:
     if written.none:
         written = peaks.confirmed_unit(found.signals.values(), facts)
     signals = [Column(name, values, dt=step.dt, start=step.start) for name, values in found.signals.items()]
-    columns = [with_unit(one, written, quantity) for one in signals]
+    listed = _listed(facts, len(signals), index, of)
+    columns = [with_unit(one, unit, "") for one, unit in zip(signals, listed, strict=True)] if listed else []
+    columns = columns or [with_unit(one, written, quantity) for one in signals]
     statements = _statements(facts, found, step, len(rows))
     notes = [*step.notes, *([found.note] if found.note else []), *(f"{one}: not used" for one in facts.unclear)]
     if of == 1:
@@ -119,6 +133,15 @@ def _block(block: Block, facts: Facts, index: int, of: int) -> _Read:
     return _Read(columns, [*statements, *(peaks.statements(columns, facts) if index else [])], notes, True)
 
 
+def _listed(facts: Facts, signals: int, index: int, of: int) -> tuple[unit_names.Written, ...]:
+    """The unit of each signal where the header lists one for each column, or for each block; else empty."""
+    if len(facts.units) < 2:
+        return ()
+    if len(facts.units) == signals:
+        return facts.units
+    return (facts.units[index],) * signals if len(facts.units) == of else ()
+
+
 def _statements(facts: Facts, found: arranged.Arranged, step: Step, rows: int) -> list[Statement]:
     """Count and duration in the header beside the samples. Either count agrees where the arrangement is not clear."""
     lengths = {len(values) for values in found.signals.values()}
@@ -126,7 +149,7 @@ def _statements(facts: Facts, found: arranged.Arranged, step: Step, rows: int) -
         statement.count(round(one.value), min(lengths, key=lambda n: abs(n - one.value)), one.where) for one in facts.counts
     ]
     if step.dt is not None:
-        stated += facts.duration_statements(max(lengths), step.dt)
+        stated += facts.duration_statements(max(lengths), step.dt, step.start)
     return [*step.statements, *stated]
 
 

@@ -54,8 +54,16 @@ def timed(columns: Sequence[Column], facts: Facts, line: Callable[[int], int], n
     found.columns = [replace(one, dt=dt if one.dt is None else one.dt) for one in found.columns]
     found.statements += [statement.count(round(one.value), count, one.where) for one in facts.counts]
     if step is not None:
-        found.statements += facts.duration_statements(count, step)
+        begin = next((_start_of(one) for one in found.columns if one.quantity == "time"), 0.0)
+        found.statements += facts.duration_statements(count, step, begin)
     return found
+
+
+def _start_of(column: Column) -> float:
+    """The first time (s) of a time column; zero where its unit is not stated."""
+    written = unit_of(column)
+    known = written.dimension == "time" and len(column.values) and np.isfinite(column.values[0])
+    return float(column.values[0]) * written.scale * units.factor(written.unit) if known else 0.0
 
 
 def unit_of(column: Column) -> unit_names.Written:
