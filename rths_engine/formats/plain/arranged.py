@@ -60,7 +60,8 @@ def arranged(rows: Sequence[Row], texts: Sequence[str], facts: Facts, single: bo
         return in_order
     table = flat.reshape(-1, width)
     beside = {name: np.ascontiguousarray(table[:, k]) for k, name in enumerate(_names(facts, width) or _numbers(width))}
-    if is_time(table[:, 0]):
+    few = len(rows) < _RISING and len(flat) in {round(one.value) for one in facts.counts}  # three equal steps can be samples
+    if is_time(table[:, 0]) and not few:
         names = _names(facts, width - 1) or _numbers(width)[1:]
         signals = {name: np.ascontiguousarray(table[:, k]) for k, name in enumerate(names, start=1)}
         return Arranged(signals, table[:, 0], lambda k: rows[k][0], bool(_names(facts, width - 1)))
