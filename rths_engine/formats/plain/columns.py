@@ -95,6 +95,7 @@ def _table(
         markers.refuse(column.values, column.name, line, facts.missing)
         release(column.values)
     done = timing.timed(columns, facts, line, named)
+    time_columns.refuse_untimed(done.columns, line)
     others = sum(timing.time_like(one, k, named) != "" or one.quantity == "time" for k, one in enumerate(done.columns))
     return Table(
         "columns of text",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +11,7 @@ from rths_engine.formats.plain.headings import name_and_unit
 from rths_engine.formats.table import Column
 from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
 _SAME = 0.05  # of a step: time columns that differ by less are one clock
@@ -48,6 +49,19 @@ def assigned(columns: Sequence[Column]) -> tuple[Column, ...]:
         one_clock = bool(beside) and all(same(beside[0], one) for one in beside[1:])
         found.append(replace(column, time=beside[0].name) if one_clock and column.quantity != "time" else column)
     return tuple(_ended(found))
+
+
+def refuse_untimed(columns: Sequence[Column], line: Callable[[int], int]) -> None:
+    """Raises FileError where the last rows have values but no time: a footer, such as statistics."""
+    clocks = [one for one in columns if one.quantity == "time"]
+    ends = {_end(one.values) for one in clocks}
+    if len(ends) != 1 or (end := ends.pop()) == 0 or np.isnan(clocks[0].values[:end]).any():
+        return
+    below = [one for one in columns if one.quantity != "time" and np.isfinite(one.values[end:]).any()]
+    if below:
+        row = min(end + int(np.flatnonzero(np.isfinite(one.values[end:]))[0]) for one in below)
+        problem = f"has values but no {clocks[0].name}: a footer, such as statistics, or rows that are no samples"
+        raise FileError(Issue(f"line {line(row)}", problem, fix="remove these rows from the file"))
 
 
 def same(one: Column, other: Column) -> bool:

@@ -108,19 +108,45 @@ def _refused(times: Array, channel: str) -> Finding | None:
     if len(times) < 2:
         return Finding("error", channel, "needs at least two time stamps", str(len(times)))
     bad = np.flatnonzero(~np.isfinite(times))
+    if lacks := untimed_rows(times):
+        return Finding("error", channel, *lacks, fix="remove these rows from the file")
     if len(bad):
         fix = "correct the stamps, or leave the column out and give dt or rate"
         return Finding("error", channel, f"time stamp {bad[0] + 1} is missing or not a number", fix=fix)
     if np.max(np.abs(times)) > LATEST:
         return Finding("error", channel, "has time stamps out of range", f"beyond {LATEST:g} s", fix="check its unit")
     back = np.flatnonzero(np.diff(times) <= 0)
+    if (at := restart(times)) is not None:
+        value = f"{times[at - 1]:.10g} s, then {times[at]:.10g} s"
+        problem = f"time starts again at sample {at + 1}: a second block of data"
+        return Finding("error", channel, problem, value, float(times[at - 1]), "give each block in a file of its own")
     if len(back):
         k = int(back[0])
         value = f"{times[k]:.10g} s, then {times[k + 1]:.10g} s"
         problem = f"time does not increase at sample {k + 2} ({len(back)} such step{'s' if len(back) > 1 else ''})"
-        fix = "sort or correct the file; if the stamps are rounded, leave the column out and give dt or rate"
+        fix = "sort or correct the file"
+        if not (np.diff(times) < 0).any():
+            fix = "if the stamps are rounded, leave the column out and give dt or rate; else correct the file"
         return Finding("error", channel, problem, value, float(times[k]), fix)
     return None
+
+
+def untimed_rows(times: Array) -> tuple[str, str] | None:
+    """What is said of rows without time below the last stamp, a problem and its value; None where there are none."""
+    bad = np.flatnonzero(~np.isfinite(times))
+    if not len(bad) or len(bad) == len(times) or bad[0] != len(times) - len(bad):
+        return None
+    return "rows below the last time have no time: a footer, such as statistics, not samples", f"samples {bad[0] + 1} on"
+
+
+def restart(times: Array) -> int | None:
+    """The index at which time starts again; None where it does not, or goes back by a few steps only."""
+    steps = np.diff(times)
+    forward = steps[steps > 0]
+    if not len(forward):
+        return None
+    back = np.flatnonzero(steps < -LONGEST_GAP * float(np.median(forward)))
+    return int(back[0]) + 1 if len(back) else None
 
 
 def _gap(times: Array, steps: Array, k: int, channel: str) -> Finding:

@@ -11,7 +11,7 @@ from rths_engine.formats.scratch import kept, on_disk, release
 from rths_engine.formats.table import MOST_SAMPLES, Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue, MeasuredError
-from rths_engine.recordings.measured import blocks, checks, clock, mapping_yaml, pairs, stated
+from rths_engine.recordings.measured import blocks, checks, clock, mapping_yaml, pairs, stated, time_doubts
 from rths_engine.recordings.measured.blocks import Extent
 from rths_engine.recordings.measured.clock import Clock
 from rths_engine.recordings.measured.finding import Finding
@@ -67,6 +67,7 @@ def examine(table: Table, mapping: Mapping, source: str = "", sha256: str = "") 
         if channel.role != "t" and (own := _clock(table, mapping, channel, index, clocks, findings)) is not None:
             timed.append((channel, clock.shifted(own, -channel.lag) if channel.lag else own, findings))
             findings = []
+    findings += time_doubts.found(table, mapping, clocks)
     large = any(on_disk(column.values) for column in table.columns)
     seen = blocks.each(lambda one: _signal(table, *one[:2]), timed, large)
     findings = [*(one for (_, _, before), (_, found) in zip(timed, seen, strict=True) for one in before + found), *findings]
