@@ -104,7 +104,8 @@ def _read(source: Source, otherwise: Format, format: str | None) -> Table:
         raise FileError(Issue("format", "is not a known format", format, "choose one of " + ", ".join(BY_KEY)))
     chosen = BY_KEY[format] if format else detected(source, otherwise)
     table = checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
-    markers.refuse_in(table)
+    if chosen not in (COLUMNS, RECORD):  # these name the line themselves
+        markers.refuse_in(table)
     return table
 
 

@@ -42,7 +42,7 @@ def read(source: Source) -> Table:
     notes = [*file.notes, *dict.fromkeys(note for one in found for note in one.notes)]
     relative = file.header.get("Time_Pref") == "Relative"
     if len(segments) == 1:
-        columns = _columns(segments[0], _offsets(segments[0], relative))
+        columns = _columns(segments[0], _offsets(segments[0]))
     elif not all(_alike(segments[0], one) for one in segments):
         columns = [one for k, channels in enumerate(segments, 1) for one in _columns(channels, [0.0] * len(channels), k)]
         notes.append(f"{len(segments)} segments with different channels: each is read as columns of its own")
@@ -67,11 +67,10 @@ def _alike(one: Sequence[Channel], other: Sequence[Channel]) -> bool:
     return [(a.name, a.unit, a.dt) for a in one] == [(b.name, b.unit, b.dt) for b in other]
 
 
-def _offsets(channels: Sequence[Channel], relative: bool) -> list[float]:
-    """How much later than the first channel each channel began by date and time, s."""
-    began = [one.began for one in channels]
-    known = [one for one in began if one is not None]
-    if relative or len(known) < len(began):
+def _offsets(channels: Sequence[Channel]) -> list[float]:
+    """How much later than the first channel each channel began by date and time, s. Its X counts from there."""
+    known = [one.began for one in channels if one.began is not None]
+    if len(known) < len(channels):
         return [0.0] * len(channels)
     return [one - min(known) for one in known]
 
@@ -84,9 +83,10 @@ def _columns(channels: Sequence[Channel], offsets: Sequence[float], segment: int
     for one, offset in zip(channels, offsets, strict=True):
         time = ""
         if one.times is not None and len(one.times) > 1:
-            if not stamps or not np.array_equal(stamps[-1].values, one.times):
+            times = one.times + offset
+            if not stamps or not np.array_equal(stamps[-1].values, times):
                 number = f" {len(stamps) + 1}" if stamps else ""
-                stamps.append(Column(f"X_Value{number}{end}", one.times, "s", quantity="time"))
+                stamps.append(Column(f"X_Value{number}{end}", times, "s", quantity="time"))
                 columns.append(stamps[-1])
             time = stamps[-1].name
         columns.append(Column(one.name + end, one.values, one.unit, one.dt, one.start + offset, time=time))
@@ -95,7 +95,7 @@ def _columns(channels: Sequence[Channel], offsets: Sequence[float], segment: int
 
 def _several(segments: Segments, relative: bool) -> tuple[list[Column], list[Statement], str]:
     """Columns of several segments with the same channels, the statements on their times, and a note."""
-    count, offsets = len(segments), _offsets(segments[0], relative)
+    count, offsets = len(segments), _offsets(segments[0])
     starts = [[_start(segments, s, k, relative) for k in range(len(segments[0]))] for s in range(count)]
     statements = [] if relative else [one for k in range(len(segments[0])) for one in _clocks(segments, k)]
     if all(len(one.values) == 1 for channels in segments for one in channels):

@@ -10,7 +10,7 @@ import numpy as np
 from rths_engine.formats.laboratory.lvm_segments import File, Segment
 from rths_engine.formats.laboratory.rows import Line, decimal_sign, fields, number, up_to_last, values
 from rths_engine.formats.statement import Statement, Written, count, step
-from rths_engine.foundation import unit_names
+from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -66,7 +66,7 @@ def channels_of(segment: Segment, file: File) -> Channels:
         own = up_to_last(table[:, place[k]], empty[:, place[k]], rows, labels[k])
         x_at = max((x for x in xs if x < k), default=None)
         own_x = x_at is not None and (len(xs) > 1 or _shares(segment, ys[0], k))
-        x = table[: len(own), place[x_at]] if x_at is not None and own_x and not without_x else None
+        x = table[: len(own), place[x_at]] * _scale_x(segment, k) if x_at is not None and own_x and not without_x else None
         _add(found, segment, file, k, own, x, decimal)
     if segment.breaks and any(one.times is None for one in found.channels):
         fix = "write the file with one header for each segment"
@@ -80,8 +80,8 @@ def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: A
     """One channel with its statements."""
     _check_unit(segment, k)
     name = segment.labels[k]
-    stated = {key: _written(segment, key, k, decimal) for key in ("Samples", "Delta_X", "X0")}
-    samples, delta, x0 = stated["Samples"], stated["Delta_X"], stated["X0"]
+    samples = _written(segment, "Samples", k, decimal)
+    delta, x0 = (_in_seconds(_written(segment, key, k, decimal), _scale_x(segment, k)) for key in ("Delta_X", "X0"))
     several = samples is not None and file.header.get("Multi_Headings") == "No" and _holds(samples.value, len(own))
     packets = several and x is not None and _rises(x)
     if samples is not None and samples.value == 0 and not len(own):
@@ -100,8 +100,10 @@ def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: A
         raise FileError(Issue(f"line {at}", problem, fix="write the file with one header for each segment"))
     first = x0.value if x0 is not None else 0.0
     other = segment.stated("X_Dimension", k)[0]
-    if other not in {"", "Time"}:
-        found.notes.append(f"{name} is over {other}, not over time")
+    label = segment.stated("X_Unit_Label", k)[0]
+    if other not in {"", "Time"} or (label and unit_names.read(label).dimension != "time"):
+        over = f"{other} in {label}" if label and other else other or f"X in {label}"
+        found.notes.append(f"{name} is over {over}, not over time")
         found.channels.append(Channel(name, segment.stated("Y_Unit_Label", k)[0], own, None, 0.0, None, x))
         return
     dt, times = _clock(found, delta, x, packets and samples is not None and samples.value == 1)
@@ -115,6 +117,16 @@ def _add(found: Channels, segment: Segment, file: File, k: int, own: Array, x: A
     start = float(x[0]) if x is not None and len(x) and x0 is None else first
     unit = segment.stated("Y_Unit_Label", k)[0]
     found.channels.append(Channel(name, unit, own, dt, start, segment.began(k), times))
+
+
+def _scale_x(segment: Segment, k: int) -> float:
+    """Seconds in one unit of X of a channel, as X_Unit_Label states it; LabVIEW writes seconds where it states none."""
+    written = unit_names.read(segment.stated("X_Unit_Label", k)[0])
+    return written.scale * units.factor(written.unit) if written.dimension == "time" else 1.0
+
+
+def _in_seconds(one: Written | None, scale: float) -> Written | None:
+    return Written(one.value * scale, one.within * scale, one.where) if one is not None else None
 
 
 def _check_unit(segment: Segment, k: int) -> None:
@@ -155,7 +167,7 @@ def _written(segment: Segment, key: str, column: int, decimal: str) -> Written |
 
 def _shares(segment: Segment, first: int, k: int) -> bool:
     """Whether the only column of X, which belongs to the `first` channel, is also that of channel k by start and step."""
-    return all(segment.stated(key, k)[0] == segment.stated(key, first)[0] for key in ("X0", "Delta_X"))
+    return all(segment.stated(key, k)[0] == segment.stated(key, first)[0] for key in ("X0", "Delta_X", "X_Unit_Label"))
 
 
 def _holds(samples: float, count: int) -> bool:

@@ -77,6 +77,32 @@ def test_channels_of_their_own_rate_and_start() -> None:
         assert [len(one.values) for one in table.columns] == [4, 2]
 
 
+@pytest.mark.parametrize("x_columns", ["No", "One", "Multi"])
+@pytest.mark.parametrize(
+    ("unit", "seconds"), [("ms", 1e-3), ("us", 1e-6), ("s", 1.0), ("min", 60.0), ("msec", 1e-3), ("", 1.0)]
+)
+def test_step_and_start_are_in_the_unit_of_x(x_columns: str, unit: str, seconds: float) -> None:
+    values = np.arange(40.0).tolist()
+    signals = [Signal(name, values, dt=4, x0=8, x_unit=unit) for name in ("F", "d")]
+    found = read(written([signals], x_columns=x_columns))
+    assert [one.dt for one in found.columns] == pytest.approx([4 * seconds] * 2)
+    assert [one.start for one in found.columns] == pytest.approx([8 * seconds] * 2)
+
+
+def test_a_channel_over_another_unit_has_no_step() -> None:
+    found = read(written([[Signal("F", np.arange(40.0).tolist(), dt=4, x_unit="Hz")]]))
+    assert found.columns[0].dt is None and "F is over Time in Hz, not over time" in found.notes
+
+
+@pytest.mark.parametrize("pref", ["Absolute", "Relative"])
+@pytest.mark.parametrize("x_columns", ["No", "One", "Multi"])
+def test_a_channel_starts_at_its_own_date_and_time(pref: str, x_columns: str) -> None:
+    values = np.arange(40.0).tolist()
+    signals = [Signal("F", values), Signal("d", values, time="10:00:01.000000", x0=0.5)]
+    found = read(written([signals], x_columns=x_columns, pref=pref))
+    assert [one.start for one in found.columns if one.quantity != "time"] == pytest.approx([0.0, 1.5])
+
+
 def test_segments_whose_headers_state_that_time_goes_on_are_joined() -> None:
     second = Signal("Force", [1.0, 2.0], x0=0.016, time="10:00:00.016000", unit="Newtons")
     table = read(written([[FORCE], [second]]))

@@ -16,6 +16,7 @@ class Signal:
     dt: float = 0.004
     x0: float = 0.0
     time: str = "10:00:00.000000"
+    x_unit: str = ""
 
 
 def number(value: float, decimal: str = ".") -> str:
@@ -33,12 +34,13 @@ def written(
     comment: str = "",
     headings: str = "Yes",
     special: bool = False,
+    pref: str = "Absolute",
 ) -> bytes:
     """A file of segments of signals."""
     names = {"\t": "Tab", ",": "Comma", ";": "Semicolon"}
     lines = [
         "LabVIEW Measurement\t", "Writer_Version\t2", "Reader_Version\t2", f"Separator\t{names[separator]}",
-        f"Decimal_Separator\t{decimal}", f"Multi_Headings\t{headings}", f"X_Columns\t{x_columns}", "Time_Pref\tAbsolute",
+        f"Decimal_Separator\t{decimal}", f"Multi_Headings\t{headings}", f"X_Columns\t{x_columns}", f"Time_Pref\t{pref}",
         "Operator\tAna", "Date\t2024/05/06",
         "Time\t10:00:00.000000", f"{END}\t", "",
     ]  # fmt: skip
@@ -62,6 +64,7 @@ def header(signals: Sequence[Signal], x_columns: str, separator: str, decimal: s
         line("Time", [one.time.replace(".", decimal) for one in signals]),
         line("Y_Unit_Label", [one.unit for one in signals]),
         line("X_Dimension", ["Time" for _ in signals]),
+        *([line("X_Unit_Label", [one.x_unit for one in signals])] if any(one.x_unit for one in signals) else []),
         line("X0", [f"{one.x0:.16E}".replace(".", decimal) for one in signals]),
         line("Delta_X", [number(one.dt, decimal) for one in signals]),
         END + separator * len(signals),
