@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -78,7 +78,7 @@ def table(tree: Mapping[str, Any], format: str) -> Table:
     """
     found = _Found()
     _collect("", tree, _Given(), found, DEEPEST)
-    found.statements += _steps(found)
+    found.statements += step_statements(found.columns, found.stated)
     columns = tuple(_distinct(found.columns))
     return Table(format, columns, hints=found.hints, notes=tuple(found.notes), statements=tuple(found.statements))
 
@@ -146,11 +146,14 @@ def _unclear(path: str, about: Attributes) -> list[str]:
     return [f"{where}{names} not applied: it is not stated to which array it belongs"] if names else []
 
 
-def _steps(found: _Found) -> list[Statement]:
-    """The stated step beside the step of each time array, in its unit; without a unit, in the unit of time that fits best."""
+def step_statements(columns: Sequence[Column], stated: Sequence[str]) -> list[Statement]:
+    """The stated step beside the step of each time array, in its unit; without a unit, in the unit of time that fits best.
+
+    `stated`: for each column, the attribute that states its step.
+    """
     result = []
-    lengths = Counter(len(one.values) for one in found.columns)
-    for column, where in zip(found.columns, found.stated, strict=True):
+    lengths = Counter(len(one.values) for one in columns)
+    for column, where in zip(columns, stated, strict=True):
         name, dt = column.name.rpartition("/")[2], column.dt
         time = _TIME_NAMED.fullmatch(name)
         if dt is None or time is None or lengths[len(column.values)] < 2 or (step := _even_step(column.values)) is None:

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from rths_engine.formats import damage, optional
+from rths_engine.formats.attributes import Attributes
 from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
-from rths_engine.formats.statement import Statement, count
+from rths_engine.formats.statement import SAME_STEP, Statement, count
 from rths_engine.formats.table import Column, Table, distinct, refuse_many
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
@@ -58,6 +59,7 @@ def _stated_size(raw: bytes) -> tuple[Statement, ...]:
 def _table(file: Any) -> Table:
     columns: list[Column] = []
     notes: list[str] = []
+    statements = list(_statements(file))
     groups = file.groups()
     channels = [(group.name, channel) for group in groups for channel in group.channels()]
     begins = [begun for _, channel in channels if (begun := _begun(channel.properties)) is not None]
@@ -72,10 +74,15 @@ def _table(file: Any) -> Table:
         elif (values := _values(channel)) is None:
             notes.append(f"channel {name} contains no numbers")
         else:
-            columns.append(_column(name, values, channel.properties, scales, min(begins, default=None), notes))
+            column = _column(name, values, channel.properties, scales, min(begins, default=None), notes)
+            column, compared = _with_properties(
+                column, channel.properties, {**file.properties, **file[group].properties}, notes
+            )
+            columns.append(column)
+            statements += compared
     about = {key: str(value) for key, value in file.properties.items() if isinstance(value, str) and value}
     header = "\n".join(f"{name}: {dict(channel.properties)}" for name, channel in channels)
-    return Table("TDMS", distinct(columns), notes=tuple(notes), statements=_statements(file), header=header, about=about)
+    return Table("TDMS", distinct(columns), notes=tuple(notes), statements=tuple(statements), header=header, about=about)
 
 
 def _column(
@@ -94,6 +101,27 @@ def _column(
         start += float((begun - first) / np.timedelta64(1, "ns")) * 1e-9
     applied = "; ".join(text for _, _, text in scales)
     return Column(name, values, unit, float(dt) if dt is not None and dt > 0 else None, start, applied=applied)
+
+
+def _with_properties(
+    column: Column, own: Mapping[str, Any], around: Mapping[str, Any], notes: list[str]
+) -> tuple[Column, list[Statement]]:
+    """The column with the step that properties state (`SampleRate`) where no waveform does, and what else they state."""
+    name, samples = column.name, len(column.values)
+    of_channel, of_others = Attributes.of(own), Attributes.of(around)
+    statements = of_channel.statements(name, [samples], column.dt)
+    notes += [f"channel {name}: {doubt}" for doubt in (*of_channel.doubts, *of_others.doubts)]
+    if of_channel.scaling:
+        notes.append(f"channel {name}: {', '.join(of_channel.scaling)} not applied: TDMS states its scales as NI_Scale")
+    step = of_channel.step
+    if column.dt is not None and step is not None:
+        where = of_channel.step_name
+        statements.append(Statement(f"time step of {name}", where, step, column.dt, "s", SAME_STEP * column.dt))
+    elif column.dt is not None and (wider := of_others.step) is not None and abs(wider / column.dt - 1) > SAME_STEP:
+        notes.append(
+            f"channel {name}: its waveform has a step of {column.dt:.7g} s; {of_others.step_name} states {wider:.7g} s"
+        )
+    return replace(column, dt=column.dt or step or of_others.step), statements
 
 
 def _values(channel: Any) -> Array | None:
@@ -144,8 +172,8 @@ FORMAT = Format(
     of="measurement",
     extensions=("tdms",),
     defined="TDMS File Format Internal Structure, National Instruments",
-    header="channel names, units, scales, start and step of each channel",
-    compared="number of samples of the last segment",
+    header="channel names, units, scales, start and step of each channel; a rate in properties",
+    compared="number of samples of the last segment; number of samples and time step of properties",
     looks_like=looks_like,
     read=read,
     public=25,

@@ -37,8 +37,8 @@ FORMAT = Format(
     of="measurement",
     extensions=("json",),
     defined="RFC 8259",
-    header="names, units, time step or rate of each object",
-    compared="",
+    header="names, units, time step or rate, start, scale and marks of missing values of each object",
+    compared="number of samples, duration, time step, peak, where they are stated",
     looks_like=looks_like,
     read=read,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from datetime import UTC, datetime, timedelta
+from typing import Any
 
 import numpy as np
 import pytest
@@ -114,3 +115,33 @@ RAW = tdms.file([Channel("g", "a", X[:40], waveform(0.01)), Channel("g", "b", X[
 @given(st.lists(st.tuples(st.integers(0, 10**9), st.integers(0, 255)), max_size=6), st.integers(0, 10**9))
 def test_a_damaged_file_is_read_or_refused(changes: list[tuple[int, int]], cut: int) -> None:
     binaries.read_or_refused(reader.read, binaries.damaged(RAW, changes, cut), "a.tdms")
+
+
+@pytest.mark.parametrize(
+    ("around", "own", "dt"),
+    [
+        ({"SampleRate": 250.0}, {}, 0.004),
+        ({"Sampling Frequency": "0.25 kHz"}, {}, 0.004),
+        ({}, {"fs": 250.0}, 0.004),
+        ({"SampleRate": 250.0}, {"dt_ms": 2.0}, 0.002),
+        ({"SampleRate": 1000.0}, waveform(0.004), 0.004),
+        ({"Rate": 4.0}, {}, None),
+    ],
+)
+def test_a_rate_in_properties_is_the_step_where_no_waveform_states_one(around: Any, own: Any, dt: float | None) -> None:
+    table = read(tdms.file([Channel("g", "Force", np.arange(8.0), own)], properties=around))
+    assert table.columns[0].dt == dt
+    assert bool(table.notes) == (dt is None or bool(around and "wf_increment" in own))
+
+
+@pytest.mark.parametrize(
+    ("own", "told"),
+    [
+        (waveform(0.004) | {"SampleRate": 500.0}, "SampleRate: states a time step of Force of 0.002 s; the data have 0.004 s"),
+        ({"fs": 250.0, "NumSamples": 9.0}, "NumSamples: states a number of samples of Force of 9; the data have 8"),
+    ],
+)
+def test_properties_of_a_channel_that_contradict_it_refuse_the_file(own: Any, told: str) -> None:
+    with pytest.raises(FileError) as refusal:
+        read(tdms.file([Channel("g", "Force", np.arange(8.0), own)]))
+    assert told in str(refusal.value)
