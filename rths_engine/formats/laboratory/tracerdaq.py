@@ -11,7 +11,7 @@ from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import rows, stamps
 from rths_engine.formats.laboratory.rows import Line
 from rths_engine.formats.source import Source
-from rths_engine.formats.statement import Statement, Written, count
+from rths_engine.formats.statement import COARSE, Statement, Written, count
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
@@ -121,10 +121,14 @@ def _step(
     between, digit = np.diff(stamps.seconds(texts, data)), stamps.resolution(texts)
     shown = float(np.median(between))
     step = dt if dt is not None else float(np.mean(between))
+    forward = bool((between >= 0).all())
     if dt is not None:
         one = interval or rate
         assert one is not None
-        within = (interval.within if interval is not None else 0.0) + digit + _ROUNDED * dt
+        over = len(between) if forward else 1  # a digit of the first and the last stamp over all steps, else of one step
+        shown = float(np.sum(between)) / len(between) if forward else shown
+        rounded = min(interval.within if interval is not None else 0.0, COARSE * shown)
+        within = rounded + 2 * digit / over + _ROUNDED * dt
         found.append(Statement("sampling interval by the dates of the rows", one.where, dt, shown, "s", within))
     if len(late := np.flatnonzero(between > _GAP * step + 2 * digit)):
         k = int(late[0])

@@ -66,6 +66,7 @@ def read(source: Source) -> Table:
     body = _Body(source, own, numeric, [text for _, text in header])
     values = read_block(source, start, Layout(own.separator, own.decimal, numeric), body.other)
     line = body.line_of_row(start, len(values[0]))
+    _refuse_points(source, start, own, rows_of_text[:LOOKED_AT], numeric, values)
     facts = count_line.with_numbers_above(header_facts.read(header), header, len(values[0]), len(numeric))
     names = heading.names or tuple(f"column {k}" for k in range(1, len(numeric) + 1))
     first_rows = [row for _, text in rows_of_text[:LOOKED_AT] if len(row := own.fields(text)) == len(numeric)]
@@ -247,6 +248,23 @@ def _refuse_numbers_of_columns(source: Source, rows: Sequence[Line], own: Form, 
         raise FileError(
             Issue(f"line {line_number(source, rows[0][0])}", "can number the columns or be a sample", rows[0][1], fix)
         )
+
+
+def _refuse_points(
+    source: Source, start: int, own: Form, first: Sequence[Line], numeric: Sequence[bool], values: Sequence[Array]
+) -> None:
+    """Raises FileError where a point can separate thousands: `18.719` beside `955`, in a column without other decimals."""
+    rows = [row for _, text in first if len(row := own.fields(text)) == len(numeric)]
+    of_field = [k for k, holds in enumerate(numeric) if holds]
+    for k, column in zip(of_field, values, strict=True):
+        pointed = [row[k] for row in rows if "." in row[k]]
+        if own.decimal != "." or own.thousands or not all(form.grouped(one, ".") for one in pointed):
+            continue
+        whole = column == np.rint(column)
+        inside = np.abs(column[np.isfinite(column)])
+        if not whole.any() or whole[np.isfinite(column)].all() or ((inside > 0) & (inside < 1)).any():
+            continue
+        form.refuse_points(text_columns.rows(source, start, own), k)
 
 
 FORMAT = Format(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from rths_engine.formats.lines import value
@@ -53,7 +53,7 @@ class Form:
             return float("nan")
         if self.thousands and self.thousands in field:
             whole, sign, rest = field.partition(self.decimal)
-            if not _grouped(whole, self.thousands) or self.thousands in rest:
+            if not grouped(whole, self.thousands) or self.thousands in rest:
                 return None
             field = whole.replace(self.thousands, "") + sign + rest
         if self.decimal == ",":
@@ -101,7 +101,7 @@ def refuse_ambiguous(lines: Sequence[Line], form: Form, named: bool) -> None:
         raise FileError(Issue(f"line {at}", "the comma can be a decimal sign or a separator", line, fix))
     if form.decimal == "," and not form.thousands:
         fields = [field for _, text in looked_at for field in form.fields(text) if "," in field]
-        if fields and all(_grouped(field, ",") for field in fields):
+        if fields and all(grouped(field, ",") for field in fields):
             fix = "write numbers with a decimal point and without a sign between thousands"
             raise FileError(Issue(f"line {at}", "the comma can be a decimal sign or separate thousands", line, fix))
 
@@ -120,5 +120,23 @@ def _candidates(text: str) -> Iterator[Form]:
             yield Form(separator, decimal, found)
 
 
-def _grouped(text: str, sign: str) -> bool:
+def refuse_points(rows: Iterable[tuple[int, list[str]]], k: int) -> None:
+    """Raises FileError where all points of column `k` stand before three digits, and a number of 1 to 3 digits has none."""
+    pointed, whole = "", (0, "")
+    for at, fields in rows:
+        text = fields[k].strip("+-")
+        if "." in text:
+            if not grouped(text, "."):
+                return
+            pointed = pointed or text
+        elif not whole[0] and re.fullmatch(r"[1-9]\d{0,2}", text):
+            whole = at, text
+    if pointed and whole[0]:
+        problem = f"the point can be a decimal sign or separate thousands: {whole[1]} beside {pointed}"
+        fix = "write all numbers of the column with the same decimals, and without a sign between thousands"
+        raise FileError(Issue(f"line {whole[0]}", problem, fix=fix))
+
+
+def grouped(text: str, sign: str) -> bool:
+    """Whether the text is a whole number in which `sign` separates thousands."""
     return re.fullmatch(rf"[-+]?[1-9]\d{{0,2}}(?:{re.escape(sign)}\d{{3}})+", text) is not None

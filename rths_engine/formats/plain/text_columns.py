@@ -38,11 +38,11 @@ def read(
     times: dict[int, Column] = {}
     notes: list[str] = []
     if used:
-        rows, lines = [], []
-        for at, fields in _rows(source, start, form):
-            rows.append([" ".join(fields[one] for one in (day, k) if one is not None) for k, day in used.items()])
+        texts_of_rows, lines = [], []
+        for at, fields in rows(source, start, form):
+            texts_of_rows.append([" ".join(fields[one] for one in (day, k) if one is not None) for k, day in used.items()])
             lines.append(at)
-        for k, texts in zip(used, zip(*rows, strict=True), strict=True):
+        for k, texts in zip(used, zip(*texts_of_rows, strict=True), strict=True):
             found = stamps.seconds(texts, lines)
             if len(found.seconds) > 1 and not (found.seconds[1:] > found.seconds[:-1]).all():
                 notes.append(f"{names[k]} holds stamps that do not increase, written to {found.resolution:g} s: not used")
@@ -60,7 +60,7 @@ def _refuse_other_decimal(source: Source, start: int, form: Form, name: str, fie
         raise FileError(Issue(f"line {line_number(source, start)}", problem, field, "write all numbers with a decimal point"))
 
 
-def _rows(source: Source, start: int, form: Form) -> Iterator[tuple[int, list[str]]]:
+def rows(source: Source, start: int, form: Form) -> Iterator[tuple[int, list[str]]]:
     """Line number and fields of each row from byte `start`."""
     number = line_number(source, start)
     with source.open() as file:

@@ -297,3 +297,20 @@ def test_numbers_of_columns_above_the_data_are_refused() -> None:
 def test_tabs_and_blanks_between_numbers_can_mix() -> None:
     rows = [f"{t:.4f} \t{f:.4f}   {d:.4f}" for t, f, d in zip(T, F, D, strict=True)]
     same(read(made.text(["Time (s)\tForce (kN)\tDisp (mm)", *rows])), T, F, D)
+
+
+@pytest.mark.parametrize("separator", [";", "\t", ","])
+def test_a_point_that_can_separate_thousands_is_refused(separator: str) -> None:
+    newtons = np.rint(1e4 * (1 + np.cos(7 * T)))
+    rows = [f"{k}{separator}{int(n):,}".replace(",", ".") if separator != "," else f"{k},{int(n) // 1000}.{int(n) % 1000:03d}"
+            for k, n in enumerate(newtons) if n >= 1000] + [f"400{separator}955"]  # fmt: skip
+    refused("\n".join([f"Index{separator}Kraft (N)", *rows]) + "\n", "can be a decimal sign or separate thousands", "955")
+
+
+def test_points_before_three_digits_are_decimal_where_they_are_in_every_number() -> None:
+    text = "\n".join(["Force (kN);Cycle", *(f"{18 + k / 1000:.3f};{k}" for k in range(200))])
+    same(read(text), 18 + np.arange(200) / 1000, np.arange(200.0))
+    text = "\n".join(["Force (kN);Cycle", *(f"{18 + k / 1000:g};{k}" for k in range(200))])  # 18.719, 18.72, 19
+    same(read(text), 18 + np.arange(200) / 1000, np.arange(200.0))
+    text = "\n".join(["Force (kN);Cycle", *(f"{k / 1000:.3f};{k}" for k in range(2000))])
+    same(read(text), np.arange(2000) / 1000, np.arange(2000.0))

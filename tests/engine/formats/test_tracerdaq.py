@@ -47,6 +47,9 @@ def test_events_are_named_and_dates_that_go_back_leave_the_stated_interval() -> 
     [
         ("Header Size:  3", "Header Size:  4", "line 1: states a number of lines before the data of 4; the data have 3"),
         ("Interval:  0.004", "Interval:  0.04", "by the dates of the rows of 0.04 s; the data have 0.004 s"),
+        ("Interval:  0.004", "Interval:  0.005", "by the dates of the rows of 0.005 s; the data have 0.004 s"),
+        ("Interval:  0.004", "Interval:  0.0045", "by the dates of the rows of 0.0045 s; the data have 0.004 s"),
+        ("Sampling Interval:  0.004", "Sampling Rate:  240", "rows of 0.004166667 s; the data have 0.004 s"),
         ("       3,", "       4,", "line 6: has the sample number 4 after 2"),
         ("59.508 PM", "59.908 PM", "line 6: is 0.404 s after the row before; the step is 0.004 s"),
         ("-0.500000", "-0,500000", "line 6: has one number more than the heading has channels"),
