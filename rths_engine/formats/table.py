@@ -82,7 +82,7 @@ def checked(table: Table) -> Table:
         problem = f"has {len(table.columns)} columns; the maximum is {MOST_COLUMNS}"
         raise FileError(Issue("file", problem, fix="export fewer signals, one signal a column"))
     refuse_many(sum(len(column.values) for column in table.columns if not on_disk(column.values)))
-    if contradictions := [one.issue for one in table.statements if not one.agrees]:
+    if contradictions := list(dict.fromkeys(one.issue for one in table.statements if not one.agrees)):
         raise FileError(contradictions)
     return replace(
         table, columns=tuple(replace(one, name=_storable(one.name), unit=_storable(one.unit)) for one in table.columns)

@@ -169,7 +169,7 @@ def _scaled(typed: str, plain: str) -> Written | None:
     if not unit or unit == "1" or not (number > 0 and math.isfinite(number)):
         return None
     if not power and number > 1 and "e" not in plain[: len(plain) - len(rest)].lower():
-        return Written(typed, problem=f"the number in '{typed}' can be a factor or the range of a sensor: choose the unit")
+        return Written(typed, problem=f"the number in '{typed}' can be a factor or the range of a sensor")
     return Written(typed, *simplest(unit, number))
 
 

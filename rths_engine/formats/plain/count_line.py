@@ -75,6 +75,7 @@ def _is_heading(text: str) -> bool:
 
 def refusal(line: Line, count: int) -> FileError:
     """The refusal of numbers above the data that are neither samples nor the count of the samples."""
-    problem = f"stands above {count} samples: it can be a count, a step or a sample"
+    place = f"above {count} samples" if count else "below the samples"
+    problem = f"stands {place}: it can be a count, a step or a sample"
     fix = "correct the count, or remove the line if it is no sample"
     return FileError(Issue(f"line {line[0]}", problem, line[1].strip(), fix))

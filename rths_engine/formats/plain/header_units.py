@@ -104,7 +104,7 @@ def _known(named: str) -> list[Written]:
             continue
         rest = " ".join(parts[end:])
         if _TIMES.match(rest):
-            return [Written(named, problem=f"the factor in '{named}' can multiply or divide: choose the unit")]
+            return [Written(named, problem=f"the factor in '{named}' can multiply or divide")]
         others = [unit_names.read(part) for part in parts[end:]]
         return [unit, *others] if others and all(one.unit for one in others) else [unit]
     return []

@@ -37,7 +37,8 @@ def looks_like(source: Source) -> bool:
     """Whether the file is a PEER file: its header contains NPTS and DT, or its name promises it and its first line is text."""
     first = source.head_lines[:_HEADER_LINES]
     own = [line.upper() for line in first if not line.lstrip().startswith(("#", "%", "!"))]  # a comment is no header of PEER
-    stated = any("NPTS" in line and "DT" in line for line in own)
+    called = source.extension in FORMAT.extensions or any(_SERIES.search(line) for line in own)
+    stated = any(_NAMED.search(line) or _LISTED.search(line) or (called and "NPTS" in line and "DT" in line) for line in own)
     columns = not first or "\t" in first[-1] or any(value(token) is not None for token in re.split(r"[\s,;]+", first[-1]))
     return stated or (source.extension in FORMAT.extensions and not columns)
 

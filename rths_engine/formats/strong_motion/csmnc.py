@@ -10,7 +10,7 @@ from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, count, duration, peak, peak_time
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import acceleration_unit
+from rths_engine.formats.strong_motion.units_written import gal_only
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.errors import FileError, Issue
 
@@ -37,10 +37,8 @@ def read(source: Source) -> Table:
     header, rows = Keyed(lines[: first - 1]), lines[first - 1 :]
     if next(header.find("VELOCITY|DISPLACEMENT"), None) or not next(header.find("ACCELERATION"), None):
         raise FileError(Issue("header", "does not describe a record of acceleration", fix="give the record of acceleration"))
-    unit = acceleration_unit(header.text(r"ACCELERATION\s+UNIT:\s*(\S+)"))
-    if not unit:
-        stated = header.text(r"UNIT:\s*(\S*)")
-        raise FileError(Issue("header", "states no known unit of acceleration", stated, "write UNIT: CM/SEC/SEC"))
+    unit_at, stated = next(((at, one[1]) for at, one in header.find(r"UNIT:\s*(\S*)")), ("header", ""))
+    unit = gal_only(stated, unit_at)
     dt = header.needed(r"INTERVALS OF:\s*(\S+)", "interval").value
     data = fortran.series(rows, _VALUES, MISSING)
     statements = [count(int(found[1]), len(data.values), where)]

@@ -12,7 +12,7 @@ from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Statement, Written, count
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import acceleration_unit
+from rths_engine.formats.strong_motion.units_written import gal_only
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import FileError, Issue
@@ -34,10 +34,8 @@ def read(source: Source) -> Table:
     lines = numbered(source.lines)
     end = next((at for at, line in lines if line.strip() and not line.startswith("#")), len(lines) + 1) - 1
     header = Keyed(lines[:end])
-    unit = acceleration_unit(re.split(r"[.\s]", header.text(r"^#AmplitudeUnit:\s*(\S.*)$"))[0])
-    if not unit:
-        stated = header.text(r"^#AmplitudeUnit:\s*(.*)$")
-        raise FileError(Issue("header", "states no known unit of acceleration", stated, "write #AmplitudeUnit: gal"))
+    where, stated = next(((where, one[1]) for where, one in header.find(r"^#AmplitudeUnit:\s*(.*)$")), ("header", ""))
+    unit = gal_only(re.split(r"[.\s]", stated)[0], where)
     names = [re.sub(r"\(\+\)$", "", one.strip()) for one in header.text(_SEQUENCE).split(";")]
     rate = header.needed(r"^#SampleRate\(Hz\):\s*(\S+)", "sampling rate")
     layout = fortran.Columns.written(f"({header.text('^#Data:(.*)$')})") or fortran.Columns(1 + len(names), _WIDTH)

@@ -57,7 +57,9 @@ class Record:
 def looks_like(source: Source) -> bool:
     """Whether the file is of K-NET or KiK-net."""
     first = source.head_lines[:FIRST_LINES]
-    return all(any(line.startswith(label) for line in first) for label in ("Sampling Freq(Hz)", "Scale Factor"))
+    labels = ("Sampling Freq(Hz)", "Station Code", "Duration Time", "Scale Factor", "Max. Acc. (gal)")
+    found = [any(line.startswith(label) for line in first) for label in labels]
+    return found[0] and sum(found) >= 3  # a label can be missing: its line is named then
 
 
 def read(source: Source) -> Table:

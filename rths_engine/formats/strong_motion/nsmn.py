@@ -12,13 +12,15 @@ from rths_engine.formats.source import Source
 from rths_engine.formats.statement import Written, count, peak
 from rths_engine.formats.strong_motion import fortran
 from rths_engine.formats.strong_motion.keyed import FIRST_LINES, MISSING, Keyed, instant, numbered, stamp
-from rths_engine.formats.strong_motion.units_written import acceleration_unit
+from rths_engine.formats.strong_motion.units_written import gal_only
 from rths_engine.formats.table import Column, Table
+from rths_engine.foundation import unit_names, units
 from rths_engine.foundation.errors import FileError, Issue
 
 _NAMES = re.compile(r"^\s*[NEUSWDZV](?:-[NEUSWD])?(?:\s+[NEUSWDZV](?:-[NEUSWD])?)+\s*$")
 _PEAKS = re.compile(r"^RAW PGA VALUES\s*\(\s*(\S+?)\s*\)\s*:(.*)$", re.IGNORECASE)
 _PEAK = re.compile(rf"\(\s*([^)]+?)\s*\)\s*({NUMBER})")
+_INTERVAL = r"^SAMPLING INTERVAL\s*\(\s*([^)]*?)\s*\)"
 _WIDTH = 13  # by definition of the format
 
 
@@ -37,7 +39,7 @@ def read(source: Source) -> Table:
         raise FileError(Issue("header", "has no row of names above the numbers", fix=fix))
     header, names = Keyed(lines[: at - 1]), lines[at - 1][1].split()
     unit, peaks = _peaks(header)
-    step = header.needed(r"^SAMPLING INTERVAL\s*\(sec\)\s*:\s*(\S*)", "sampling interval").value
+    step = _step(header)
     data = fortran.series(lines[at:], fortran.Columns(len(names), _WIDTH), MISSING)
     if len(data.values) % len(names):
         where = f"line {lines[-1][0]}"
@@ -71,13 +73,21 @@ def read(source: Source) -> Table:
     return Table("AFAD (NSMN)", tuple(columns), statements=tuple(statements), header=header.shown, about=about)
 
 
+def _step(header: Keyed) -> float:
+    """The sampling interval (s), in the unit that its label states."""
+    stated = header.needed(r"^SAMPLING INTERVAL\s*\([^)]*\)\s*:\s*(\S*)", "sampling interval")
+    label = header.text(_INTERVAL)
+    unit = unit_names.read(label)
+    if unit.dimension != "time":
+        raise FileError(Issue(stated.where, "states a unit of the sampling interval that is not known", label, "write (sec)"))
+    return stated.value * unit.scale * units.factor(unit.unit)
+
+
 def _peaks(header: Keyed) -> tuple[str, dict[str, Written]]:
     """The unit, which only the label of the peaks states, and the peak of each component."""
     for at, line in header.lines:
         if found := _PEAKS.match(line):
-            unit = acceleration_unit(found[1])
-            if not unit:
-                raise FileError(Issue(f"line {at}", "states a unit that is not known", found[1], "write gal or g"))
+            unit = gal_only(found[1], f"line {at}")
             return unit, {one[1]: Written.of(one[2], f"line {at}") for one in _PEAK.finditer(found[2])}
     raise FileError(Issue("header", "does not state the peaks and their unit", fix="get the file again"))
 

@@ -100,11 +100,11 @@ def _step(column: Column, dt: float | None, issues: list[Issue]) -> float | None
 def _check_peak(acceleration: Array, unit: str, stated: bool, peak_agrees: bool) -> None:
     """Raises MotionError for a record of zeros, and for a peak that points to a wrong unit.
 
-    A peak that the header states too is right at any size. Where the format states quantity and unit, a small peak is an
-    aftershock or a far station.
+    A small peak that the header states too is right, and so is one whose quantity and unit the format states: an aftershock or
+    a far station. A stated peak has the unit of the samples: it does not confirm a peak above that of any record.
     """
     pga = float(np.max(np.abs(acceleration))) / STANDARD_GRAVITY
-    if pga > 0 and (peak_agrees or (0 if stated else LEAST_PGA) <= pga <= LARGEST_PGA):
+    if 0 < pga <= LARGEST_PGA and (peak_agrees or stated or pga >= LEAST_PGA):
         return
     problem = f"given as {unit} the record peaks at {pga:.3g} g, outside {LEAST_PGA} to {LARGEST_PGA:g} g"
     if pga == 0:

@@ -30,7 +30,8 @@ def test_values_step_unit_and_component_come_from_the_header() -> None:
         ({"duration": "60"}, ("line 13", "duration of 60 s")),
         ({"peak": "15.919"}, ("peak of 15.919", "the data have -")),
         ({"at": "0.6"}, ("time of the peak of 0.6 s",)),
-        ({"unit": "XYZ"}, ("no known unit", "XYZ")),
+        ({"unit": "XYZ"}, ("not gal or cm/s^2", "XYZ")),
+        ({"unit": "G"}, ("not gal or cm/s^2", "= g")),
         ({"kind": "VELOCITY"}, ("does not describe a record of acceleration",)),
     ],
 )

@@ -38,7 +38,8 @@ def test_a_start_without_a_time_zone_is_not_taken_for_a_time_of_taiwan() -> None
         ({"AmplitudeMAX. N": "   99.000~   -9.447"}, ("maximum of N of 99",)),
         ({"AmplitudeMAX. E": "    5.905~  -55.000"}, ("minimum of E of -55",)),
         ({"AmplitudeMAX. X": "    5.905~  -55.000"}, ("range of X", "U, N, E")),
-        ({"AmplitudeUnit": " volts"}, ("no known unit of acceleration",)),
+        ({"AmplitudeUnit": " volts"}, ("line 10", "not gal or cm/s^2", "volts")),
+        ({"AmplitudeUnit": " m/s2. DCoffset(corr)"}, ("not gal or cm/s^2", "m/s^2")),
         ({"Data": "5F10.3"}, ("states 5 columns", "names 4")),
     ],
 )

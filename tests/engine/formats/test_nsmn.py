@@ -46,7 +46,8 @@ def test_a_header_that_contradicts_the_data_refuses_the_file(header: dict[str, s
 
 def test_an_unknown_unit_and_a_missing_row_of_names_are_refused() -> None:
     raw = written(Record(THREE))
-    refused(raw.replace(b"(gal) ", b"(xyz) "), "line 11", "unit that is not known", "xyz")
+    refused(raw.replace(b"(gal) ", b"(xyz) "), "line 11", "unit that is not gal or cm/s^2", "xyz")
+    refused(raw.replace(b"(gal) ", b"(g)   "), "line 11", "unit that is not gal or cm/s^2", " g")
     refused(raw.replace(b"          N-S          E-W          U-D\r\n", b""), "no row of names")
     refused(raw.removesuffix(b"\r\n")[:-13], "ends a row without all of 3")
 
@@ -74,3 +75,10 @@ def test_any_record_comes_back(rows: list[tuple[float, ...]], dt: float) -> None
     found = table(written(Record(values, dt=dt)))
     assert [tuple(one.values) for one in found.columns] == values
     assert {one.dt for one in found.columns} == {dt}
+
+
+def test_the_sampling_interval_is_read_in_the_unit_of_its_label() -> None:
+    raw = written(Record(THREE)).replace(b"SAMPLING INTERVAL (sec) : 0.01", b"SAMPLING INTERVAL (ms) : 10")
+    assert b"(ms)" in raw
+    assert {one.dt for one in table(raw).columns} == {0.01}
+    refused(raw.replace(b"(ms)", b"(xx)"), "unit of the sampling interval", "xx")

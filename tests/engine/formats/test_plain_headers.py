@@ -242,3 +242,18 @@ def test_measurements_with_a_header_that_agrees_are_read(header: str) -> None:
 def test_a_factor_in_the_header_of_measurements_is_named() -> None:
     found = measured(table("# Scale factor: 2.5\nTime (s),Force (kN),Disp (mm)"))
     assert "line 1 states 'scale factor: 2.5': not applied" in found.notes
+
+
+def test_a_stated_peak_does_not_confirm_an_acceleration_beyond_any_record() -> None:
+    with pytest.raises(MotionError, match=r"outside 0\.001 to 5 g"):
+        motion("# units: g, dt = 0.01\n# PGA: 182.0 g")
+
+
+def test_dt_before_npts_is_plain_text_and_no_damaged_at2() -> None:
+    found = motion("Acceleration (cm/sec/sec) DT= .01 SEC NPTS= 400")
+    assert (found.dt, np.max(np.abs(found.acceleration))) == pytest.approx((0.01, 1.82))
+
+
+def test_a_count_below_the_samples_is_called_one() -> None:
+    with pytest.raises(MotionError, match="stands below the samples"):
+        ground_motions.read(record("# units: cm/s2, dt=0.01") + b"400\n", "made.txt")

@@ -17,7 +17,7 @@ export function factsOf(column) {
     [[`${samples} samples`, clock, missing && `${missing} missing`].filter(Boolean).join("; ")],
     [range],
     [unitOf(column), column.problem ? "unknown" : ""],
-    quantity && [`quantity of the format: ${quantity}`],
+    quantity && [`quantity, as the file states it: ${quantity}`],
     applied && [`applied from the file: ${applied}`],
   ];
   return lines.filter(Boolean).map((/** @type {any} */ [text, kind = ""]) => el("small", { class: kind || "muted" }, text));
