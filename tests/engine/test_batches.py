@@ -172,3 +172,41 @@ def test_the_table_has_a_row_for_each_file_and_no_cell_is_a_formula() -> None:
     lines = listing.to_csv(rows).splitlines()
     assert lines[0].startswith("file,result,recording,reasons,differences") and lines[4].startswith("'=1+1.csv,refused,,")
     assert lines[1].startswith("run00.csv,imported,") and ",200,100.0,0.0,1.99," in lines[1]
+
+
+def repeated(changes: Texts[int, tuple[float, float]]) -> dict[str, bytes]:
+    """Nine runs of one test, whose forces grow by 1 % from run to run; force and displacement of some times two factors."""
+    files = {}
+    for k in range(9):
+        force, disp = changes.get(k, (1.0, 1.0))
+        of = made.signals(5)
+        of["Force (kN)"] = force * (1 + 0.01 * k) * of["Force (kN)"]
+        of["Disp (mm)"] = disp * of["Disp (mm)"]
+        files[made.name(k)] = made.csv(of)
+    return files
+
+
+@pytest.mark.parametrize(
+    ("force", "disp", "key", "ratio"),
+    [
+        (9.80665, 1.0, "f_meas.1", "9.807 (kgf, N)"),
+        (1 / 9.80665, 1.0, "f_meas.1", "9.807 (kgf, N)"),
+        (4.4482, 1.0, "f_meas.1", "4.448 ("),
+        (224.809, 1.0, "f_meas.1", "224.8 (kN, lb)"),
+        (1000.0, 1.0, "f_meas.1", "1000 (N, mN)"),
+        (1.0, 2.54, "x_meas.1", "2.54 (in, cm)"),
+        (1.0, 25.4, "x_meas.1", "25.4 (in, mm)"),
+        (1.0, 0.1, "x_meas.1", "10 (cm, mm)"),
+    ],
+)
+def test_a_signal_that_is_larger_by_the_ratio_of_two_units_is_named(force: float, disp: float, key: str, ratio: str) -> None:
+    batch, _ = imported(repeated({8: (force, disp)}), made.mapping())
+    (only,) = differences(batch, made.name(8))
+    assert only.startswith(f"warning: largest value of {key}: ") and ratio in only and " times, as units differ by " in only
+    assert not any(differences(batch, made.name(k)) for k in range(8))
+
+
+@pytest.mark.parametrize(("force", "disp"), [(1.5, 1.0), (10.0, 10.0), (4.5, 4.4), (7.5, 1.0), (1.0, 1.2)])
+def test_a_test_of_another_amplitude_is_not_one_of_another_unit(force: float, disp: float) -> None:
+    batch, _ = imported(repeated({8: (force, disp)}), made.mapping())
+    assert not any(differences(batch, made.name(k)) for k in range(9))

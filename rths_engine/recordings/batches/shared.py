@@ -7,11 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from statistics import median
 from typing import TypeVar
 
+from rths_engine.recordings.batches import slips
 from rths_engine.recordings.batches.difference import NOTHING, Difference
 from rths_engine.recordings.batches.facts import ChannelFacts, Facts, RecordingFacts
 
 # chosen; see docs/decisions/0023
 FAR = 30  # between the largest values of a channel in two files
+ALIKE = 0.2  # relative: largest values of repeated tests; where most files are so alike, a smaller ratio is looked at too
 FEWEST = 3  # files of which most can share a value
 
 _CLOCK = (("rate_hz", "sampling rate", "Hz"), ("start_s", "start", "s"), ("duration_s", "duration", "s"))
@@ -34,13 +36,14 @@ class Shared:
         channels = {key: [one.channels[key] for one in recordings if key in one.channels] for key in keys}
         self._constant = {key: _most([one.constant for one in each]) for key, each in channels.items()}
         self._middle = {key: median(one.largest for one in each) for key, each in channels.items() if len(each) >= FEWEST}
+        self._scatter = {key: _scatter([one.largest for one in channels[key]], middle) for key, middle in self._middle.items()}
 
     def differences(self, one: Facts) -> Iterator[Difference]:
         """The differences of a file from what most files share."""
         if one.recording is not None:
             yield from self._times(one.recording)
             for key, channel in one.recording.channels.items():
-                yield from self._channel(key, channel)
+                yield from self._channel(key, channel, one.recording)
         for what, usual in self._stated.items():
             if usual is not None and (what in one.stated) != usual:
                 yield Difference("note", "statement in the header", what, _STATED[what in one.stated], _STATED[usual])
@@ -57,13 +60,33 @@ class Shared:
         if self._samples is not None and own.samples != self._samples:
             yield Difference("note", "number of samples", "", str(own.samples), str(self._samples))
 
-    def _channel(self, key: str, own: ChannelFacts) -> Iterator[Difference]:
+    def _channel(self, key: str, own: ChannelFacts, of: RecordingFacts) -> Iterator[Difference]:
         constant, middle = self._constant.get(key), self._middle.get(key, 0.0)
         if constant is not None and own.constant != constant:
             yield Difference("warning", "signal", key, _VARIES[own.constant], _VARIES[constant])
-        if middle > 0 and own.largest > 0 and not middle / FAR < own.largest < middle * FAR:
-            here, there = f"{own.largest:.3g} {own.unit}", f"{middle:.3g} {own.unit} (median)"
+        if not (middle > 0 and own.largest > 0):
+            return
+        ratio, scatter = own.largest / middle, self._scatter[key]
+        slipped = slips.slip(ratio, own.unit, scatter) if scatter is not None and not self._all_by(ratio, key, of) else ""
+        if slipped or not 1 / FAR < ratio < FAR:
+            why = f"; {max(ratio, 1 / ratio):.4g} times, as units differ by {slipped}" if slipped else ""
+            here, there = f"{own.largest:.3g} {own.unit}", f"{middle:.3g} {own.unit} (median{why})"
             yield Difference("warning", "largest value", key, here, there)
+
+    def _all_by(self, ratio: float, key: str, of: RecordingFacts) -> bool:
+        """Whether every other channel of the file is larger by the same ratio: another amplitude, not another unit."""
+        others = [
+            one.largest / middle
+            for other, one in of.channels.items()
+            if other != key and (middle := self._middle.get(other, 0.0)) > 0 and one.largest > 0
+        ]
+        return bool(others) and all(abs(one / ratio - 1) <= ALIKE for one in others)
+
+
+def _scatter(sizes: Sequence[float], middle: float) -> float | None:
+    """By how much, relative, the sizes of like files differ from their median; None where fewer than half are alike."""
+    near = [off for one in sizes if middle > 0 and (off := abs(one / middle - 1)) <= ALIKE]
+    return max(near) if 2 * len(near) > len(sizes) else None
 
 
 def _most(values: Sequence[T]) -> T | None:

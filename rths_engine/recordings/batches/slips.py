@@ -1,0 +1,36 @@
+"""Ratios of units of one quantity: the values of a file are off by one of them where another unit was written, kgf for N."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import permutations
+
+from rths_engine.foundation import units
+
+# chosen; see docs/decisions/0023
+SMALLEST = 2.0  # ratio of two units
+NAMED = 2  # ratios in a sentence, the nearest ones
+WITHIN, WIDEST = 0.02, 0.15  # relative: around the ratio of two units, at least and at most
+
+
+def slip(ratio: float, unit: str, scatter: float = 0.0) -> str:
+    """The units whose ratio the `ratio` of two values in `unit` can be: `9.807 (kgf, N) or 10 (daN, N)`; empty: none.
+
+    `scatter` (relative): by which values in the right unit differ from their median; the two values can differ by twice that.
+    """
+    within = min(max(2 * scatter, WITHIN), WIDEST)
+    size = max(ratio, 1 / ratio)
+    near = [(abs(one / size - 1), one, pair) for one, pair in _ratios(units.dimension(unit)).items()]
+    return " or ".join(f"{one:.4g} ({', '.join(pair)})" for off, one, pair in sorted(near)[:NAMED] if off <= within)
+
+
+@cache
+def _ratios(dimension: str) -> dict[float, tuple[str, str]]:
+    """Each ratio of two units of a dimension, with the first two units that have it."""
+    known = [name for name, (of, _) in units.UNITS.items() if of == dimension and name not in units.ZEROS]
+    found: dict[float, tuple[str, str]] = {}
+    for large, small in permutations(known, 2):
+        ratio = float(f"{units.factor(large) / units.factor(small):.6g}")
+        if ratio >= SMALLEST:
+            found.setdefault(ratio, (large, small))
+    return found
