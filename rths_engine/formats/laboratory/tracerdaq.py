@@ -121,14 +121,14 @@ def _step(
     between, digit = np.diff(stamps.seconds(texts, data)), stamps.resolution(texts)
     shown = float(np.median(between))
     step = dt if dt is not None else float(np.mean(between))
-    forward = bool((between >= 0).all())
+    forward = between[between >= 0]
     if dt is not None:
         one = interval or rate
         assert one is not None
-        over = len(between) if forward else 1  # a digit of the first and the last stamp over all steps, else of one step
-        shown = float(np.sum(between)) / len(between) if forward else shown
+        stretches = 1 + len(between) - len(forward)  # each begins and ends with a rounded stamp
+        shown = float(np.mean(forward)) if len(forward) else shown
         rounded = min(interval.within if interval is not None else 0.0, COARSE * shown)
-        within = rounded + 2 * digit / over + _ROUNDED * dt
+        within = rounded + 2 * digit * stretches / max(1, len(forward)) + _ROUNDED * dt
         found.append(Statement("sampling interval by the dates of the rows", one.where, dt, shown, "s", within))
     if len(late := np.flatnonzero(between > _GAP * step + 2 * digit)):
         k = int(late[0])
