@@ -53,6 +53,7 @@ def guess(table: Table) -> Guess:
     guess_roles.of_drive(progress)
     guess_roles.related(progress)
     guess_roles.lone(progress)
+    guess_roles.lone_numbers(progress)
     for column in progress.unclear():
         problem = progress.said[column.name].written.problem
         progress.left[column.name] = "; ".join(part for part in ("its meaning is unknown", problem) if part)

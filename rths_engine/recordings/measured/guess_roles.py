@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rths_engine.formats.table import Column
-from rths_engine.recordings.measured import names, relations
+from rths_engine.recordings.measured import names, relations, words
 from rths_engine.recordings.measured.guess_progress import MARK, Progress
 from rths_engine.recordings.measured.names import Named
 from rths_engine.recordings.measured.roles import RAW, ROLES
@@ -13,6 +13,7 @@ from rths_engine.recordings.measured.roles import RAW, ROLES
 # chosen; see docs/decisions/0023
 _ALIKE = 0.8  # correlation from which an unnamed column counts as the derivative of another column
 _DISSIPATES = 0.4  # share of dissipated energy from which a column counts as the force of a device
+_EXACT = 0.999999  # correlation from which columns with different names are one signal
 _LINEAR = 0.99  # correlation from which a column of volts is the reading of a calibrated column
 _RECORDERS = {"um", "udot", "pr"}  # names beside U in the recorders of OpenFresco and OpenSees
 
@@ -43,12 +44,39 @@ def calibrated(progress: Progress) -> None:
     """Leave out a column of volts or counts where a column of the same name holds the calibrated measurement."""
     raw = [name for name, one in progress.taken.items() if progress.said[name].written.dimension in RAW]
     for name in (name for name in raw if progress.taken[name].role != "t"):
-        words = names.bare(names.stated_unit(name)[1])
+        spoken = _without_reading(name)
         for other, one in progress.taken.items():
             written = progress.said[other].written
-            same = other != name and words[0] and names.bare(names.stated_unit(other)[1]) == words
+            same = other != name and ((spoken[0] and _without_reading(other) == spoken) or _reads(progress, name, other))
             if same and written.dimension in ROLES[one.role].dimensions and written.dimension not in RAW:
                 progress.left[name] = _reading(progress, name, other)
+
+
+def _without_reading(name: str) -> tuple[str, int | None]:
+    """Words and number of a name, without words such as `raw` and `calibrated`."""
+    spoken, number = names.bare(names.stated_unit(name)[1])
+    return " ".join(words.OF_READING.sub(" ", spoken).split()), number
+
+
+def _reads(progress: Progress, name: str, other: str) -> bool:
+    """Whether a column of one role is another column of it except for gain, offset and rounding."""
+    if progress.taken[name].role != progress.taken[other].role:
+        return False
+    raw, kept = progress.table.names[name].values, progress.table.names[other].values
+    if len(raw) != len(kept) or not (np.isfinite(raw).all() and np.isfinite(kept).all()):
+        return False
+    return abs(relations.between(raw, kept).correlation) > _EXACT
+
+
+def lone_numbers(progress: Progress) -> None:
+    """Take no number of two digits or more for a station where only one column has it: `LVDT 50` is rather a range."""
+    used = [one for name, one in progress.taken.items() if name not in progress.left]
+    stations = [one for one in used if ROLES[one.role].counts == "station"]
+    for one in stations:
+        others = [each for each in stations if each is not one]
+        alone = all(each.number is None or (each.role != one.role and each.number != one.number) for each in others)
+        if one.number is not None and one.number > names.MOST_COUNTED and alone:
+            one.number = None
 
 
 def of_drive(progress: Progress) -> None:

@@ -16,6 +16,9 @@ _LONGEST_UNIT = 12  # characters of a bracket that is reported as an unknown uni
 _NO_UNIT = re.compile(r"[\d\s.,:;#-]+|column \d+")  # numbers in brackets, and the number by which equal names are told apart
 _NO_TAIL = re.compile(r"[-%\d]+|[cCFfkvaMThSJKn]", re.IGNORECASE)  # ends of names that are more often a letter of a channel
 _IS_TAIL = {"s", "m", "g", "N", "V", "A"}
+_WITH_UNIT = re.compile(r"(?<![\w.])(?:@\s*)?(\d+(?:\.\d+)?)\s*([A-Za-z%\u00b5\u03bc/][A-Za-z/]*)(?![A-Za-z0-9])")
+_OF_RANGES = {"N", "V", "%", "m", "A"}  # units of one letter that stand behind a range
+MOST_COUNTED = 9  # sensors of one kind that are numbered with one digit; chosen, see docs/decisions/0023
 _NONE = Written("")
 
 
@@ -46,6 +49,7 @@ def read(name: str, unit: str = "", quantity: str = "") -> Named:
     `unit` is its unit where the file states it separately, `quantity` the dimension where the format states it.
     """
     written, rest, certain = stated_unit(name, unit)
+    rest = without_ranges(rest, written)
     spoken, number = bare(rest)
     roles = [role for role, pattern in words.ROLES if pattern.search(spoken)]
     if not certain and written.unit and not _fits(written.dimension, roles):
@@ -53,6 +57,10 @@ def read(name: str, unit: str = "", quantity: str = "") -> Named:
         spoken, number = bare(rest)
         roles = [role for role, pattern in words.ROLES if pattern.search(spoken)]
     kind = written.dimension or quantity
+    if words.OF_RECORDER.search(spoken):
+        return Named(written=written, aside="is of the recorder by its name: what it measures is not stated")
+    if kind == "length" and roles[:1] == ["drive"] and not words.IS_DRIVE.search(spoken):
+        roles = ["x_meas"]  # u is a displacement where its unit is one
     fitting = [role for role in roles if not kind or kind in ROLES[role].dimensions or (kind in RAW and role != "t")]
     if kind == "force" and roles and roles[0] in ("x_cmd", "x_comp"):
         return Named(written=written, aside="is the command of a force by its name: no role is a commanded force")
@@ -89,6 +97,23 @@ def stated_unit(name: str, unit: str = "") -> tuple[Written, str, bool]:
         if len(parts) > count and (tail := _tail(parts[-count:])).unit:
             return tail, " ".join(parts[:-count]), False
     return unknown, name, True
+
+
+def without_ranges(name: str, written: Written) -> str:
+    """The name without the numbers that have a unit behind them: `Load cell 500 kN`, `filtered 10 Hz`, `@ 250 Hz`.
+
+    `acc 2 g` in g is the second accelerometer: a digit before the unit of the column itself stays.
+    """
+
+    def kept(found: re.Match[str]) -> str:
+        unit = unit_names.read(found[2])
+        if "." in found[1] or ("/" in found[2] and not unit.unit and all(map(unit_names.known, found[2].split("/")))):
+            return " "  # `2.5 kN/V`
+        letter = len(found[2]) == 1 and found[2] not in _OF_RANGES
+        own = unit.unit and unit.dimension == written.dimension and float(found[1]) <= MOST_COUNTED
+        return found[0] if not unit.unit or letter or own else " "
+
+    return _WITH_UNIT.sub(kept, name)
 
 
 def bare(name: str) -> tuple[str, int | None]:

@@ -94,6 +94,15 @@ ASIDE: tuple[tuple[re.Pattern[str], str], ...] = (
     (re.compile(r"^(untitled|comment|kommentar|unbenannt|events?|status|flags?)$"), "has a name without a meaning"),
 )
 
+IS_DRIVE = re.compile(r"\b(drive|control\w*|excit\w*|valve|servo|vir|input)\b")  # and not the letter u alone
+OF_RECORDER = re.compile(r"\bbatt(ery|erie|eria)?\b|\b(aux\w*|analog\w*|digital|spare)\b.*\binput\b|\bpanel temp\b")
+
+# words that tell the reading of a transducer from its calibrated measurement
+OF_READING = re.compile(
+    r"\b(raw|roh\w*|brut\w*|crudo|grezz\w|uncal\w*|unkal\w*|reading|signal|volts?|voltage|spannung|counts?|adc)\b"
+    r"|\b(cal|calib\w*|kalib\w*|etalonn\w*|calibrad\w|tarat\w|eng|engineering|scaled|skaliert)\b"
+)
+
 AZIMUTH = re.compile(
     r"[-+]?\b\d{1,3}(?:\.\d+)?\s*(?:degrees?|deg|°|grad)(?![A-Za-z])|\b[NS]\s*\d{1,2}\s*[EW]\b|\baz(?:imuth|imut)?\.?\s*[:=]?\s*\d{1,3}\b",
     re.IGNORECASE,

@@ -40,7 +40,7 @@ def test_events_are_named_and_dates_that_go_back_leave_the_stated_interval() -> 
     assert read(text.encode()).notes == ("line 5: 1 events are not read",)
     back = re.sub(r"01/03/2003 12:00:00(\.\d+) AM", r"01/02/2003 11:59:59\1 PM", text)
     assert "the time of day goes back by 0.996 s; the stated interval is used" in read(back.encode()).notes[1]
-    with pytest.raises(FileError, match="by the dates of the rows of 0.005 s; the data have 0.004 s"):
+    with pytest.raises(FileError, match=r"by the dates of the rows of 0.005 s; the data have 0.004 s"):
         read(back.encode().replace(b"Interval:  0.004", b"Interval:  0.005"))
 
 
