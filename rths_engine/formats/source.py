@@ -8,7 +8,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO
 
-from rths_engine.formats import lines
+from rths_engine.formats import encodings, lines
 from rths_engine.foundation.errors import FileError, Issue
 
 LARGEST = 200_000_000  # bytes of a file that is held in memory to be read; chosen, see docs/decisions/0023
@@ -63,13 +63,16 @@ class Source:
         return self.content if self.content is not None else self._path.read_bytes()
 
     def in_utf8(self) -> Source:
-        """The source, with UTF-16 text in UTF-8. Raises FileError for damaged UTF-16."""
-        if not self.head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        """The source, with text in UTF-16 or in a known code page in UTF-8. Raises FileError where such text is damaged."""
+        utf16 = self.head.startswith((b"\xff\xfe", b"\xfe\xff"))
+        encoding = "utf-16" if utf16 else encodings.of(self.head)
+        if not encoding:
             return self
         try:
-            return Source(self.name, content=self.bytes().decode("utf-16").encode("utf-8"))
+            return Source(self.name, content=self.bytes().decode(encoding).encode("utf-8"))
         except UnicodeDecodeError as error:
-            problem = f"begins as UTF-16 text and is damaged at byte {error.start}"
+            called = "UTF-16" if utf16 else encoding
+            problem = f"begins as {called} text and is damaged at byte {error.start}"
             raise FileError(Issue("file", problem, fix="save it as plain text (UTF-8)")) from None
 
     @cached_property

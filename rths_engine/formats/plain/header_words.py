@@ -169,7 +169,7 @@ CHANNELS = (
     r"|anzahl\s+(?:der\s+)?(?:kanale|spalten)|nombre\s+de\s+(?:canaux|voies|colonnes)|numero\s+(?:de|di)\s+(?:canales|canali|columnas|colonne)"
 )
 UNIT = (
-    r"\b(?:units?|einheit(?:en)?|unites?|unidad(?:es)?|unita(?:\s+di\s+misura)?|unidade|birim)\b(?:\s+of\s+\w+)?"
+    r"\b(?:units?|einheit(?:en)?|unites?|unidad(?:es)?|unita(?:\s+di\s+misura)?|unidade|birim|\u5358\u4f4d|\u5355\u4f4d|\u55ae\u4f4d)\b(?:\s+of\s+\w+)?"
     r"\s*(?:[:=]|\bof\b|\bin\b|\bare\b|\bis\b|\bde\b)\s*"
 )
 COMPONENT = (

@@ -257,3 +257,26 @@ def test_dt_before_npts_is_plain_text_and_no_damaged_at2() -> None:
 def test_a_count_below_the_samples_is_called_one() -> None:
     with pytest.raises(MotionError, match="stands below the samples"):
         ground_motions.read(record("# units: cm/s2, dt=0.01") + b"400\n", "made.txt")
+
+
+@pytest.mark.parametrize(
+    ("encoding", "header"),
+    [
+        ("cp932", "観測点: 仙台\n単位: gal\nサンプリング周波数: 100 Hz\nデータ数: {}\n最大加速度: 182.0 gal"),
+        ("euc_jp", "観測点: 仙台\n単位: gal\nサンプリング周波数: 100 Hz\nデータ数: {}\n最大加速度: 182.0 gal"),
+        ("gb18030", "台站: 汶川\n单位: cm/s2\n采样频率: 100 Hz\n数据点数: {}\n最大值: 182.0"),
+        ("cp1254", "İstasyon: Düzce\nBirim: cm/s2\nÖrnekleme aralığı (s): 0.01\nVeri sayısı: {}\nEn büyük ivme: 182.0"),
+    ],
+)
+def test_a_header_in_a_code_page_of_its_language_is_read(encoding: str, header: str) -> None:
+    found = ground_motions.read(record(header.format(400)).decode().encode(encoding), "made.txt")
+    assert (found.dt, np.max(np.abs(found.acceleration))) == pytest.approx((0.01, 1.82))
+    with pytest.raises(MotionError, match="500; the data have 400"):
+        ground_motions.contents(record(header.format(500)).decode().encode(encoding), "made.txt")
+
+
+def test_names_in_a_japanese_code_page_are_not_garbled_and_latin_1_stays() -> None:
+    japanese = measured(table("時間(s),荷重(kN),変位(mm)").decode().encode("cp932"))
+    assert [one.name for one in japanese.columns] == ["時間(s)", "荷重(kN)", "変位(mm)"]
+    german = measured(table("Zeit (s),Kraft (kN),Verschiebung größer (mm)").decode().encode("latin-1"))
+    assert german.columns[2].name == "Verschiebung größer (mm)"
