@@ -312,6 +312,16 @@ def test_a_header_and_a_mapping_that_differ_in_the_unit_are_flagged(name: str, u
     assert found == ([warned] if warned else [])
 
 
+def test_the_gain_that_an_error_suggests_is_one_that_is_read() -> None:
+    for unit in ("V", "mV", "V/V", "mV/V", "count"):
+        lacks = ColumnMap.model_validate({"column": "x", "role": "f_meas", "number": 1, "unit": unit}).lacks
+        assert lacks is not None and lacks.fix is not None
+        suggested = lacks.fix.split("'")[1]
+        assert suggested.endswith(f"/({unit})" if "/" in unit else f"/{unit}")
+        column = ColumnMap.model_validate({"column": "x", "role": "f_meas", "number": 1, "unit": unit, "gain": suggested})
+        assert column.lacks is None and column.scale[0] == 2.5
+
+
 def test_a_reading_takes_a_gain_and_a_ratio_is_one_unit() -> None:
     def scale(unit: str, gain: str) -> tuple[float, str]:
         return ColumnMap.model_validate({"column": "x", "role": "f_meas", "unit": unit, "gain": gain}).scale

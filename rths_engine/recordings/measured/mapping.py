@@ -90,7 +90,9 @@ class ColumnMap(Value):
         for result, own in _quotients(found[2]):
             if own == self.unit:
                 return float(found[1]), result
-        raise ValueError(f"gain {self.gain!r} needs units such as '35.15 N/{self.unit}', because the column is in {self.unit}")
+        raise ValueError(
+            f"gain {self.gain!r} needs units such as '35.15 N/{_divisor(self.unit)}', because the column is in {self.unit}"
+        )
 
     @property
     def lacks(self) -> Issue | None:
@@ -103,7 +105,7 @@ class ColumnMap(Value):
         kind = dimension(self.unit)
         if self.gain is None and kind in RAW and kind not in role.dimensions:
             problem = f"column '{self.column}' needs a unit of {' or '.join(role.dimensions)} as {self.role}, not {self.unit}"
-            return Issue("gain", problem, fix=f"give a gain such as '2.5 {_example(role.dimensions[0])}/{self.unit}'")
+            return Issue("gain", problem, fix=f"give a gain such as '2.5 {_example(role.dimensions[0])}/{_divisor(self.unit)}'")
         return None
 
     @property
@@ -190,6 +192,11 @@ def _unit(text: str) -> str:
         raise ValueError(f"is {written.scale:g} of {written.unit}: give the unit {written.unit} and the gain {written.scale:g}")
     problem = f"{written.problem}; " if written.problem else ""
     raise ValueError(f"is not a known unit of a column; {problem}the known units are {', '.join(UNITS)}")
+
+
+def _divisor(unit: str) -> str:
+    """A unit as it stands under a fraction line: `(mV/V)`."""
+    return f"({unit})" if "/" in unit else unit
 
 
 def _quotients(text: str) -> list[tuple[str, str]]:
