@@ -15,6 +15,7 @@ from rths_engine.foundation.arrays import Array
 
 _MOSTLY = 0.5  # share of equal steps from which a first column is time; chosen, see docs/decisions/0023
 _RISING = 16  # steps, all of them positive: no signal of a motion does that; chosen, see docs/decisions/0023
+_ALWAYS = 20  # steps: no acceleration increases as often in a row; chosen, see docs/decisions/0023
 _UNIFORM = 0.05  # of a step: time stamps often have few digits; chosen, see docs/decisions/0023
 _ROWS = 40  # rows of which the steps are compared; chosen, see docs/decisions/0023
 _ALIKE = 2.0  # of the mean squares of the steps of one record in order; chosen, see docs/decisions/0023
@@ -113,10 +114,12 @@ def _names(facts: Facts, width: int) -> list[str]:
 
 
 def is_time(column: Array) -> bool:
-    """Whether most steps of a first column are equal and positive: it is time, maybe with a fault."""
+    """Whether most steps of a first column are equal and positive, or all are positive: it is time, maybe with a fault."""
     steps = np.diff(column)
     if len(steps) < 2:
         return False
+    if len(steps) >= _ALWAYS and (steps > 0).all():
+        return True
     if len(steps) >= _RISING and (steps > 0).all():
         return True
     step = float(np.nanmedian(steps)) if np.isfinite(steps).any() else 0.0

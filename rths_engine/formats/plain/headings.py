@@ -36,6 +36,11 @@ _QUANTITIES = {
 _OF_TEXT = re.compile(r"events?|comments?|notes?|remarks?|marker|bemerkung|kommentar|observaci|comentario|commentaire|commento")
 _SIDE = re.compile(r"(?<![a-z])(?:n\s?-\s?s|[eo]\s?-\s?w|u\s?-\s?d|ud|ns|ew|ow)(?![a-z])")
 _PATTERNS = tuple((quantity, re.compile("|".join(patterns))) for quantity, patterns in _QUANTITIES.items())
+_TRIADS = (
+    {"n", "e", "z"}, {"n", "e", "v"}, {"n", "e", "u"}, {"n", "e", "d"}, {"x", "y", "z"}, {"l", "t", "v"},
+    {"ns", "ew", "ud"}, {"ns", "ew", "v"}, {"ns", "ew", "z"}, {"ns", "ew", "up"}, {"ns", "we", "ud"}, {"h1", "h2", "v"},
+    {"h1", "h2", "up"}, {"h1", "h2", "ud"}, {"h1", "h2", "z"}, {"h1", "h2", "h3"},
+)  # fmt: skip
 BY_DIMENSION = {"acceleration": "acceleration", "velocity": "velocity", "length": "displacement", "time": "time"}
 
 
@@ -76,6 +81,15 @@ def find(header: Sequence[Line], form: Form, width: int, empty: Sequence[int] = 
     clean = [re.sub(r"^[(\[{]\s*(.*?)\s*[)\]}]$", r"\1", cell) for cell in given]
     named = tuple(name or f"column {k}" for k, name in enumerate(names, start=1))
     return Heading(named, tuple("" if cell in {"-", "--"} else cell for cell in clean))
+
+
+def are_components(names: Sequence[str]) -> bool:
+    """Whether all names are directions of one instrument: `N, E, Z`, `X, Y, Z`, `L, T, V`, `H1, H2, UP`, `HNE, HNN, HNZ`."""
+    bare = [re.sub(r"[^a-z0-9]", "", words.plain(name)) for name in names]
+    if not 2 <= len(bare) == len(set(bare)):
+        return False
+    codes = [found[1] for one in bare if (found := re.fullmatch(r"[bhes][nhlg]([enz123])", one))]
+    return len(codes) == len(bare) or any(set(bare) <= triad for triad in _TRIADS)
 
 
 def name_and_unit(name: str) -> tuple[str, str]:

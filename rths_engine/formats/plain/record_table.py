@@ -14,6 +14,7 @@ from rths_engine.formats.table import Column, Table
 from rths_engine.foundation import unit_names
 from rths_engine.foundation.errors import FileError, Issue
 
+_MOST_WORDS = 3  # of a name; chosen, see docs/decisions/0023
 _OF_TIME = ("time step", "peak", "time of")  # statements that are made anew in the units of ground motions
 
 
@@ -29,11 +30,12 @@ def of_table(table: Table, facts: Facts) -> Table:
     ]
     steps = {one.name: _step(_clock_of(one, clocks), facts, len(table.columns[0].values)) for one in signals}
     found = []
+    directions = headings.are_components([headings.name_and_unit(one.name)[0] for one in signals])
     confirmed = peaks.confirmed_unit([one.values for one in signals], facts)
     for column in signals:
         name, own = headings.name_and_unit(column.name)
         written = unit_names.read(column.unit or own)
-        quantity = headings.quantity_of(name, column.unit or own)
+        quantity = "" if directions and written.none else headings.quantity_of(name, column.unit or own)
         if written.none and quantity in {"", headings.BY_DIMENSION.get(facts.unit.dimension, "acceleration")}:
             written = confirmed if facts.unit.none else facts.unit
         step = steps[column.name]
@@ -109,6 +111,12 @@ def _meant(heading: headings.Heading, separator: str) -> bool:
     or components; spaces separate any words, so that all of them must.
     """
     pairs = [(headings.name_and_unit(name), unit) for name, unit in zip(heading.names, heading.units, strict=False)]
+    bare = [name for (name, _), _ in pairs]
+    timed = bool(bare) and headings.quantity_of(bare[0]) in {"time", "sample number"}
+    if timed and headings.are_components(bare[1:]):
+        return True
+    if timed and separator == "," and all(len(name.split()) <= _MOST_WORDS for name in bare):
+        return True  # `Time (s),Ground,Roof`: a sentence does not begin with the word time, cut by commas
     known = sum(
         bool(headings.quantity_of(name, unit or own) or unit or own or blocks.component_in(name)) for (name, own), unit in pairs
     )

@@ -98,3 +98,24 @@ def test_components_beside_two_clocks_are_refused() -> None:
     t = np.arange(400) / 100
     with pytest.raises(FileError, match="two time columns with other times"):
         read("t1 (s),t2 (s),EW (gal),NS (gal)", t, 2 * t, np.sin(t), np.cos(t), otherwise="record")
+
+
+@pytest.mark.parametrize(
+    "names", ["N,E,Z", "E,N,Z", "X,Y,Z", "HNE,HNN,HNZ", "NS,EW,UD", "L,T,V", "H1,H2,UP", "Ground,Roof,Base"]
+)
+@pytest.mark.parametrize("time", ["t", "Time (s)", "time"])
+def test_components_are_offered_by_their_names(time: str, names: str) -> None:
+    t, a = made.burst()
+    raw = made.table([t, a, 0.8 * a, 0.5 * a], ["# units: gal", f"{time},{names}"]).encode()
+    found = ground_motions.contents(raw, "three.csv").channels
+    assert [one.name for one in found] == names.split(",")
+    assert [(one.column.unit, one.column.dt) for one in found] == [("gal", 0.01)] * 3
+    assert [float(np.max(np.abs(one.column.values))) for one in found] == pytest.approx([182, 145.6, 91], abs=0.01)
+
+
+def test_pairs_of_uneven_time_and_value_are_refused() -> None:
+    _, a = made.burst()
+    uneven = np.cumsum(np.where(np.arange(400) % 3, 0.010, 0.012))
+    with pytest.raises(FileError, match="not a time with a uniform step"):
+        text = made.table([uneven, a], ["time acc pairs units: cm/s2"], " ")
+        registry.read(Source("p.txt", content=text.encode()), format="record")
