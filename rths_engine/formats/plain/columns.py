@@ -16,6 +16,7 @@ from rths_engine.formats.plain import (
     count_line,
     form,
     header_facts,
+    heading_gains,
     heading_units,
     headings,
     markers,
@@ -79,7 +80,11 @@ def read(source: Source) -> Table:
         if holds or k in texts.times
     ]
     columns = [one for one in columns if one.name not in {names[k] for k in left}]
-    scaled = [f"{where} states '{text}': not applied" for where, text in facts.factors]
+    columns = heading_gains.applied(columns, header)
+    used = [one.applied for one in columns]
+    scaled = [
+        f"{where} states '{text}': not applied" for where, text in facts.factors if not any(f"({where}:" in one for one in used)
+    ]
     notes = [*texts.notes, *scaled, *(one for one in (heading.note, units_row.evidence(heading.units)) if one)]
     return _table(columns, facts, header, bool(heading.names), notes, line)
 
@@ -273,8 +278,9 @@ FORMAT = Format(
     of="measurement",
     extensions=("csv", "tsv", "txt", "dat"),
     defined="RFC 4180 and its habitual variants",
-    header="names, a row of units, dates and clocks; in several languages: count, time step or sampling rate, duration, peaks",
-    compared="number of fields in every row, count, step, duration, peaks, number of channels",
+    header="names, units in a row or a line, gains, dates and clocks; in several languages: count, time step or sampling rate, "
+    "duration, start and end, peaks",
+    compared="number of fields in every row, count, step, duration, start and end, units stated twice, peaks, number of channels",
     looks_like=lambda source: bool(source.head_lines),
     read=read,
     public=39,

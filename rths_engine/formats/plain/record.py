@@ -168,7 +168,8 @@ def _without_count(
     found = count_line.parsed(line)
     whole = [k for k, text in enumerate(texts) if re.fullmatch(r"\s*[1-9]\d+\.?\s*", text)]
     decimals = sum("." in text or "," in text for text in texts[1:]) > 0.9 * (len(texts) - 1)
-    if len(rows) > 2 and found is not None and (found.count in counted) and (decimals or len(rows[0][1]) != len(rows[1][1])):
+    several = len(rows) > 2 or (len(rows) == 2 and found is not None and found.step is not None)
+    if several and found is not None and (found.count in counted) and (decimals or len(rows[0][1]) != len(rows[1][1])):
         return rows[1:], texts[1:], count_line.added(facts, found)
     if len(rows) > 2 and (
         len(rows[0][1]) != len(rows[1][1]) == len(rows[2][1]) or (whole[:1] == [0] and decimals and len(whole) < 3)
@@ -216,9 +217,10 @@ FORMAT = Format(
     of="ground motion",
     extensions=("txt", "csv", "dat", "acc"),
     defined="acceleration alone, time and acceleration, components side by side, blocks one after another",
-    header="in several languages: number of samples, step or sampling rate, unit, duration, peaks and their times, components, "
-    "marks of missing values, Fortran format",
-    compared="number of samples, step of the time column, duration, peak of each component and its time",
+    header="in several languages: number of samples, step or sampling rate, units, duration, start and end, largest and smallest "
+    "values and their times, components, marks of missing values, Fortran format",
+    compared="number of samples, step of the time column, duration, start and end, units stated twice, largest and smallest value "
+    "of each component and its time; a factor is refused",
     looks_like=looks_like,
     read=read,
     public=4,

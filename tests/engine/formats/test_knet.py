@@ -140,3 +140,8 @@ def test_any_record_comes_back(counts: list[int], rate: int, factor: tuple[int, 
     column = table(written(record)).columns[0]
     np.testing.assert_allclose(column.values, record.gal, rtol=1e-12, atol=1e-9)
     assert column.dt == 1 / (rate * 25) and column.name == f"AOM017 {knet._DIRECTIONS.get(direction, direction)}"
+
+
+def test_a_missing_scale_factor_is_named_and_not_the_peak() -> None:
+    raw = b"\n".join(line for line in written(Record(COUNTS)).splitlines() if not line.startswith(b"Scale Factor"))
+    refused(raw, "does not state a scale factor in gal")

@@ -280,3 +280,35 @@ def test_names_in_a_japanese_code_page_are_not_garbled_and_latin_1_stays() -> No
     assert [one.name for one in japanese.columns] == ["時間(s)", "荷重(kN)", "変位(mm)"]
     german = measured(table("Zeit (s),Kraft (kN),Verschiebung größer (mm)").decode().encode("latin-1"))
     assert german.columns[2].name == "Verschiebung größer (mm)"
+
+
+@pytest.mark.parametrize(
+    ("line", "unit", "scale"),
+    [
+        ("# Force gain: 2.5 kN/V", "V", 2.5),
+        ("# Force sensitivity: 400 mV/kN", "V", 2.5),
+        ("# Force: scale factor 2.5 kN/count", "counts", 2.5),
+        ("# Calibration of Force 2.5 kN per V", "V", 2.5),
+    ],
+)
+def test_the_gain_of_a_named_column_is_applied(line: str, unit: str, scale: float) -> None:
+    found = measured(table(f"{line}\nTime (s),Force ({unit}),Disp (mm)")).columns[1]
+    plain = measured(table(f"Time (s),Force ({unit}),Disp (mm)")).columns[1]
+    assert (found.name, found.unit) == ("Force", "kN")
+    assert "line 1" in found.applied
+    np.testing.assert_allclose(found.values, scale * plain.values)
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "# Gain: 2.5 kN/V\nTime (s),Force (V),Disp (mm)",
+        "# Force gain: 2.5 kN/V, offset 0.1 V\nTime (s),Force (V),Disp (mm)",
+        "# Force gain: 2.5 kN/V\nTime (s),Force (kN),Disp (mm)",
+        "# Force gain: 2.5 kN/V\n# Force gain: 3 kN/V\nTime (s),Force (V),Disp (mm)",
+    ],
+)
+def test_a_gain_that_may_not_be_the_columns_is_left_to_the_mapping(header: str) -> None:
+    found = measured(table(header)).columns[1]
+    assert not found.applied
+    assert found.name.startswith("Force (")
