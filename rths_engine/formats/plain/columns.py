@@ -280,7 +280,8 @@ FORMAT = Format(
     defined="RFC 4180 and its habitual variants",
     header="names, units in a row or a line, gains, dates and clocks; in several languages: count, time step or sampling rate, "
     "duration, start and end, peaks",
-    compared="number of fields in every row, count, step, duration, start and end, units stated twice, peaks, number of channels",
+    compared="number of fields in every row, count, step, duration, start and end, units stated twice, peaks, "
+    "number of channels",
     looks_like=lambda source: bool(source.head_lines),
     read=read,
     public=39,

@@ -217,10 +217,10 @@ FORMAT = Format(
     of="ground motion",
     extensions=("txt", "csv", "dat", "acc"),
     defined="acceleration alone, time and acceleration, components side by side, blocks one after another",
-    header="in several languages: number of samples, step or sampling rate, units, duration, start and end, largest and smallest "
-    "values and their times, components, marks of missing values, Fortran format",
-    compared="number of samples, step of the time column, duration, start and end, units stated twice, largest and smallest value "
-    "of each component and its time; a factor is refused",
+    header="in several languages: number of samples, step or sampling rate, units, duration, start and end, largest and "
+    "smallest values and their times, components, marks of missing values, Fortran format",
+    compared="number of samples, step of the time column, duration, start and end, units stated twice, largest and smallest "
+    "value of each component and its time; a factor is refused",
     looks_like=looks_like,
     read=read,
     public=4,
