@@ -173,8 +173,7 @@ def step_statements(columns: Sequence[Column], stated: Sequence[str]) -> list[St
 
 def _even_step(times: Array) -> float | None:
     """The mean step of times that increase in nearly equal steps; None for others."""
-    steps = np.diff(times)
-    if len(steps) < 2 or not np.isfinite(steps).all() or not (steps > 0).all():
+    if len(times) < 3 or not np.isfinite(times).all() or not ((steps := np.diff(times)) > 0).all():
         return None
     usual = float(np.median(steps))
     return float(np.mean(steps)) if float(np.max(np.abs(steps / usual - 1))) <= _JITTER else None

@@ -210,3 +210,17 @@ def test_a_signal_that_is_larger_by_the_ratio_of_two_units_is_named(force: float
 def test_a_test_of_another_amplitude_is_not_one_of_another_unit(force: float, disp: float) -> None:
     batch, _ = imported(repeated({8: (force, disp)}), made.mapping())
     assert not any(differences(batch, made.name(k)) for k in range(9))
+
+
+def test_a_mean_that_is_larger_by_the_ratio_of_two_units_is_named_beside_unequal_peaks() -> None:
+    files = {}
+    for k in range(9):
+        of = made.signals(5)
+        of["Force (kN)"] = (9.80665 if k == 8 else 1.0) * (2.0 + 0.001 * k + 0.01 * of["Disp (mm)"])
+        of["Force (kN)"][50] = 5.0 * 1.5**k  # a spike, unequal in each file
+        of["Force (kN)"][51] = 4.0 - of["Force (kN)"][50]
+        files[made.name(k)] = made.csv(of)
+    batch, _ = imported(files, made.mapping())
+    (only,) = [one for one in differences(batch, made.name(8)) if "mean of" in one]
+    assert only.startswith("warning: mean of f_meas.1: ") and "9.807 (kgf, N)" in only
+    assert not any("mean of" in one for k in range(8) for one in differences(batch, made.name(k)))

@@ -31,9 +31,10 @@ class ColumnFacts:
 
 @dataclass(frozen=True)
 class ChannelFacts:
-    """A channel of the recording: its largest absolute value in the unit shown, and whether it is constant."""
+    """A channel of the recording: its largest absolute value and its mean in the unit shown, and whether it is constant."""
 
     largest: float
+    mean: float
     unit: str
     constant: bool
 
@@ -89,8 +90,10 @@ def of_recording(measured: Measured) -> RecordingFacts:
     channels = {}
     for one in measured.channels:
         extent = blocks.extent(one.values)
-        ends, unit = shown(np.array([extent.low, extent.high]), one.unit)
-        channels[one.key] = ChannelFacts(rounded(float(np.max(np.abs(ends)))), unit, extent.low == extent.high)
+        total = sum(float(np.sum(one.values[part])) for part in blocks.parts(len(one.values)))
+        (low, high, mean), unit = shown(np.array([extent.low, extent.high, total / len(one.values)]), one.unit)
+        largest = rounded(max(abs(low), abs(high)))
+        channels[one.key] = ChannelFacts(largest, rounded(mean), unit, extent.low == extent.high)
     duration = rounded((measured.samples - 1) * measured.dt)
     return RecordingFacts(measured.samples, rounded(1 / measured.dt), rounded(measured.start), duration, channels)
 

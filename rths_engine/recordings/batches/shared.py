@@ -35,8 +35,11 @@ class Shared:
         keys = _all(one.channels for one in recordings)
         channels = {key: [one.channels[key] for one in recordings if key in one.channels] for key in keys}
         self._constant = {key: _most([one.constant for one in each]) for key, each in channels.items()}
-        self._middle = {key: median(one.largest for one in each) for key, each in channels.items() if len(each) >= FEWEST}
-        self._scatter = {key: _scatter([one.largest for one in channels[key]], middle) for key, middle in self._middle.items()}
+        many = {key: each for key, each in channels.items() if len(each) >= FEWEST}
+        self._middle = {key: median(one.largest for one in each) for key, each in many.items()}
+        self._scatter = {key: _scatter([one.largest for one in each], self._middle[key]) for key, each in many.items()}
+        self._mean = {key: median(abs(one.mean) for one in each) for key, each in many.items()}
+        self._of_means = {key: _scatter([abs(one.mean) for one in each], self._mean[key]) for key, each in many.items()}
 
     def differences(self, one: Facts) -> Iterator[Difference]:
         """The differences of a file from what most files share."""
@@ -66,12 +69,14 @@ class Shared:
             yield Difference("warning", "signal", key, _VARIES[own.constant], _VARIES[constant])
         if not (middle > 0 and own.largest > 0):
             return
-        ratio, scatter = own.largest / middle, self._scatter[key]
-        slipped = slips.slip(ratio, own.unit, scatter) if scatter is not None and not self._all_by(ratio, key, of) else ""
+        ratio, mean = own.largest / middle, self._mean[key]
+        another_test = self._all_by(ratio, key, of)
+        slipped = "" if another_test else slips.between(own.largest, middle, own.unit, self._scatter[key])
         if slipped or not 1 / FAR < ratio < FAR:
-            why = f"; {max(ratio, 1 / ratio):.4g} times, as units differ by {slipped}" if slipped else ""
-            here, there = f"{own.largest:.3g} {own.unit}", f"{middle:.3g} {own.unit} (median{why})"
-            yield Difference("warning", "largest value", key, here, there)
+            there = f"{middle:.3g} {own.unit} (median{slipped and f'; {slipped}'})"
+            yield Difference("warning", "largest value", key, f"{own.largest:.3g} {own.unit}", there)
+        elif not another_test and (slipped := slips.between(abs(own.mean), mean, own.unit, self._of_means[key])):
+            yield Difference("warning", "mean", key, f"{own.mean:.3g} {own.unit}", f"{mean:.3g} {own.unit} (median; {slipped})")
 
     def _all_by(self, ratio: float, key: str, of: RecordingFacts) -> bool:
         """Whether every other channel of the file is larger by the same ratio: another amplitude, not another unit."""

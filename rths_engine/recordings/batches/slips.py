@@ -13,15 +13,19 @@ NAMED = 2  # ratios in a sentence, the nearest ones
 WITHIN, WIDEST = 0.02, 0.15  # relative: around the ratio of two units, at least and at most
 
 
-def slip(ratio: float, unit: str, scatter: float = 0.0) -> str:
-    """The units whose ratio the `ratio` of two values in `unit` can be: `9.807 (kgf, N) or 10 (daN, N)`; empty: none.
+def between(value: float, usual: float, unit: str, scatter: float | None) -> str:
+    """How two values in `unit` differ by a ratio of units: `9.81 times, as units differ by 9.807 (kgf, N)`; empty: they don't.
 
     `scatter` (relative): by which values in the right unit differ from their median; the two values can differ by twice that.
+    None where they are not alike, so that no ratio means a unit.
     """
+    if scatter is None or not value > 0 or not usual > 0:
+        return ""
     within = min(max(2 * scatter, WITHIN), WIDEST)
-    size = max(ratio, 1 / ratio)
+    size = max(value / usual, usual / value)
     near = [(abs(one / size - 1), one, pair) for one, pair in _ratios(units.dimension(unit)).items()]
-    return " or ".join(f"{one:.4g} ({', '.join(pair)})" for off, one, pair in sorted(near)[:NAMED] if off <= within)
+    named = " or ".join(f"{one:.4g} ({', '.join(pair)})" for off, one, pair in sorted(near)[:NAMED] if off <= within)
+    return f"{size:.4g} times, as units differ by {named}" if named else ""
 
 
 @cache
