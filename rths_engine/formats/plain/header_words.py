@@ -152,7 +152,7 @@ PEAK_TIME = (
     r"|temps\s+d(?:u|e\s+la?)\s+(?:pic|max\w*|pga)|tiempo\s+(?:del?\s+)?(?:pico|pga|max\w*)|tempo\s+(?:del?\s+)?(?:picco|pga|max\w*)"
 )
 OTHER_FACTOR = re.compile(
-    r"sensor|amplifier|filter|damping|safety|similitude|geometr|model|length|participation|importance|ductility"
+    r"sensor|instrument|recorder|digiti[sz]er|pre-?amp|amplifier|filter|damping|safety|similitude|geometr|model|length|participation|importance|ductility"
 )
 OTHER_PEAK = re.compile(r"full\s*scale|range|capacity|stroke|rated|limit|sensitivity|clip|filter|spectr|target|nominal|allow")
 OTHER_UNIT = re.compile(
