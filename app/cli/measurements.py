@@ -31,7 +31,12 @@ def measurements(given: Namespace) -> int | None:
     content, checksum = _content(given.file)
     table = measured.read(content, given.file.name)
     if given.guess:
-        found = measured.guess(table)
+        try:
+            found = measured.guess(table)
+        except MeasuredError as error:
+            print(mapping_yaml.to_complete(table), end="")
+            print(f"no mapping is proposed: {error}; its columns are listed to complete", file=sys.stderr)
+            return None
         print(mapping_yaml.write(found.mapping, found.reasons, found.left_out), end="")
         for note in found.notes:
             print(f"# {note}")

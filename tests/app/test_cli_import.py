@@ -48,6 +48,21 @@ def test_a_proposal_with_an_unstated_unit_is_refused_until_the_unit_is_chosen(
     assert main(["import", "bare.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0
 
 
+def test_columns_that_are_not_recognised_are_listed_to_complete(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = "".join(f"{np.sin(k / 9):.4f},{np.cos(k / 7):.4f}\n" for k in range(100))
+    (folder / "odd.csv").write_text(f"CHANNEL0,CHANNEL1\n{rows}", encoding="utf-8")
+    assert main(["import", "odd.csv", "--guess"]) == 0
+    told = capsys.readouterr()
+    assert '# - column: "CHANNEL0"  # 100 values' in told.out and "#   role: ?" in told.out and "# rate: ?" in told.out
+    assert "no column is recognised as a measurement" in told.err
+    done = told.out.replace("# rate: ?", "rate: 250").replace("# - column", "- column").replace("#   ", "  ")
+    for role, unit in (("x_meas", "mm"), ("f_meas", "kN")):
+        done = done.replace("role: ?", f"role: {role}", 1).replace("unit: ?", f"unit: {unit}", 1)
+    (folder / "map.yaml").write_text(done, encoding="utf-8")
+    assert main(["import", "odd.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0
+    assert "100 samples at 250 Hz" in capsys.readouterr().out
+
+
 def test_the_programs_own_recording_needs_no_unit_and_no_step(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "map.yaml").write_text(_mapping(), encoding="utf-8")
     assert main(["import", "sine.csv", "--map", "map.yaml", "--out", "rec.h5"]) == 0

@@ -18,6 +18,8 @@ _LONGEST_UNIT = 12  # characters of a cell in a row of units
 
 _BRACKETED = re.compile(r"[^\s,;(\[{][^\s,;(\[{]*(?:\s*[(\[{][^)\]}]*[)\]}])?")
 _UNIT_IN_NAME = re.compile(r"^(.*\S)\s*[(\[{]\s*([^()\[\]{}]+?)\s*[)\]}]\s*$|^(.+?),\s+(\S+)$")
+_MATRIX = re.compile(r"\s*\[([^\[\]]*[;,\t ][^\[\]]*)\]\s*")  # `[t; F; u]`, as MATLAB writes columns
+_VALUE = re.compile(r"[-+\d.,:/ T]*\d[-+\d.,:/ T]*")
 _SLASH = re.compile(r"([^,]*[^\s,])(?:\s*/\s*|\s+in\s+)(\S+(?:/\S+)?)")  # Kraft/kN, as DIN 1313 writes it; Kraft in kN
 _QUANTITIES = {
     "sample number": (
@@ -75,12 +77,14 @@ def find(header: Sequence[Line], form: Form, width: int, empty: Sequence[int] = 
     if not rows:
         return Heading((), ("",) * width, note)
     units = next((k for k in range(len(rows) - 1, max(-1, len(rows) - 3), -1) if _are_units(rows, k)), None)
-    texts = [row for k, row in enumerate(rows) if k != units]
+    below = rows[units + 1 :] if units else []  # remarks below names and units
+    texts = [row for k, row in enumerate(rows) if k != units and not (below and units and k > units)]
     names = _joined(texts) if units is None or units > 0 or len(texts) == 1 else texts[-1]
     given = rows[units] if units is not None else [""] * width
     clean = [re.sub(r"^[(\[{]\s*(.*?)\s*[)\]}]$", r"\1", cell) for cell in given]
     named = tuple(name or f"column {k}" for k, name in enumerate(names, start=1))
-    return Heading(named, tuple("" if cell in {"-", "--"} else cell for cell in clean))
+    note = f"below the units stands {'; '.join(' '.join(row) for row in below)}: not used" if below else ""
+    return Heading(named, tuple("" if cell in {"-", "--"} else cell for cell in clean), note)
 
 
 def are_components(names: Sequence[str]) -> bool:
@@ -129,7 +133,8 @@ def quantity_in(sentence: str) -> str:
 
 
 def _bare(text: str) -> str:
-    return COMMENT.sub("", text, count=1).strip(" ") if COMMENT.match(text) else text
+    bare = COMMENT.sub("", text, count=1).strip(" ") if COMMENT.match(text) else text
+    return found[1] if (found := _MATRIX.fullmatch(bare)) else bare
 
 
 def _cells(text: str, form: Form, width: int, empty: Sequence[int]) -> list[str] | None:
@@ -173,6 +178,8 @@ def _joined(rows: Sequence[Sequence[str]]) -> list[str]:
     if len(rows) < 2 or len(last) < 3:
         return last
     above = rows[-2]
+    if any(_VALUE.fullmatch(cell) for cell in above):
+        return last  # `Date, 2020-01-01` is no part of names
     gaps = any(bool(one) != bool(other) for one, other in zip(above, last, strict=True))
     full = all(one or other for one, other in zip(above, last, strict=True))
     return [f"{one} {other}".strip() for one, other in zip(above, last, strict=True)] if gaps and full else last

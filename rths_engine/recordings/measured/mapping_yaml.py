@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import io
+import json
 from collections.abc import Mapping as Texts
 from typing import Any
 
-from rths_engine.recordings.measured.mapping import Mapping
+import numpy as np
+
+from rths_engine.formats.table import Table
+from rths_engine.foundation import unit_names
+from rths_engine.recordings.measured import names
+from rths_engine.recordings.measured.mapping import SCHEMA, Mapping
+from rths_engine.recordings.measured.roles import ROLES
 
 
 def write(mapping: Mapping, reasons: Texts[str, str] | None = None, left_out: Texts[str, str] | None = None) -> str:
@@ -29,6 +36,28 @@ def write(mapping: Mapping, reasons: Texts[str, str] | None = None, left_out: Te
     for column, reason in (left_out or {}).items():
         stream.write(f"# left out: {_line(column)}: {_line(reason)}\n")
     return stream.getvalue()
+
+
+def to_complete(table: Table) -> str:
+    """A mapping whose channels are comments: the columns of a file of which none is recognised, to be given role and unit."""
+    lines = [
+        "# no column is recognised as a measurement: for each channel give its role and unit, and remove the signs # before it",
+        f"# roles: {', '.join(ROLES)}",
+        f"schema: {SCHEMA}",
+    ]
+    if all(one.dt is None for one in table.columns):
+        lines.append("# rate: ?  # Hz, unless a column is time, with the role t")
+    lines.append("channels:")
+    for one in table.columns:
+        stated = f", in {one.unit}" if one.unit else ""
+        finite = one.values[np.isfinite(one.values)]
+        extent = f", {finite.min():.4g} to {finite.max():.4g}" if len(finite) else ""
+        step = f", step {one.dt:g} s" if one.dt is not None else ""
+        name = json.dumps(one.name, ensure_ascii=False)
+        lines.append(f"# - column: {name}  # {len(one.values)} values{extent}{stated}{step}")
+        role = "t" if names.read(one.name, one.unit, one.quantity).role == "t" else "?"
+        lines += [f"#   role: {role}", f"#   unit: {unit_names.read(one.unit).plain or '?'}"]
+    return "".join(f"{_line(line)}\n" for line in lines)
 
 
 def _set(value: Any, exclude: set[str] | None = None) -> dict[str, Any]:

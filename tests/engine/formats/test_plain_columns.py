@@ -314,3 +314,19 @@ def test_points_before_three_digits_are_decimal_where_they_are_in_every_number()
     same(read(text), 18 + np.arange(200) / 1000, np.arange(200.0))
     text = "\n".join(["Force (kN);Cycle", *(f"{k / 1000:.3f};{k}" for k in range(2000))])
     same(read(text), np.arange(2000) / 1000, np.arange(2000.0))
+
+
+def test_remarks_below_the_units_are_no_names() -> None:
+    table = read("Time,Force,Disp\ns,kN,mm\nmeasured,load cell 1,LVDT 3\n" + ROWS)
+    assert units(table) == [("Time", "s"), ("Force", "kN"), ("Disp", "mm")]
+    assert "below the units stands measured load cell 1 LVDT 3: not used" in table.notes
+
+
+def test_a_heading_in_the_brackets_of_a_matrix_names_the_columns() -> None:
+    table = read("[t; F; u]\n" + ROWS)
+    assert [one.name for one in table.columns] == ["t", "F", "u"]
+
+
+def test_a_date_above_the_names_is_no_part_of_them() -> None:
+    table = read("Date,2020-01-01,\nTime (s),Force (kN),Disp (mm)\n" + ROWS)
+    assert [one.name for one in table.columns] == ["Time (s)", "Force (kN)", "Disp (mm)"]
