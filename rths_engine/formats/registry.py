@@ -84,6 +84,7 @@ FORMATS: tuple[Format, ...] = (
     at2.FORMAT,
 )
 COLUMNS, RECORD = columns.FORMAT, record.FORMAT  # text of no known format: rows of a table, or samples of one record
+_OWN_MARKS = (COLUMNS, RECORD, cosmos.FORMAT)  # they refuse marks of missing values with the line; COSMOS states its mark
 TITLES = tuple(one.title for one in (*FORMATS, COLUMNS))
 BY_KEY = {one.key: one for one in (*FORMATS, COLUMNS, RECORD)}
 
@@ -104,7 +105,7 @@ def _read(source: Source, otherwise: Format, format: str | None) -> Table:
         raise FileError(Issue("format", "is not a known format", format, "choose one of " + ", ".join(BY_KEY)))
     chosen = BY_KEY[format] if format else detected(source, otherwise)
     table = checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
-    if chosen not in (COLUMNS, RECORD):  # these name the line themselves
+    if chosen not in _OWN_MARKS:
         markers.refuse_in(table)
     return table
 
