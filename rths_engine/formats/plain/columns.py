@@ -258,13 +258,13 @@ def _refuse_numbers_of_columns(source: Source, rows: Sequence[Line], own: Form, 
 def _refuse_points(
     source: Source, start: int, own: Form, first: Sequence[Line], numeric: Sequence[bool], values: Sequence[Array]
 ) -> None:
-    """Raises FileError where a point can separate thousands: `18.719` beside `955`, in a column without other decimals."""
+    """Raises FileError where a point can separate thousands: `18.719` beside `955`, in a file without other decimals."""
     rows = [row for _, text in first if len(row := own.fields(text)) == len(numeric)]
     of_field = [k for k, holds in enumerate(numeric) if holds]
+    pointed = [row[k] for row in rows for k in of_field if "." in row[k]]
+    if own.decimal != "." or own.thousands or not all(form.grouped(one, ".") for one in pointed):
+        return  # a file has one decimal sign
     for k, column in zip(of_field, values, strict=True):
-        pointed = [row[k] for row in rows if "." in row[k]]
-        if own.decimal != "." or own.thousands or not all(form.grouped(one, ".") for one in pointed):
-            continue
         whole = column == np.rint(column)
         inside = np.abs(column[np.isfinite(column)])
         if not whole.any() or whole[np.isfinite(column)].all() or ((inside > 0) & (inside < 1)).any():

@@ -330,3 +330,9 @@ def test_a_heading_in_the_brackets_of_a_matrix_names_the_columns() -> None:
 def test_a_date_above_the_names_is_no_part_of_them() -> None:
     table = read("Date,2020-01-01,\nTime (s),Force (kN),Disp (mm)\n" + ROWS)
     assert [one.name for one in table.columns] == ["Time (s)", "Force (kN)", "Disp (mm)"]
+
+
+def test_a_point_is_decimal_where_another_column_shows_it() -> None:
+    rows = "\n".join(f"{2.2 + 0.1 * k:.1f},{5 if k > 60 else '2.493'}" for k in range(90))
+    table = read(f"Time (s),Input (V)\n{rows}\n")
+    assert table.columns[1].values[0] == 2.493 and table.columns[1].values[-1] == 5
