@@ -121,8 +121,13 @@ def _candidates(text: str) -> Iterator[Form]:
 
 
 def refuse_points(rows: Iterable[tuple[int, list[str]]], k: int) -> None:
-    """Raises FileError where all points of column `k` stand before three digits, and a number of 1 to 3 digits has none."""
+    """Raises FileError where the points of column `k` more likely separate thousands than begin decimals.
+
+    All of them stand before three digits, a number of 1 to 3 digits has none, and the signal jumps less between such numbers
+    where the points separate thousands.
+    """
     pointed, whole = "", (0, "")
+    texts: list[str] = []
     for at, fields in rows:
         text = fields[k].strip("+-")
         if "." in text:
@@ -131,10 +136,19 @@ def refuse_points(rows: Iterable[tuple[int, list[str]]], k: int) -> None:
             pointed = pointed or text
         elif not whole[0] and re.fullmatch(r"[1-9]\d{0,2}", text):
             whole = at, text
-    if pointed and whole[0]:
+        texts.append(fields[k])
+    if pointed and whole[0] and _jumps(texts, "") < _jumps(texts, "."):
         problem = f"the point can be a decimal sign or separate thousands: {whole[1]} beside {pointed}"
         fix = "write all numbers of the column with the same decimals, and without a sign between thousands"
         raise FileError(Issue(f"line {whole[0]}", problem, fix=fix))
+
+
+def _jumps(texts: Sequence[str], point: str) -> float:
+    """The jumps between numbers with and without a point, in parts of the range, where `point` is put for each point."""
+    numbers = [found if (found := value(text.replace(".", point))) is not None else 0.0 for text in texts]
+    beside = [k for k in range(1, len(texts)) if ("." in texts[k]) != ("." in texts[k - 1])]
+    width = max(numbers) - min(numbers)
+    return sum(abs(numbers[k] - numbers[k - 1]) for k in beside) / width if width > 0 else 0.0
 
 
 def grouped(text: str, sign: str) -> bool:

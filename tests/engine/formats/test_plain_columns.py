@@ -312,6 +312,9 @@ def test_points_before_three_digits_are_decimal_where_they_are_in_every_number()
     same(read(text), 18 + np.arange(200) / 1000, np.arange(200.0))
     text = "\n".join(["Force (kN);Cycle", *(f"{18 + k / 1000:g};{k}" for k in range(200))])  # 18.719, 18.72, 19
     same(read(text), 18 + np.arange(200) / 1000, np.arange(200.0))
+    steps = [0, 2.493, 2.493, 5, 5, 2.493, 2.498] * 20
+    text = "\n".join(["Input (V);Cycle", *(f"{one:g};{k}" for k, one in enumerate(steps))])
+    same(read(text), np.array(steps), np.arange(140.0))
     text = "\n".join(["Force (kN);Cycle", *(f"{k / 1000:.3f};{k}" for k in range(2000))])
     same(read(text), np.arange(2000) / 1000, np.arange(2000.0))
 
