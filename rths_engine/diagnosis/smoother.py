@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import binary_dilation, binary_propagation, uniform_filter
-from scipy.signal import ShortTimeFFT
-from scipy.signal.windows import blackmanharris
 
+from rths_engine.diagnosis.stretches import Stretches
 from rths_engine.foundation.arrays import Array
 
 # chosen; see docs/decisions/0023
@@ -28,7 +27,7 @@ class Smoother:
     STRETCH seconds. The filter assumes white noise and fails first where the noise is not white.
     """
 
-    stretches: ShortTimeFFT
+    stretches: Stretches
     kept: Array  # G (frequencies, stretches)
     unsure: Array  # G, or the power over the noise floor of motion that is hidden in noise and lost
     noise: float  # standard deviation of the white noise of the displacement, m
@@ -36,9 +35,10 @@ class Smoother:
     @classmethod
     def of(cls, displacement: Array, dt: float) -> Smoother:
         hop = max(1, round(STRETCH / (HOPS * dt)))
-        stretches = ShortTimeFFT(blackmanharris(HOPS * hop, sym=False), hop, 1 / dt, scale_to="psd")
-        each = np.abs(stretches.stft(_padded(displacement, HOPS * hop))) ** 2
-        inside = slice(2 * HOPS - stretches.p_min, 2 * HOPS - stretches.p_min + len(displacement) // hop)
+        stretches = Stretches.of(hop, HOPS, dt)
+        each = np.abs(stretches.spectra(_padded(displacement, stretches.length)).T) ** 2
+        first = 2 * HOPS + HOPS // 2 - 1  # the stretch about the first sample of the recording, behind its continuation
+        inside = slice(first, first + len(displacement) // hop)
         floor = float(np.median(each[len(each) // 2 : -1, inside])) / np.log(2)  # median of an exponential law over its mean
         power = uniform_filter(each, AROUND, mode="nearest")
         clear = binary_propagation(power > CLEAR * floor, mask=power > ABOVE_FLOOR * floor)
@@ -57,9 +57,9 @@ class Smoother:
         return self._filtered(self.noise * random.standard_normal(count), np.sqrt(self.unsure))
 
     def _filtered(self, signal: Array, share: Array) -> Array:
-        length = len(self.stretches.win)
+        length = self.stretches.length
         padded = _padded(signal, length)
-        found = self.stretches.istft(self.stretches.stft(padded) * share, k1=len(padded))
+        found = self.stretches.signal(self.stretches.spectra(padded) * share.T, len(padded))
         inside: Array = found[2 * length : 2 * length + len(signal)]
         return inside
 

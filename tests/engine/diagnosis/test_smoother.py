@@ -56,7 +56,7 @@ def test_a_still_record_is_left_alone() -> None:
 def test_the_kept_share_is_wieners_where_motion_stands_clear_and_nothing_elsewhere() -> None:
     smoother = Smoother.of(read(5), DT)
     assert np.all((smoother.kept >= 0) & (smoother.kept <= 1)) and np.all(smoother.kept[:3] == 1)
-    frequency = smoother.stretches.f
+    frequency = smoother.stretches.frequencies
     inside = slice(20, -20)
     assert np.min(smoother.kept[np.argmin(np.abs(frequency - 2.3)), inside]) > 0.999  # 4 mm beside 20 um
     assert np.max(smoother.kept[frequency > 30, inside]) < 0.9 and np.mean(smoother.kept[frequency > 30] > 0) < 0.02
