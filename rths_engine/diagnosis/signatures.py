@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+from scipy.linalg import qr
 
 from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.fitting import Fitted, Recordings
@@ -134,8 +136,9 @@ def absorber(jacobian: Array) -> Array:
     used = jacobian[:, scale > 0] / scale[scale > 0]
     if not used.shape[1]:
         return np.zeros((len(jacobian), 0))
-    left, values, _ = np.linalg.svd(used, full_matrices=False)
-    spanned: Array = left[:, values > ALIKE * values[0]]
+    basis, triangle = qr(used, mode="economic", check_finite=False)
+    left, values, _ = np.linalg.svd(triangle)
+    spanned: Array = basis @ left[:, values > ALIKE * values[0]]
     return spanned
 
 
@@ -176,5 +179,10 @@ def _times(guess: Effect, share: float) -> Effect:
 
 
 def _two_sided(effect: Effect) -> bool:
-    schema = type(effect).model_json_schema()["properties"]
-    return any(schema[name].get("minimum", schema[name].get("exclusiveMinimum", -1.0)) < 0 for name in effect.neutral)
+    return _signed(type(effect))
+
+
+@lru_cache(maxsize=256)
+def _signed(kind: type[Effect]) -> bool:
+    schema = kind.model_json_schema()["properties"]
+    return any(schema[name].get("minimum", schema[name].get("exclusiveMinimum", -1.0)) < 0 for name in kind.neutral)
