@@ -24,10 +24,13 @@ class Effects(NamedTuple):
     states: Any
 
 
-def effects(planned: Sequence[Effect], dt: float) -> Effects:
-    """Left-out effects in the form of the compiled loop: hooks and codes, parameters, states."""
+def effects(planned: Sequence[Effect], dt: float, steps: Sequence[Any] | None = None) -> Effects:
+    """Left-out effects in the form of the compiled loop: hooks and codes, parameters, states.
+
+    A code is the place of the effect's step in `steps`; without these, in the steps of its component.
+    """
     built = [effect.build(dt) for effect in planned]
-    codes = [(effect.hook, _code(effect)) for effect in planned]
+    codes = [(effect.hook, _code(effect) if steps is None else steps.index(type(effect).step)) for effect in planned]
     return Effects(
         np.array(codes, dtype=np.int64).reshape(-1, 2),
         _table([parameters for parameters, _ in built]),
@@ -95,38 +98,46 @@ extend_sensor = _extending(physics.SENSOR)
 extend_storey = _extending(physics.STRUCTURE)
 
 
-@compiled
-def resisted(code, parameters, state, flexibility, x, dt, before, last):
-    """Displacement u and force f of a specimen behind a series flexibility: u + flexibility f(u) = x.
+def behind(resist: Any) -> Any:
+    """`resisted` for a specimen with the compiled step `resist(code, parameters, state, x, dt)`.
 
-    f increases with u within a substep, so u lies between x and x - flexibility f(x). Secant steps start from the force `last`
-    and stay within the bracket found so far. `before` is memory for a copy of the state.
+    `resisted(code, parameters, state, flexibility, x, dt, before, last)` gives the displacement u and the force f of a specimen
+    behind a series flexibility: u + flexibility f(u) = x. f increases with u within a substep, so u lies between x and
+    x - flexibility f(x). Secant steps start from the force `last` and stay within the bracket found so far. `before` is memory
+    for a copy of the state.
     """
-    if flexibility <= 0.0:
-        return x, resist(code, parameters, state, x, dt)
-    for k in range(state.size):
-        before[k] = state[k]
-    low, high = -np.inf, np.inf
-    u, u_old, left_old, force = x - flexibility * last, 0.0, 0.0, last
-    for turn in range(60):
+
+    def resisted(code, parameters, state, flexibility, x, dt, before, last):
+        if flexibility <= 0.0:
+            return x, resist(code, parameters, state, x, dt)
         for k in range(state.size):
-            state[k] = before[k]
-        force = resist(code, parameters, state, u, dt)
-        left = u + flexibility * force - x
-        if abs(left) <= 1e-8 * abs(flexibility * force) + 1e-16:
-            break
-        if left > 0.0:
-            high = min(high, u)
-        else:
-            low = max(low, u)
-        slope = (left - left_old) / (u - u_old) if turn > 0 and u != u_old else 2.0
-        u_old, left_old = u, left
-        u -= left / max(slope, 1.0)
-        if not low < u < high:
-            u = 0.5 * (low + high) if np.isfinite(low) and np.isfinite(high) else u_old - left
-        if turn > 20 and np.isfinite(low) and np.isfinite(high):
-            u = 0.5 * (low + high)
-    return u, force
+            before[k] = state[k]
+        low, high = -np.inf, np.inf
+        u, u_old, left_old, force = x - flexibility * last, 0.0, 0.0, last
+        for turn in range(60):
+            for k in range(state.size):
+                state[k] = before[k]
+            force = resist(code, parameters, state, u, dt)
+            left = u + flexibility * force - x
+            if abs(left) <= 1e-8 * abs(flexibility * force) + 1e-16:
+                break
+            if left > 0.0:
+                high = min(high, u)
+            else:
+                low = max(low, u)
+            slope = (left - left_old) / (u - u_old) if turn > 0 and u != u_old else 2.0
+            u_old, left_old = u, left
+            u -= left / max(slope, 1.0)
+            if not low < u < high:
+                u = 0.5 * (low + high) if np.isfinite(low) and np.isfinite(high) else u_old - left
+            if turn > 20 and np.isfinite(low) and np.isfinite(high):
+                u = 0.5 * (low + high)
+        return u, force
+
+    return compiled(named(resisted, [resist.py_func]))
+
+
+resisted = behind(resist)
 
 
 def _table(rows: Sequence[Any]) -> Any:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from threading import Lock
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import entry
 from rths_engine.foundation.part import Part
-from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.parts import actuators, compensators
 from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PART, PISTON, SERIES, X_SENSOR, Effect, amended
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
-from rths_engine.running import loop, starting
+from rths_engine.running import loop, passes, starting
 from rths_engine.running.dispatch import (
     acts,
     actuate,
@@ -21,35 +22,91 @@ from rths_engine.running.dispatch import (
     effects,
     extend_actuator,
     extend_sensor,
-    extend_specimen,
-    resist,
-    resisted,
 )
 from rths_engine.running.setup import left_out, setup
 
+# chosen; see docs/decisions/0023
+KEPT, KEPT_BYTES = 96, 48_000_000  # most forces that are kept for one displacement, and their memory
+
+
+class KeptForces:
+    """Forces of specimens without effects under one displacement, the latest ones.
+
+    Most effects add a force to the force of the specimen and leave its displacement as it is. The specimen's own steps, which
+    may be costly, are then the same for all hypotheses and are replayed once. Several threads may share the object.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[Part, float], Array] = {}
+        self._lock = Lock()
+
+    def of(self, part: Part, x: Array, dt: float) -> Array:
+        """The force (N) of the specimen `part` under the displacement x (m), every dt (s); not to be changed."""
+        with self._lock:
+            found = self._known.pop((part, dt), None)
+        if found is None:
+            found = passes.resist(part, x, dt)
+            found.flags.writeable = False
+        with self._lock:
+            self._known[part, dt] = found
+            while len(self._known) > max(2, min(KEPT, KEPT_BYTES // x.nbytes)):
+                del self._known[next(iter(self._known))]
+        return found
+
 
 def specimen(
-    part: Part, extended: Sequence[Effect], x: Array, current: Array, dt: float, start: float = 0.0, pressed: float = 0.0
+    part: Part,
+    extended: Sequence[Effect],
+    x: Array,
+    current: Array,
+    dt: float,
+    start: float = 0.0,
+    pressed: float = 0.0,
+    kept: KeptForces | None = None,
 ) -> Array:
     """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s).
 
-    `pressed` is the force (N) before the first sample.
+    `pressed` is the force (N) before the first sample. `kept` holds the forces of specimens without effects under this
+    displacement; the result may be one of them, and is not to be changed.
     """
     part = amended(part, extended)
-    parameters, state = part.build(dt)
-    code = specimens.KINDS.index(type(part))
-    force: Array = np.empty(len(x))
-    _specimen(x, current, start, dt, pressed, code, parameters, state, effects(_stepping(extended), dt), force)
+    steps = _stepping(extended)
+    if any(effect.hook in (INPUT, SERIES) for effect in steps):
+        force = passes.moved(part, steps, x, current, dt, start, pressed)
+    else:
+        force = passes.resist(part, x, dt) if kept is None else kept.of(part, x, dt)
+        if not steps:
+            return force
+        force, v = force.copy(), passes.velocity(x, dt, x[0])
+        for effect in (one for one in steps if one.hook == FORCE):
+            passes.extend(effect, force, x, v, current, start, dt)
+    misread = [one for one in steps if one.hook == F_SENSOR]
+    if misread:
+        true, v = force.copy(), passes.velocity(x, dt, x[0])
+        for effect in misread:
+            passes.extend(effect, force, x, v, true, start, dt)
     return force
 
 
 def actuator(part: Part, extended: Sequence[Effect], command: Array, load: Array, dt: float, start: float = 0.0) -> Array:
     """Displacement reading (m) of an actuator with effects, from its command (m) and the force on it (N)."""
     part = amended(part, extended)
-    parameters, state = part.build(dt)
-    code = actuators.KINDS.index(type(part))
-    x: Array = np.empty(len(command))
-    _actuator(command, load, start, dt, code, parameters, state, effects(_stepping(extended), dt), x)
+    steps = _stepping(extended)
+    if any(effect.hook == COMMAND for effect in steps):
+        parameters, state = part.build(dt)
+        code = actuators.KINDS.index(type(part))
+        x: Array = np.empty(len(command))
+        _actuator(command, load, start, dt, code, parameters, state, effects(steps, dt), x)
+        return x
+    x = passes.act(part, command, load, dt)
+    late = np.concatenate([[0.0], load[:-1]])  # an actuator feels the force of the substep before
+    for effect in (one for one in steps if one.hook == PISTON):
+        passes.extend(effect, x, command, passes.velocity(command, dt, 0.0), late, start, dt)
+    misread = [one for one in steps if one.hook == X_SENSOR]
+    true, v = x, passes.velocity(x, dt, 0.0)
+    x = true.copy() if misread else x
+    for effect in misread:
+        passes.extend(effect, x, true, v, true, start, dt)
     return x
 
 
@@ -80,30 +137,6 @@ def structure(planned: Plan | Model, inputs: Array, reactions: Array) -> Array:
 
 def _stepping(extended: Sequence[Effect]) -> list[Effect]:
     return [effect for effect in extended if effect.hook != PART]
-
-
-@entry
-def _specimen(x, current, start, dt, pressed, code, parameters, state, extended, force):
-    f, inner, flexibility, last, last_u = pressed, 0.0, 0.0, x[0], 0.0
-    moves, gives, adds, misread = acts(INPUT, extended), acts(SERIES, extended), acts(FORCE, extended), acts(F_SENSOR, extended)
-    before = np.empty(state.size)
-    for q in range(x.size):
-        t = start + q * dt
-        v = (x[q] - last) / dt
-        u = last = x[q]
-        if moves:
-            u = extend_specimen(INPUT, extended, u, x[q], v, f, t, dt)
-        if gives:
-            flexibility = extend_specimen(SERIES, extended, 0.0, x[q], v, f, t, dt)
-            u, f = resisted(code, parameters, state, flexibility, u, dt, before, inner)
-        else:
-            f = resist(code, parameters, state, u, dt)
-        inner = f
-        last_u = u if q == 0 else last_u
-        if adds:
-            f = extend_specimen(FORCE, extended, f, u, (u - last_u) / dt, current[q], t, dt)
-        last_u = u
-        force[q] = extend_sensor(F_SENSOR, extended, f, x[q], v, f, t, dt) if misread else f
 
 
 @entry

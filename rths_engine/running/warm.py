@@ -6,7 +6,9 @@ import numpy as np
 
 from rths_engine.formats.numeric_block import Layout, read_block
 from rths_engine.formats.source import Source
+from rths_engine.parts.physics.actuator.dead_band import DeadBand
 from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
+from rths_engine.parts.physics.specimen.backlash import Backlash
 from rths_engine.parts.physics.structure.coulomb_friction import CoulombFriction
 from rths_engine.planning import templates
 from rths_engine.running import replay
@@ -21,8 +23,10 @@ def warm() -> None:
     station = plan.stations[0].model_copy(update={"specimen_physics": (Asymmetry(),)})
     simulate(plan.model_copy(update={"stations": (station,)}))
     still = np.zeros(2)
-    replay.specimen(station.specimen, (), still, np.ones(2), plan.substep)
-    replay.actuator(station.actuator, (), still, still, plan.substep)
+    for specimen_effects in ((Asymmetry(),), (Backlash(),)):
+        replay.specimen(station.specimen, specimen_effects, still, np.ones(2), plan.substep)
+    for actuator_effects in ((), (DeadBand(),)):
+        replay.actuator(station.actuator, actuator_effects, still, still, plan.substep)
     replay.compensator(station.compensator, still, still, plan.substep)
     replay.structure(plan, np.zeros((2, 1)), np.zeros((2, 1)))
     replay.structure(plan.model_copy(update={"structure_physics": (CoulombFriction(),)}), np.zeros((2, 1)), np.zeros((2, 1)))

@@ -19,8 +19,8 @@ from rths_engine.running.warm import warm
 
 ENGINE = Path(kernel.__file__).parents[1]
 PRINTED = """
-from rths_engine.running import loop, replay, stop
-entries = (loop.advance, replay._specimen, replay._actuator, replay._compensator, replay._structure, stop.stop)
+from rths_engine.running import loop, passes, replay, stop
+entries = (loop.advance, passes._specimen_all, replay._actuator, replay._compensator, replay._structure, stop.stop)
 print(*(entry._cache._impl.locator.digest for entry in entries))
 """
 COULOMB = "parts/physics/specimen/coulomb_friction.py"

@@ -95,6 +95,11 @@ class SpecimenData(Data):
         return self.refined(self.smooth)
 
     @cached_property
+    def kept(self) -> replay.KeptForces:
+        """Forces of specimens without effects under the displacement `fine`."""
+        return replay.KeptForces()
+
+    @cached_property
     def pressed(self) -> float:
         """Mean force at the start (N); 0 where it may be noise."""
         begun = self.force[: max(1, round(AT_REST / self.dt))]
@@ -206,4 +211,5 @@ def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
 
 def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, data: Data) -> Array:
     effects = [part for part in parts[1:] if isinstance(part, Effect)]
-    return replay.specimen(parts[0], effects, x, current, dt, data.start, data.pressed)
+    kept = data.kept if isinstance(data, SpecimenData) and x is data.fine else None
+    return replay.specimen(parts[0], effects, x, current, dt, data.start, data.pressed, kept)
