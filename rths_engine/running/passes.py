@@ -127,7 +127,7 @@ def resist(part: Any, x: Array, dt: float) -> Array:
     """Force (N) of a specimen without effects, from its displacement (m)."""
     parameters, state = part.build(dt)
     force: Array = np.empty(len(x))
-    _resist_all(specimens.KINDS.index(type(part)), parameters, state, x, dt, force)
+    _resist_all(specimens.KINDS.index(type(part)), parameters, state, _plain(x), dt, force)
     return force
 
 
@@ -140,7 +140,7 @@ def moved(part: Any, extended: Sequence[Effect], x: Array, current: Array, dt: f
     )
     force: Array = np.empty(len(x))
     code = specimens.KINDS.index(type(part))
-    _specimen_all(code, parameters, state, x, current, start, dt, pressed, moves, gives, adds, force)
+    _specimen_all(code, parameters, state, _plain(x), _plain(current), start, dt, pressed, moves, gives, adds, force)
     return force
 
 
@@ -148,14 +148,20 @@ def act(part: Any, command: Array, load: Array, dt: float) -> Array:
     """Displacement (m) of an actuator without effects, from its command (m) and the force on it (N), a step late."""
     parameters, state = part.build(dt)
     x: Array = np.empty(len(command))
-    _act_all(actuators.KINDS.index(type(part)), parameters, state, command, load, x)
+    _act_all(actuators.KINDS.index(type(part)), parameters, state, _plain(command), _plain(load), x)
     return x
 
 
 def extend(effect: Effect, y: Array, x: Array, v: Array, w: Array, start: float, dt: float) -> None:
     """Replace the signal y by the signal after the effect; x, v and w as its hook defines them (`physics.effect`)."""
     parameters, state = effect.build(dt)
-    _extend_all(_STEPS.index(type(effect).step), parameters, state, y, x, v, w, start, dt)
+    _extend_all(_STEPS.index(type(effect).step), parameters, state, y, _plain(x), _plain(v), _plain(w), start, dt)
+
+
+def _plain(signal: Array) -> Array:
+    """The signal as numba's ordinary type of array: another one, such as a read-only array, would be compiled for anew."""
+    found: Array = np.require(signal, np.float64, ("C", "W", "E"))
+    return found
 
 
 def velocity(x: Array, dt: float, before: float) -> Array:

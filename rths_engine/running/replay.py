@@ -46,7 +46,6 @@ class KeptForces:
             found = self._known.pop((part, dt), None)
         if found is None:
             found = passes.resist(part, x, dt)
-            found.flags.writeable = False
         with self._lock:
             self._known[part, dt] = found
             while len(self._known) > max(2, min(KEPT, KEPT_BYTES // x.nbytes)):
