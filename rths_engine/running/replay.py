@@ -14,7 +14,7 @@ from rths_engine.parts import actuators, compensators
 from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PART, PISTON, SERIES, X_SENSOR, Effect, amended
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
-from rths_engine.running import loop, passes, starting
+from rths_engine.running import loop, passes, small_structure, starting
 from rths_engine.running.dispatch import (
     acts,
     actuate,
@@ -124,6 +124,8 @@ def structure(planned: Plan | Model, inputs: Array, reactions: Array) -> Array:
     are (steps + 1, stations), N.
     """
     model = Model.of(planned)
+    if small_structure.fits(model):
+        return small_structure.moved(model, inputs, reactions)
     stations = len(model.plan.stations)
     held, parts = setup(model, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
     x, v, carry = starting.state(model, inputs[0] @ held.loads)

@@ -6,6 +6,7 @@ import numpy as np
 
 from rths_engine.formats.numeric_block import Layout, read_block
 from rths_engine.formats.source import Source
+from rths_engine.parts.integrators.kr_alpha import KrAlphaIntegrator
 from rths_engine.parts.physics.actuator.dead_band import DeadBand
 from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
 from rths_engine.parts.physics.specimen.backlash import Backlash
@@ -28,8 +29,10 @@ def warm() -> None:
     for actuator_effects in ((), (DeadBand(),)):
         replay.actuator(station.actuator, actuator_effects, still, still, plan.substep)
     replay.compensator(station.compensator, still, still, plan.substep)
-    replay.structure(plan, np.zeros((2, 1)), np.zeros((2, 1)))
-    replay.structure(plan.model_copy(update={"structure_physics": (CoulombFriction(),)}), np.zeros((2, 1)), np.zeros((2, 1)))
+    for integrator in (plan.integrator, KrAlphaIntegrator(dt=plan.step)):  # a small structure's own loop, and the general one
+        for structure_effects in ((), (CoulombFriction(),)):
+            changed = plan.model_copy(update={"integrator": integrator, "structure_physics": structure_effects})
+            replay.structure(changed, np.zeros((2, 1)), np.zeros((2, 1)))
     stop(still, 0.5)
     read_block(Source("row.csv", content=b"0,1\n"), 0, Layout(",", ".", (True, True)), lambda at, line: None)
 
