@@ -48,19 +48,18 @@ class Detection:
         return min(1.0, 3 * min(self.p_library, self.p_general, self.p_planned))
 
 
-def detect(recordings: Recordings, fitted: Fitted, found: Signatures, law: Array, random: np.random.Generator) -> Detection:
+def detect(fitted: Fitted, found: Signatures, law: Array, drawn: Array) -> Detection:
     """Compare the scores of the recording with the scores of recordings that the fitted model simulates.
 
-    `found` are the signatures, and `law` (N, r) the columns of the general law. Noise with the colour of the recording's noise
-    is added to the output, and noise of the displacement's size to the input. Both pass through the same smoothing, model and
-    band. The power along a signature or a law is divided by the power beside it at the same frequencies, so that a wrong noise
-    level raises no false alarm. Each score is in its own standard deviations, because noise reaches some signatures more than
-    others.
+    `found` are the signatures, `law` (N, r) the columns of the general law, and `drawn` (B, N) the `null_misfits`. Noise with
+    the colour of the recording's noise is added to the output, and noise of the displacement's size to the input. Both pass
+    through the same smoothing, model and band. The power along a signature or a law is divided by the power beside it at the
+    same frequencies, so that a wrong noise level raises no false alarm. Each score is in its own standard deviations, because
+    noise reaches some signatures more than others.
     """
     absorbed = absorber(fitted.jacobian)
-    drawn = null_misfits(recordings, fitted, random)
-    drawn -= drawn @ absorbed @ absorbed.T
-    misfits = np.vstack([fitted_residual(fitted), drawn])
+    misfits = np.vstack([fitted.misfit, drawn])
+    misfits -= misfits @ absorbed @ absorbed.T
     along, beside = misfits @ law, _beside_span(misfits, law)
     lengths = np.sum(along**2, axis=1) / _relative(beside)
     explained, expected = float(lengths[0]), float(lengths[1:].mean())
@@ -103,13 +102,6 @@ def p_planned(fitted: Fitted) -> float:
     """The p-value of the change of the planned parameters: probability of a change at least this large within their spread."""
     off = fitted.misfit[fitted.samples :]
     return float(chi2.sf(float(off @ off), len(off))) if len(off) else 1.0
-
-
-def fitted_residual(fitted: Fitted) -> Array:
-    """The misfit without the part that the fitted parameters can absorb."""
-    absorbed = absorber(fitted.jacobian)
-    left: Array = fitted.misfit - absorbed @ (absorbed.T @ fitted.misfit)
-    return left
 
 
 def p_value(largest: float, null: Array) -> float:

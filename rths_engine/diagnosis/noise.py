@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_toeplitz, toeplitz
-from scipy.signal import lfilter
 
 from rths_engine.foundation.arrays import Array
 
@@ -47,8 +46,10 @@ class Noise:
 
     def whitened(self, signals: Array) -> Array:
         """The whitened signals (samples along the last axis), in units of the noise."""
-        white: Array = lfilter(self.whitener, [self.scale], signals, axis=-1)
-        return white
+        rows = np.reshape(signals, (-1, np.shape(signals)[-1]))
+        taps = self.whitener / self.scale
+        white = [np.convolve(row, taps)[: rows.shape[1]] for row in rows]
+        return np.reshape(white, np.shape(signals))
 
     def drawn(self, count: int, random: np.random.Generator) -> Array:
         long = 2 * count  # twice as long, so that the end of the draw is not correlated with its start

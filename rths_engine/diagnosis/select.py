@@ -16,6 +16,7 @@ from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
 from rths_engine.diagnosis.parallel import each
 from rths_engine.diagnosis.ranges import ranges
 from rths_engine.diagnosis.signatures import Signatures, best_first, general, signatures
+from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
@@ -68,7 +69,8 @@ def select(
     for stage in range(MOST_EFFECTS + 2):
         told((1 + stage) / (MOST_EFFECTS + 4))
         found = signatures(recordings, chosen)
-        detections.append(detect(recordings, chosen, found, general(recordings, chosen), random))
+        drawn = null_misfits(recordings, chosen, random)
+        detections.append(detect(chosen, found, general(recordings, chosen), drawn))
         counted = [part for part in chosen.parts[base:] if not isinstance(part, ForceOffset)]
         if detections[-1].p_value > level or len(counted) == MOST_EFFECTS:
             break
@@ -81,9 +83,10 @@ def select(
         component.settle(best.parts, recordings.data)
         recordings = with_noise(recordings, best)
         chosen = _afresh(recordings, best)
-    tried += _simplified(recordings, chosen)
+    simpler = _simplified(recordings, chosen)
     told(0.9)
-    return _compared(recordings, rough, chosen, tried, detections, seen, random)
+    models = [*each(lambda one: compared(recordings, one), [rough, *tried]), *simpler, chosen]
+    return _compared(recordings, models, [*simpler, chosen], drawn, detections, seen, random)
 
 
 def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
@@ -149,30 +152,36 @@ def _simplified(recordings: Recordings, chosen: Fitted) -> list[Fitted]:
 
 def _compared(
     recordings: Recordings,
-    baseline: Fitted,
-    chosen: Fitted,
-    tried: list[Fitted],
+    models: Sequence[Fitted],
+    fresh: Sequence[Fitted],
+    drawn: Array,
     detections: list[Detection],
     seen: Sequence[Seen],
     random: np.random.Generator,
 ) -> Selection:
-    """Every model once more under the final noise, so that their evidence compares."""
+    """Every model under the final noise, so that their evidence compares.
+
+    Models are fitted once more unless they are `fresh`: fitted to these recordings already. The selected model is the last of
+    them, and `drawn` are its `null_misfits`.
+    """
     base = len(recordings.component.base)
+    chosen = fresh[-1]
     kinds: dict[tuple[str, ...], Fitted] = {}
-    for one in each(lambda one: compared(recordings, one), [baseline, *tried, chosen]):
+    for one in models:
         kind = tuple(sorted(str(key(part)) for part in one.parts[base:]))
         kinds[kind] = min(kinds.get(kind, one), one, key=_bic)
     others = list(kinds.values())
     near = [one for one in others if one.bic < chosen.bic + HOPELESS or len(one.parts) == base]
-    again = each(lambda one: fit(recordings, one.parts, FINAL), near)
+    again = each(lambda one: one if any(one is known for known in fresh) else fit(recordings, one.parts, FINAL), near)
     models = [*again, *(one for one in others if all(one is not kept for kept in near))]
     plain = next(one for one in models if len(one.parts) == base)
     weights = weighed(models, plain.bic, seen)
     order = sorted(range(len(models)), key=weights.__getitem__)
     ranked = tuple(models[place] for place in order)
     chances = tuple(probabilities([weights[place] for place in order]))
-    noise, temper = null_misfits(recordings, ranked[0], random), tempering(ranked[0].bic, plain.bic)
-    sure = tuple(ranges(recordings, ranked[0], noise, temper))
+    if ranked[0] is not chosen:
+        drawn = null_misfits(recordings, ranked[0], random)
+    sure = tuple(ranges(recordings, ranked[0], drawn, tempering(ranked[0].bic, plain.bic)))
     return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), sure)
 
 

@@ -54,6 +54,20 @@ class ActuatorData(Data):
     def velocity(self) -> Array:
         return np.gradient(self.command, self.dt)
 
+    @cached_property
+    def features(self) -> list[Feature]:
+        """The terms of the general law."""
+        terms = of_motion(self.command, self.velocity, self.dt, self.velocity if self.force is None else self.force)
+        if self.force is not None:
+            load = self.force / max(float(np.max(np.abs(self.force))), 1e-300)
+            terms += [
+                ("f", "proportional to the force on the actuator", load),
+                ("f |f|", "growing with the square of the force on the actuator", load * np.abs(load)),
+            ]
+        terms += of_position(self.command, self.velocity, self.dt)
+        shaped = [Feature(formula, words, self.reduced(values[None])) for formula, words, values in terms]
+        return shaped + modulated(self.reduced(self.velocity[None]), "v", "a lag")
+
     def seen(self) -> Seen:
         load = float(np.max(np.abs(self.load)))
         energy = float(np.sum(np.abs(self.load * self.velocity)) * self.dt)
@@ -83,16 +97,7 @@ class Actuator(Component):
         yield from guessed((*physics.ACTUATOR, *SENSORS), data.seen(), lacking="f_meas" if data.force is None else "")
 
     def features(self, parts: Sequence[Any], data: ActuatorData) -> list[Feature]:
-        terms = of_motion(data.command, data.velocity, data.dt, data.velocity if data.force is None else data.force)
-        if data.force is not None:
-            load = data.force / max(float(np.max(np.abs(data.force))), 1e-300)
-            terms += [
-                ("f", "proportional to the force on the actuator", load),
-                ("f |f|", "growing with the square of the force on the actuator", load * np.abs(load)),
-            ]
-        terms += of_position(data.command, data.velocity, data.dt)
-        shaped = [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
-        return shaped + modulated(data.reduced(data.velocity[None]), "v", "a lag")
+        return data.features
 
     def signals(self, data: ActuatorData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.command, data.velocity]))

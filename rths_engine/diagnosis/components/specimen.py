@@ -110,6 +110,13 @@ class SpecimenData(Data):
     def velocity(self) -> Array:
         return np.gradient(self.smooth, self.dt)
 
+    @cached_property
+    def features(self) -> list[Feature]:
+        """The terms of the general law that depend on the recording alone."""
+        terms = of_motion(self.smooth, self.velocity, self.dt, self.force)
+        terms += of_position(self.smooth, self.velocity, self.dt)
+        return [Feature(formula, words, self.reduced(values[None])) for formula, words, values in terms]
+
     def seen(self) -> Seen:
         energy = float(np.sum(np.abs(self.force * self.velocity)) * self.dt)
         x, v, f = (float(np.max(np.abs(one))) for one in (self.smooth, self.velocity, self.force))
@@ -163,10 +170,7 @@ class Specimen(Component):
         yield from guessed((*physics.SPECIMEN, *SENSORS), data.seen(), lacking="" if varies else "current")
 
     def features(self, parts: Sequence[Any], data: SpecimenData) -> list[Feature]:
-        terms = of_motion(data.smooth, data.velocity, data.dt, data.force)
-        terms += of_position(data.smooth, data.velocity, data.dt)
-        shaped = [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
-        return shaped + modulated(self.predicted(parts, data), "f", "a strength")
+        return data.features + modulated(self.predicted(parts, data), "f", "a strength")
 
     def signals(self, data: SpecimenData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.smooth, data.velocity]))

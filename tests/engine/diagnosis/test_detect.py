@@ -21,7 +21,8 @@ def detected(component: Linear, parts: list[Gain | Wave], seed: int, taken: floa
     """Of white noise of deviation SIGMA that is taken for `taken`."""
     used = recordings(component, noisy(parts, seed, count=count), sigma=taken)
     fitted = fit(used, component.base)
-    return detect(used, fitted, signatures(used, fitted), general(used, fitted), np.random.default_rng(seed))
+    drawn = null_misfits(used, fitted, np.random.default_rng(seed))
+    return detect(fitted, signatures(used, fitted), general(used, fitted), drawn)
 
 
 def alarms(found: list[Detection]) -> int:
@@ -56,7 +57,8 @@ def test_coloured_noise_raises_no_alarm_where_its_colour_is_known() -> None:
         used = recordings(linear(), driven(2 * drive() + noise))
         used = replace(used, noises=(coloured([np.concatenate([noise, noise[::-1]])]),))
         fitted = fit(used, [Gain()])
-        counted.append(detect(used, fitted, signatures(used, fitted), general(used, fitted), random))
+        drawn = null_misfits(used, fitted, random)
+        counted.append(detect(fitted, signatures(used, fitted), general(used, fitted), drawn))
     assert alarms(counted) <= binom.ppf(0.999, 60, LEVEL)
 
 
