@@ -102,6 +102,7 @@ def test_the_cursor_stands_on_samples_and_a_zoom_shows_all_of_them(opened: Opene
     slider.press("+")
     slider.press("+")
     slider.press("+")
+    page.wait_for_load_state("networkidle")
     slider.press("ArrowRight")
     expect(slider).to_have_attribute("aria-valuetext", reading.inner_text())
     time = float(reading.inner_text().split(" at ")[1].removesuffix(" s"))

@@ -23,6 +23,7 @@ export function samplePlot(signal) {
   const slider = el("input", { type: "range", class: "samples", min: 0, step: 1, value: 0, "aria-label": `Sample of ${title}` });
   let { x, y, samples } = signal;
   let asked = 0;
+  let held = x[0]; // where the cursor stood before the samples were replaced
   /** @type {any} */
   let plot = null;
 
@@ -35,6 +36,7 @@ export function samplePlot(signal) {
   };
   const place = (/** @type {number} */ at) => plot?.setCursor({ left: plot.valToPos(x[at], "x"), top: plot.valToPos(y[at], "y") });
   const put = (/** @type {Samples} */ given) => {
+    held = x[Number(slider.value)];
     ({ x, y, samples } = given);
     slider.max = String(Math.max(0, x.length - 1));
     plot?.setData([x, y]);
@@ -43,7 +45,9 @@ export function samplePlot(signal) {
   const show = async (/** @type {number} */ from, /** @type {number} */ to) => {
     const mine = ++asked;
     const inside = part ? await part(from, to) : within(signal, from, to);
-    if (mine === asked && inside.x.length > 1) put(inside);
+    const shown = mine === asked && inside.x.length > 1;
+    if (shown) put(inside);
+    return shown;
   };
   const reset = () => {
     asked++;
@@ -51,13 +55,14 @@ export function samplePlot(signal) {
   };
   slider.addEventListener("input", () => place(Number(slider.value)));
   slider.addEventListener("keydown", async (/** @type {KeyboardEvent} */ event) => {
+    const closer = event.key === "+" || event.key === "=";
+    if (!closer && event.key !== "-" && event.key !== "Escape") return;
+    event.preventDefault();
     const middle = x[Number(slider.value)];
     const half = (x[x.length - 1] - x[0]) / (2 * FACTOR);
-    if (event.key === "+" || event.key === "=") await show(middle - half, middle + half);
-    else if (event.key === "-" || event.key === "Escape") reset();
-    else return;
-    event.preventDefault();
-    place(nearest(x, middle));
+    if (!closer) reset();
+    else if (!(await show(middle - half, middle + half))) return;
+    place(nearest(x, held));
   });
 
   fit(box, (width, height) => {
