@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from rths_engine.formats import dates
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import stamps
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.arrays import Array
@@ -47,7 +47,8 @@ def read(source: Source) -> Table:
     for k, (name, unit, process) in enumerate(zip(names, units, processing, strict=True)):
         texts = [fields[k].strip() for _, fields in data]
         if name.upper() == "TIMESTAMP":
-            columns.append(Column(name, stamps.seconds(texts, lines[_HEADER_LINES:]), "s", quantity="time"))
+            stamps = dates.seconds(texts, [at for at, _ in data])
+            columns.append(Column(name, stamps.seconds, "s", quantity="time"))
         elif name.upper() == "RECORD":
             notes += _records(name, texts, data)
         elif unit == "TS" or process.lower() in _TIMES:

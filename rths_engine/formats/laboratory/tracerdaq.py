@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from rths_engine.formats import dates
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory import rows, stamps
+from rths_engine.formats.laboratory import rows
 from rths_engine.formats.laboratory.rows import Line
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import COARSE, Statement, Written, count
@@ -118,7 +119,8 @@ def _step(
         found.append(Statement("sampling interval", interval.where, interval.value, 1 / rate.value, "s", within))
     if len(texts) < 2:
         return dt, found, []
-    between, digit = np.diff(stamps.seconds(texts, data)), stamps.resolution(texts)
+    stamps = dates.seconds([text.strip('"') for text in texts], [at for at, _ in data])
+    between, digit = np.diff(stamps.seconds), stamps.resolution
     shown = float(np.median(between))
     step = dt if dt is not None else float(np.mean(between))
     forward = between[between >= 0]

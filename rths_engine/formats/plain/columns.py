@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from rths_engine.formats import units_row
+from rths_engine.formats import dates, units_row
 from rths_engine.formats.format import Format
 from rths_engine.formats.lines import check_text, decoded
 from rths_engine.formats.numeric_block import Layout, line_number, read_block
@@ -21,7 +21,6 @@ from rths_engine.formats.plain import (
     headings,
     markers,
     peaks,
-    stamps,
     text_columns,
     time_columns,
     timing,
@@ -127,7 +126,7 @@ def _of_rows(header: Sequence[Line], signals: Sequence[transposed.Signal]) -> Ta
 
 def _column(name: str, values: Array, unit: str) -> Column:
     """A column of numbers; the dates that a spreadsheet counts in days become seconds."""
-    seconds = stamps.from_days(name, values)
+    seconds = dates.from_days(name, values)
     if seconds is not None:
         return Column(name, seconds, "s", quantity="time", applied="seconds from the first date, which is in days")
     return Column(name, values, unit or headings.name_and_unit(name)[1])

@@ -107,14 +107,6 @@ def _other(values: Array, at: int, way: int) -> int | None:
     return at + way * int(found[0]) if len(found) else None
 
 
-def refuse_infinite(values: Array, name: str, line: Callable[[int], int]) -> None:
-    """Raises FileError for an infinite value."""
-    if len(at := np.flatnonzero(np.isinf(values))):
-        problem = f"{name} is infinite"
-        fix = "leave the field empty where the value is missing, or leave the column out"
-        raise FileError(Issue(f"line {line(int(at[0]))}", problem, f"{values[at[0]]:g}", fix))
-
-
 def refuse_in(table: Table) -> None:
     """Raises FileError where a sample is a usual marker that stands out, in a file of any format; it names the sample."""
     issues: list[Issue] = []

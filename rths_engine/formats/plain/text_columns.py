@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from rths_engine.formats import dates
 from rths_engine.formats.lines import decoded
 from rths_engine.formats.numeric_block import line_number
-from rths_engine.formats.plain import stamps
 from rths_engine.formats.plain.form import Form
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column
@@ -32,8 +32,8 @@ def read(
     of_text = [k for k, holds in enumerate(numeric) if not holds]
     for k in of_text:
         _refuse_other_decimal(source, start, form, names[k], first[0][k])
-    days = {k for k in of_text if all(stamps.is_day(row[k]) for row in first[:_TRIED])}
-    clocks = {k for k in of_text if all(stamps.is_stamp(row[k]) for row in first[:_TRIED])}
+    days = {k for k in of_text if all(dates.is_day(row[k]) for row in first[:_TRIED])}
+    clocks = {k for k in of_text if all(dates.is_stamp(row[k]) for row in first[:_TRIED])}
     used = {k: k - 1 if k - 1 in days else None for k in clocks}
     times: dict[int, Column] = {}
     notes: list[str] = []
@@ -43,7 +43,7 @@ def read(
             texts_of_rows.append([" ".join(fields[one] for one in (day, k) if one is not None) for k, day in used.items()])
             lines.append(at)
         for k, texts in zip(used, zip(*texts_of_rows, strict=True), strict=True):
-            found = stamps.seconds(texts, lines)
+            found = dates.seconds(texts, lines)
             if len(found.seconds) > 1 and not (found.seconds[1:] > found.seconds[:-1]).all():
                 notes.append(f"{names[k]} holds stamps that do not increase, written to {found.resolution:g} s: not used")
                 continue
@@ -55,7 +55,7 @@ def read(
 
 def _refuse_other_decimal(source: Source, start: int, form: Form, name: str, field: str) -> None:
     """Raises FileError for a number that has another decimal sign than the other columns."""
-    if re.fullmatch(r"[-+]?[\d.,'\u2019\u00a0]*\d[\d.,]*(?:[eEdD][-+]?\d+)?", field) and not stamps.is_day(field):
+    if re.fullmatch(r"[-+]?[\d.,'\u2019\u00a0]*\d[\d.,]*(?:[eEdD][-+]?\d+)?", field) and not dates.is_day(field):
         problem = f"{name} is not written with the decimal sign {form.decimal!r} of the other columns"
         raise FileError(Issue(f"line {line_number(source, start)}", problem, field, "write all numbers with a decimal point"))
 

@@ -13,7 +13,7 @@ from rths_engine.recordings.measured.roles import RAW, ROLES
 
 _BRACKETS = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)|\[([^\[\]]*)\]|\{([^{}]*)\}")
 _LONGEST_UNIT = 12  # characters of a bracket that is reported as an unknown unit; chosen, see docs/decisions/0023
-_NO_UNIT = re.compile(r"[\d\s.,:;#-]+|column \d+")  # numbers in brackets, and the number by which equal names are told apart
+_NO_UNIT = re.compile(r"[\d\s.,:;#-]+|column \d+")  # a number in brackets; the column number added to equal names
 _NO_TAIL = re.compile(r"[-%\d]+|[cCFfkvaMThSJKn]", re.IGNORECASE)  # ends of names that are more often a letter of a channel
 _IS_TAIL = {"s", "m", "g", "N", "V", "A"}
 _WITH_UNIT = re.compile(r"(?<![\w.])(?:@\s*)?(\d+(?:\.\d+)?)\s*([A-Za-z%\u00b5\u03bc/][A-Za-z/]*)(?![A-Za-z0-9])")

@@ -238,7 +238,7 @@ def test_a_date_and_a_clock_in_two_columns_are_one_time_and_a_broken_stamp_is_re
     lines = [f"03.02.2024 12:34:{50 + t:06.3f} {f:.4f}" for t, f in zip(T, F, strict=True)]
     same(read(made.text(["Date Time Force(kN)", *lines])), T, F)
     lines[50] = lines[50].replace("12:34", "12.34")
-    refused(made.text(["Date Time Force(kN)", *lines]), "line 52", "not a date and clock")
+    refused(made.text(["Date Time Force(kN)", *lines]), "line 52", "not a date and a time")
     lines = ["01/02/2024 12:00:00,1", "02/03/2024 12:00:01,2", "03/05/2024 12:00:02,3"]
     refused(made.text(["Date,Force", *lines]), "order of day and month")
 

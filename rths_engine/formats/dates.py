@@ -79,9 +79,7 @@ def _parsed(field: str, at: int) -> tuple[str, float, float]:
         text = found[2].replace(",", ".")
         return "", 60 * int(found[1]) + float(text), 10.0 ** -len(text.partition(".")[2])
     if not (found := _STAMP.fullmatch(field)):
-        raise FileError(
-            Issue(f"line {at}", "is not a date and clock as in the lines before", field, "correct or remove the line")
-        )
+        raise FileError(Issue(f"line {at}", "is not a date and a time", field, "correct or remove the line"))
     text = re.sub("[,:]", ".", found[4])
     hour = int(found[2])
     if found[5]:
