@@ -88,6 +88,18 @@ def test_abort_asks_once_more_then_stops_the_test_and_holds_the_queue(idle: Serv
     expect(page.locator("#held")).to_have_count(0)
 
 
+def test_a_link_pressed_while_the_page_is_brought_up_to_date_still_leads_on(service: Service, opened: Opener) -> None:
+    page = opened(f"/runs/{service.completed()}")
+    link = page.get_by_role("link", name="Diagnose this run")
+    link.hover()
+    page.mouse.down()
+    with page.expect_response("**/api/v1/runs/*"):
+        page.evaluate("document.dispatchEvent(new Event('aborted'))")  # as when another page stops the tests
+    page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    page.mouse.up()
+    page.wait_for_url("**/diagnoses?run=*")
+
+
 def test_the_lab_page_keeps_the_focus_while_it_refreshes(idle: Service, opened: Opener) -> None:
     run = idle.submit(duration=20.0, pace=REAL_TIME)
     idle.wait(run, "running")

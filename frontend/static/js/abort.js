@@ -1,7 +1,7 @@
 // @ts-check
 // The bar on every page while a test runs. Abort asks for a second press, then stops all tests and holds the queue.
 import { api, explain } from "./api.js";
-import { byId, el } from "./dom.js";
+import { byId, el, renew } from "./dom.js";
 import { person } from "./person.js";
 
 const PERIOD_MS = 1500;
@@ -52,7 +52,7 @@ async function refresh() {
     const { runs, total } = await api.get("/runs?state=running&limit=5");
     if (total) {
       if (bar.hidden) note.textContent = "";
-      names.replaceChildren(`Running: `, ...runs.map(link).flatMap((/** @type {Node} */ a, /** @type {number} */ i) => (i ? [", ", a] : [a])));
+      renew(names, "Running: ", ...runs.map(link).flatMap((/** @type {Node} */ a, /** @type {number} */ i) => (i ? [", ", a] : [a])));
       bar.hidden = false;
     } else {
       bar.hidden = !note.textContent.startsWith("Stopped") || bar.hidden;

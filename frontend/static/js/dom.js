@@ -19,6 +19,27 @@ export function el(tag, attributes = {}, ...children) {
   return node;
 }
 
+/**
+ * Show these children in the host and leave those in place that are there already and equal: a link that is replaced
+ * while it is pressed loses the click, and a button that is replaced loses the keyboard focus.
+ * @param {Element} host
+ * @param {...(Node | string)} children
+ */
+export function renew(host, ...children) {
+  const present = [...host.childNodes];
+  const shown = children.map((child) => {
+    const node = typeof child === "string" ? document.createTextNode(child) : child;
+    const at = present.findIndex((one) => one.isEqualNode(node));
+    return at < 0 ? node : present.splice(at, 1)[0];
+  });
+  for (const gone of present) gone.remove();
+  let place = host.firstChild;
+  for (const node of shown) {
+    if (node === place) place = place.nextSibling;
+    else host.insertBefore(node, place);
+  }
+}
+
 /** @param {string} id @returns {any} */
 export function byId(id) {
   const node = document.getElementById(id);

@@ -1,6 +1,6 @@
 // @ts-check
 import { api, explain } from "../api.js";
-import { byId, el } from "../dom.js";
+import { byId, el, renew } from "../dom.js";
 import { person } from "../person.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
@@ -41,7 +41,7 @@ function show() {
   banner.hidden = !why;
   banner.textContent = why ?? "";
   banner.classList.toggle("bad", run.state !== "cancelled");
-  byId("facts").replaceChildren(...facts(run, declared.measures));
+  renew(byId("facts"), ...facts(run, declared.measures));
   showProgress(run);
   showActions();
   const measured = ended(run.state) && run.recording && (run.stations?.length || floorCount(run, declared.measures));
@@ -69,7 +69,8 @@ function showActions() {
   const download = (/** @type {string} */ file, /** @type {string} */ label) =>
     el("a", { href: `/api/v1/runs/${id}/${file}`, class: "button quiet", ...(file === "report.html" ? {} : { download: true }) }, label);
   const cancel = el("button", { type: "button", class: "danger", on: { click: () => stop(cancel) } }, "Cancel this test");
-  byId("actions").replaceChildren(
+  renew(
+    byId("actions"),
     ...(ended(run.state) ? [] : [cancel]),
     ...(run.recording
       ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("measures.csv", "Measures, CSV"), download("report.html", "Report")]
