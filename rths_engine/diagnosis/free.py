@@ -66,7 +66,7 @@ def moved(parts: Sequence[Part], free: Sequence[Number], z: Array) -> list[Part]
     changes: list[dict[str, float]] = [{} for _ in parts]
     for number, one in zip(free, z, strict=True):
         changes[number.owner][number.field] = number.from_z(float(one))
-    return [part.model_copy(update=change) for part, change in zip(parts, changes, strict=True)]
+    return [part.model_copy(update=change) if change else part for part, change in zip(parts, changes, strict=True)]
 
 
 def _of(owner: int, part: Part, planned: Part | None, spread: float | None) -> Iterator[Number]:

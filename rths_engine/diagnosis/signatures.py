@@ -17,7 +17,7 @@ from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.parallel import each
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts import physics
-from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.effect import F_SENSOR, FORCE, X_SENSOR, Effect
 
 # chosen; see docs/decisions/0023
 ABSORBED = 0.01  # of the size of a change: a smaller remainder comes from the curvature of the fitted parameters
@@ -75,7 +75,10 @@ def signatures(recordings: Recordings, fitted: Fitted, sized: bool = True) -> Si
         share = share if share > 0 or _two_sided(guess) else LEAST
         if abs(share) > NEAR:
             return first
-        return seen(_times(guess, float(np.copysign(max(abs(share), LEAST), share)))) or first
+        share = float(np.copysign(max(abs(share), LEAST), share))
+        if _proportional(guess, fitted):
+            return _times(guess, share), np.sign(share) * first[1], abs(share) * first[2], first[3]
+        return seen(_times(guess, share)) or first
 
     found = [row for row in each(left, guesses) if row is not None]
     return Signatures(
@@ -176,6 +179,16 @@ def _beyond(change: Array, absorbed: Array) -> tuple[Array, float] | None:
 def _times(guess: Effect, share: float) -> Effect:
     resized: Effect = physics.SEARCHES[type(guess)].times(guess, share)
     return resized
+
+
+def _proportional(guess: Effect, fitted: Fitted) -> bool:
+    """Whether the change of the output is proportional to the size of the effect, so that its signature needs no replay."""
+    beside = [part for part in fitted.parts if isinstance(part, Effect)]
+    return _adds(guess) and all(_adds(part) for part in beside)
+
+
+def _adds(effect: Effect) -> bool:
+    return effect.hook in (FORCE, F_SENSOR, X_SENSOR) and physics.SEARCHES[type(effect)].proportional
 
 
 def _two_sided(effect: Effect) -> bool:

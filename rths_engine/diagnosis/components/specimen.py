@@ -198,8 +198,13 @@ def _late(signals: Array, samples: float) -> Array:
         return signals
     after = np.arange(-REACH, REACH + 1) - samples
     taps = np.sinc(after) * np.i0(TAPER * np.sqrt(np.clip(1 - (after / REACH) ** 2, 0, None))) / np.i0(TAPER)
-    longer = np.pad(signals, ((0, 0), (REACH, REACH)), "reflect", reflect_type="odd")
-    return np.array([np.convolve(one, taps, "valid") for one in longer])
+    return np.array([np.convolve(_continued(one), taps, "valid") for one in signals])
+
+
+def _continued(signal: Array) -> Array:
+    """The signal continued at both ends by REACH samples, turned about its first and its last value."""
+    before, after = 2 * signal[0] - signal[REACH:0:-1], 2 * signal[-1] - signal[-2 : -2 - REACH : -1]
+    return np.concatenate([before, signal, after])
 
 
 def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:

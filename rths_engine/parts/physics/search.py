@@ -42,7 +42,8 @@ class Search(Generic[E]):
     """How a diagnosis searches for one effect; `effect` is the class of its law.
 
     `needs` are the roles that must be recorded. `relatives` are the ids of effects that look similar in a recording. A fit does
-    not change the `held` numbers; `otherwise` gives another plausible value for each of them. A sentence of a diagnosis reads:
+    not change the `held` numbers; `otherwise` gives another plausible value for each of them. Where it is `proportional`, the
+    change of the signal is proportional to the numbers that `times` scales. A sentence of a diagnosis reads:
     "The specimen {says}: {noun} was left out."
     """
 
@@ -50,6 +51,7 @@ class Search(Generic[E]):
     relatives: tuple[str, ...] = ()
     held: tuple[str, ...] = ()
     otherwise: ClassVar[Mapping[str, float]] = {}
+    proportional: ClassVar[bool] = False
     noun: str
 
     def __init__(self, effect: type[E]):

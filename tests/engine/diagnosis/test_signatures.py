@@ -9,8 +9,12 @@ from rths_engine.diagnosis.components import Specimen, SpecimenData
 from rths_engine.diagnosis.fitting import evaluated, fit
 from rths_engine.diagnosis.signatures import absorber, best_first, general, general_terms, signatures
 from rths_engine.foundation.arrays import Array
+from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import F_SENSOR, FORCE, Effect
+from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.specimen.cubic_stiffness import CubicStiffness
 from rths_engine.parts.specimens.linear import LinearSpecimen
+from rths_engine.running import replay
 from tests.engine.diagnosis.made import DT, SHAPES, SIGMA, Gain, Wave, drive, linear, noisy, recordings
 
 
@@ -108,3 +112,38 @@ def test_a_general_law_is_what_its_terms_span_beyond_fitted_numbers_and_drifts()
     slow = np.cos(np.pi * (np.arange(len(drive())) + 0.5) / len(drive()))  # half a wave over six seconds
     assert np.linalg.norm(basis.T @ slow) / np.linalg.norm(slow) < 1e-6
     assert DT * len(drive()) == 6.0
+
+
+PROPORTIONAL = [kind for kind, search in physics.SEARCHES.items() if search.proportional and kind.hook in (FORCE, F_SENSOR)]
+
+
+@pytest.mark.parametrize("kind", PROPORTIONAL, ids=lambda kind: kind.__name__)
+def test_the_change_by_a_proportional_effect_is_proportional_to_its_size(kind: type[Effect]) -> None:
+    x = 0.02 * np.sin(np.arange(2000) / 60) * np.sin(np.arange(2000) / 300)
+    spring, seen = LinearSpecimen(stiffness=2e6, damping=3e5), Seen(0.02, 0.07, 6e4, 20.0, 5e3, 0.01)
+    search, still = physics.SEARCHES[kind], np.ones(len(x))
+    for guess in search.guesses(seen):
+        plain, whole, part = (
+            replay.specimen(spring, effects, x, still, 0.01) for effects in ((), (guess,), (search.times(guess, 0.03),))
+        )
+        assert part - plain == pytest.approx(0.03 * (whole - plain), abs=1e-9 * float(np.max(np.abs(whole))))
+
+
+def test_a_proportional_effect_is_resized_as_a_replay_would() -> None:
+    x = 0.02 * np.sin(np.arange(2000) / 60) * np.sin(np.arange(2000) / 300)
+    spring = LinearSpecimen(stiffness=2e6, damping=3e5)
+    force = replay.specimen(spring, (CubicStiffness(stiffness=-2e7),), x, np.ones(len(x)), 0.01)
+    data = SpecimenData(0.01, 0.0, True, x, force, np.ones(len(x)))
+    data.__dict__["smooth"] = x
+    used = recordings(Specimen("specimen:1", (spring,)), data, sigma=100.0)
+    fitted = evaluated(used, [spring])
+    found = signatures(used, fitted)
+    checked = 0
+    for effect, row, size in zip(found.effects, found.rows, found.sizes, strict=True):
+        if physics.SEARCHES[type(effect)].proportional:
+            change = used.misfit([spring]) - used.misfit([spring, effect])
+            left = change - absorber(fitted.jacobian) @ (absorber(fitted.jacobian).T @ change)
+            assert np.linalg.norm(left) == pytest.approx(size, rel=1e-6)
+            assert row == pytest.approx(left / size, abs=1e-6)
+            checked += 1
+    assert checked > 8

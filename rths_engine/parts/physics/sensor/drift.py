@@ -51,6 +51,7 @@ class ForceDrift(OfForce, Drift):
 
 class DriftSearch(ReadingSearch[Drift]):
     relatives = ("offset",)
+    proportional = True
     noun = "a drift of the sensor"
 
     def guesses(self, seen: Seen) -> Iterator[Drift]:

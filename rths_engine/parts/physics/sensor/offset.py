@@ -51,6 +51,7 @@ class ForceOffset(OfForce, Offset):
 
 class OffsetSearch(ReadingSearch[Offset]):
     relatives = ("drift",)
+    proportional = True
     noun = "an offset of the sensor"
 
     def guesses(self, seen: Seen) -> Iterator[Offset]:

@@ -49,6 +49,7 @@ class ForceScaleError(OfForce, ScaleError):
 
 class ScaleErrorSearch(ReadingSearch[ScaleError]):
     relatives = ("gain_error",)
+    proportional = True
     noun = "a scale error of the sensor"
 
     def guesses(self, seen: Seen) -> Iterator[ScaleError]:

@@ -48,6 +48,7 @@ class AddedInertia(Effect):
 class AddedInertiaSearch(Search[AddedInertia]):
     needs = ("x_meas", "f_meas")
     relatives = ("parallel_stiffness",)
+    proportional = True
     noun = "added inertia"
 
     def guesses(self, seen: Seen) -> Iterator[AddedInertia]:

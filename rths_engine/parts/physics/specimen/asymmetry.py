@@ -39,6 +39,7 @@ class Asymmetry(Effect):
 class AsymmetrySearch(Search[Asymmetry]):
     needs = ("x_meas", "f_meas")
     relatives = ("offset",)
+    proportional = True
     noun = "strength asymmetry"
 
     def guesses(self, seen: Seen) -> Iterator[Asymmetry]:

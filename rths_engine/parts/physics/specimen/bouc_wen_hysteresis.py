@@ -54,6 +54,7 @@ class BoucWenHysteresisSearch(Search[E]):
     relatives: tuple[str, ...] = ("coulomb_friction", "stribeck_friction")
     held = ("exponent", "fullness")
     otherwise: ClassVar = {"exponent": 2.0, "fullness": 0.75}
+    proportional = True
     noun = "hysteresis"
 
     def guesses(self, seen: Seen) -> Iterator[E]:

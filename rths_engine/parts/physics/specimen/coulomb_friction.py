@@ -52,6 +52,7 @@ E = TypeVar("E", bound=CoulombFriction)
 class CoulombFrictionSearch(Search[E]):
     needs: tuple[str, ...] = ("x_meas", "f_meas")
     relatives: tuple[str, ...] = ("stribeck_friction", "bouc_wen_hysteresis")
+    proportional = True
     noun = "Coulomb friction"
 
     def guesses(self, seen: Seen) -> Iterator[E]:

@@ -44,6 +44,7 @@ E = TypeVar("E", bound=CubicStiffness)
 class CubicStiffnessSearch(Search[E]):
     needs: tuple[str, ...] = ("x_meas", "f_meas")
     relatives: tuple[str, ...] = ("parallel_stiffness", "pinching")
+    proportional = True
     noun = "cubic stiffness"
 
     def guesses(self, seen: Seen) -> Iterator[E]:

@@ -40,6 +40,7 @@ class ParallelStiffness(Effect):
 class ParallelStiffnessSearch(Search[ParallelStiffness]):
     needs = ("x_meas", "f_meas")
     relatives = ("cubic_stiffness", "added_inertia")
+    proportional = True
     noun = "a parallel stiffness"
 
     def guesses(self, seen: Seen) -> Iterator[ParallelStiffness]:

@@ -44,6 +44,7 @@ class Pinching(Effect):
 class PinchingSearch(Search[Pinching]):
     needs = ("x_meas", "f_meas")
     relatives = ("backlash", "cubic_stiffness")
+    proportional = True
     noun = "pinching"
 
     def guesses(self, seen: Seen) -> Iterator[Pinching]:

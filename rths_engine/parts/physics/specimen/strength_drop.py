@@ -42,6 +42,7 @@ class StrengthDrop(Effect):
 class StrengthDropSearch(Search[StrengthDrop]):
     needs = ("x_meas", "f_meas")
     relatives = ("viscous_heating",)
+    proportional = True
     noun = "a strength drop"
 
     def guesses(self, seen: Seen) -> Iterator[StrengthDrop]:

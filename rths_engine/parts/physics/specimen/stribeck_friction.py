@@ -52,6 +52,7 @@ class StribeckFriction(Effect):
 class StribeckFrictionSearch(Search[StribeckFriction]):
     needs = ("x_meas", "f_meas")
     relatives = ("coulomb_friction", "bouc_wen_hysteresis")
+    proportional = True
     noun = "Stribeck friction"
 
     def guesses(self, seen: Seen) -> Iterator[StribeckFriction]:
