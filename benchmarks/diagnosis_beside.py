@@ -1,8 +1,8 @@
 """`python -m benchmarks.diagnosis_beside [COMMIT] [CASE ...]`: diagnoses of this build and of a clone of COMMIT, in turns.
 
-The clone is made from the repository of this checkout, into a folder of its own. Each diagnosis runs in a process of its own,
-with one thread of linear algebra; its processor time does not count the waiting for a core. Prints a table for
-docs/benchmarks.md.
+The clone is made from the repository of this checkout, into a folder of its own. Each diagnosis runs in a process of its own;
+its processor time does not count the waiting for a core. With OPENBLAS_NUM_THREADS=1 both builds compute linear algebra in one
+thread; without it, only builds that limit these threads themselves. Prints a table for docs/benchmarks.md.
 """
 
 from __future__ import annotations
@@ -47,8 +47,7 @@ def _row(name: str, clone: Path) -> str:
 
 
 def _measured(name: str, tree: Path) -> dict[str, Any]:
-    threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")}
-    environment = {**os.environ, **threads, "PYTHONPATH": str(tree)}
+    environment = {**os.environ, "PYTHONPATH": str(tree)}
     command = [sys.executable, str(CHECKOUT / "benchmarks" / "one_diagnosis.py"), name]
     done = subprocess.run(command, env=environment, cwd=tree, capture_output=True, text=True, check=True)
     found: dict[str, Any] = json.loads(done.stdout)
