@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from rths_engine.diagnosis import verdict as stage
 from rths_engine.diagnosis.components import Actuator
@@ -23,6 +24,20 @@ def test_a_specimen_with_play_is_judged_to_have_play(played: Diagnosis) -> None:
     (effect,) = one.effects
     assert isinstance(effect, Backlash) and effect.gap == pytest.approx(0.002, rel=0.05)  # 1 % noise over 12 s
     assert played.digital == ()  # a specimen test computes nothing
+
+
+def test_linear_algebra_has_one_thread_during_a_diagnosis(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its threads would wait for each other beside the threads of the replays."""
+    seen: list[int] = []
+
+    def judged(*given: Any) -> Any:
+        seen.extend(pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas")
+        raise Stopped
+
+    monkeypatch.setattr(stage, "judged", judged)
+    with threadpool_limits(limits=2, user_api="blas"), pytest.raises(Stopped):
+        diagnose(made.plan(), made.recording(2))
+    assert set(seen) == {1}
 
 
 class Stopped(Exception):
