@@ -5,6 +5,7 @@
 #
 # Options: RTHS_PORT=8001 is the port of `make run`, RTHS_DATA=FOLDER its data folder, PYTHON=... the Python to use.
 # PYTEST="tests/engine -k word" gives pytest arguments; coverage is then not measured.
+# OPENSEES="--only specimen-gap --keep kept" gives arguments of `make prove-opensees`.
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -13,10 +14,11 @@ STAMPS := $(VENV)/stamps
 VENDOR := frontend/static/vendor
 ENGINE := $(shell find rths_engine -name '*.py')
 PYTEST ?=
+OPENSEES ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides check docs migration bench prove browser opensees lock clean
+.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser opensees lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -41,6 +43,10 @@ bench: setup
 # Score diagnoses on recordings with known left-out physics: docs/proof.md. Takes 30 to 60 minutes.
 prove: setup
 	$(BIN)/rths prove --cases 300 --json proof.json --picture proof.svg --table
+
+# Diagnose recordings that conceal material laws of OpenSees: docs/proof.md. Takes 5 to 10 minutes.
+prove-opensees: setup opensees
+	$(BIN)/python -m tests.opensees $(OPENSEES)
 
 check: setup
 	$(BIN)/ruff check .

@@ -9,6 +9,7 @@ from typing import Any
 
 import openseespy.opensees as ops
 from frame_in_opensees import Frame
+from materials_in_opensees import pressed, shaken
 
 
 def modes(request: dict[str, Any]) -> dict[str, Any]:
@@ -45,4 +46,5 @@ def timing(request: dict[str, Any]) -> dict[str, Any]:
 
 if __name__ == "__main__":
     request = json.load(sys.stdin)
-    print(json.dumps({"modes": modes, "history": history, "timing": timing}[request["task"]](request)))
+    tasks = {"modes": modes, "history": history, "timing": timing, "pressed": pressed, "shaken": shaken}
+    print(json.dumps(tasks[request["task"]](request)))

@@ -40,10 +40,14 @@ def describe(frame: MomentFrame) -> dict[str, Any]:
 
 
 def ask(task: str, frame: MomentFrame, **more: Any) -> dict[str, Any]:
+    """The answer to one request about a frame."""
+    return answered({"task": task, "frame": describe(frame), **more})
+
+
+def answered(request: dict[str, Any]) -> dict[str, Any]:
     """The answer to one request. Raises RuntimeError with OpenSees' own words."""
-    request = json.dumps({"task": task, "frame": describe(frame), **more})
     script = Path(__file__).with_name("answer.py")
-    done = subprocess.run([PYTHON, str(script)], input=request, capture_output=True, text=True)
+    done = subprocess.run([PYTHON, str(script)], input=json.dumps(request), capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(done.stderr[-2000:])
     answer: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
