@@ -20,6 +20,8 @@ from rths_engine.parts.physics.actuator import (
     GainError,
     SecondOrderLag,
     StickFriction,
+    SupplySaturation,
+    ValveFlow,
     VelocitySaturation,
 )
 from tests.engine.effects import enclosed, stepped
@@ -145,3 +147,21 @@ def test_a_sticking_piston_rests_after_a_reversal_until_it_breaks_away_and_then_
 
 def test_a_gain_error_moves_by_its_share_more() -> None:
     assert stepped(GainError(share=0.03), np.array([0.01, -0.02])) == pytest.approx([0.0103, -0.0206])
+
+
+def test_a_valve_moves_the_error_by_the_root_of_the_pressure_that_the_load_leaves() -> None:
+    ahead, loads = np.ones(4), np.array([0.0, 3e4, 1e5, -3e4])
+    moved = stepped(ValveFlow(inverse_stall_force=1e-5), ahead, np.zeros(4), loads)
+    assert moved == pytest.approx(np.sqrt([1.0, 0.7, 0.0, 1.3]))  # against half of the stall force, at it, and helped
+    back = stepped(ValveFlow(inverse_stall_force=1e-5), -ahead, np.zeros(4), loads)
+    assert back == pytest.approx(-np.sqrt([1.0, 1.3, 2.0, 0.7]))
+
+
+def test_a_supply_gives_its_reserve_and_then_its_sustained_velocity_until_it_rests() -> None:
+    """Over a ramp of V the reserve lasts R_0 / (V - v_p); from there on the piston moves with v_p."""
+    dt, sustained, reserve, fast = 1e-3, 0.1, 0.02, 0.3
+    drive = fast * dt * np.arange(300)
+    moved = stepped(SupplySaturation(velocity=sustained, reserve=reserve), drive, dt=dt)
+    emptied = reserve / (fast - sustained)
+    assert moved[: int(emptied / dt)] == pytest.approx(drive[: int(emptied / dt)])
+    assert moved[-1] == pytest.approx(fast * emptied + sustained * (299 * dt - emptied), rel=1e-6)

@@ -120,10 +120,12 @@ def test_storeys_of_every_kind_take_their_force_and_none_without_strength() -> N
         physics.GAP: (d / 3, 1e6),
         physics.DROP: (0.3, 3.0),
         physics.MEMORY: (2e4, 0.1, 0.1),
-        physics.TIRED: (0.3, 0.1),
+        physics.HEALING: (0.3, 0.1, 1.0),
         physics.COGGING: (2e4, d),
         physics.PARAMETRIC: (0.2, 0.3),
         physics.ONE_SIDED: (1e8,),
+        physics.SOFTENING: (0.3, d),
+        physics.TURNED: (0.3, 2e3),
     }
     for kind, numbers in strong.items():
         x, _ = response(BUILDING, Whole(), [Element(2, kind, numbers)], Ground(motion, {}), time)

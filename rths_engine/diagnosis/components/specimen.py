@@ -17,7 +17,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
-from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.search import Seen, trend
 from rths_engine.parts.physics.sensor.channel import OfForce
 from rths_engine.running import replay
 
@@ -120,7 +120,7 @@ class SpecimenData(Data):
     def seen(self) -> Seen:
         energy = float(np.sum(np.abs(self.force * self.velocity)) * self.dt)
         x, v, f = (float(np.max(np.abs(one))) for one in (self.smooth, self.velocity, self.force))
-        return Seen(x, v, f, len(self.x) * self.dt, energy, self.dt)
+        return Seen(x, v, f, len(self.x) * self.dt, energy, self.dt, trend=trend(self.smooth))
 
 
 class ClockSkew(Loose):

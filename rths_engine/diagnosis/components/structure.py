@@ -18,7 +18,7 @@ from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
 from rths_engine.parts.integrators.cr import CrIntegrator
 from rths_engine.parts.physics.effect import GROUND, MATRICES, Effect
-from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.search import Seen, trend
 from rths_engine.parts.physics.structure.damping_error import DampingError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
@@ -199,7 +199,7 @@ class Structure(Component):
             v = np.gradient(moved, data.dt)
             k = stiffness(self.built, drift(self.built, storey))
             x_top, v_top = float(np.max(np.abs(moved))), float(np.max(np.abs(v)))
-            found.append(Seen(x_top, v_top, k * x_top, len(moved) * data.dt, k * x_top * x_top, data.dt, storey))
+            found.append(Seen(x_top, v_top, k * x_top, len(moved) * data.dt, k * x_top * x_top, data.dt, storey, trend(moved)))
         return found
 
     def hypotheses(self, data: StructureData) -> Iterator[Effect]:

@@ -7,13 +7,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import annotated_types
+import numpy as np
 
+from rths_engine.foundation.arrays import Array
 from rths_engine.parts.physics.effect import Effect
 
 # chosen; see docs/decisions/0023
 TINY = 1e-12
 UNSURE = 0.5  # standard deviation of the logarithm of a number
 PRESLIDING = 0.02  # share of the stroke: friction that builds up over a longer displacement is more likely hysteresis
+TRENDING = math.log(3.0)  # a displacement that changes threefold over the record
+EVENT = 2 * math.log(9.0)  # -2 ln of the prior odds of an event in time beside a law of amplitude or energy, 1:9
 E = TypeVar("E", bound=Effect)
 
 
@@ -27,6 +31,7 @@ class Seen(NamedTuple):
     energy: float  # dissipated energy, sum of |f v| dt
     dt: float
     storey: int = 1  # storey of a structure, from 1; x and v are those of its drift
+    trend: float = 0.0  # logarithm of the RMS displacement in the last third over that in the first third
 
     @property
     def stiffness(self) -> float:
@@ -65,6 +70,10 @@ class Search(Generic[E]):
         """-2 ln of the prior odds of these numbers against common ones."""
         return 0.0
 
+    def caution(self, seen: Seen) -> str:
+        """A sentence on what the recording confounds with the effect; empty where nothing."""
+        return ""
+
     def says(self, effect: E) -> str:
         """What the effect does, with its size and unit: the verb phrase of a diagnosis' sentence."""
         raise NotImplementedError
@@ -78,6 +87,26 @@ class Search(Generic[E]):
         """The effect with `share` times those of its numbers whose neutral value is 0."""
         fields, zeros = self.effect.model_fields, [name for name, neutral in effect.neutral.items() if neutral == 0.0]
         return effect.model_copy(update={name: _within(share * getattr(effect, name), fields[name].metadata) for name in zeros})
+
+
+class EventSearch(Search[E]):
+    """Search for an event at one moment. A law of the amplitude changes in time as well where the amplitude falls or grows."""
+
+    def doubt(self, effect: E, seen: Seen) -> float:
+        return EVENT * min(1.0, abs(seen.trend) / TRENDING)
+
+    def caution(self, seen: Seen) -> str:
+        if abs(seen.trend) < TRENDING:
+            return ""
+        way = "grows" if seen.trend > 0 else "falls"
+        return f"The amplitude {way} over the recording too: a law that depends on the amplitude could leave a similar trace."
+
+
+def trend(x: Array) -> float:
+    """Logarithm of the RMS of a displacement in the last third over that in the first third; 0 where one of them rests."""
+    third = max(1, len(x) // 3)
+    first, last = (float(np.sqrt(np.mean((part - np.mean(x)) ** 2))) for part in (x[:third], x[-third:]))
+    return math.log(last / first) if min(first, last) > TINY else 0.0
 
 
 def beyond(size: float, most: float) -> float:

@@ -18,7 +18,7 @@ from tests.proof.generator.draw_rig import actuator_case, chain_case
 from tests.proof.generator.draw_specimen import specimen_case
 from tests.proof.generator.draw_structure import structure_case
 from tests.proof.generator.rig_bench import OWN as OWN_OF_RIG
-from tests.proof.generator.specimen_effects import FACTORS, IDS, OWN, PLACED
+from tests.proof.generator.specimen_effects import FACTORS, IDS, OWN, PAIRED, PLACED
 
 CLEAN = 0.3  # of the cases
 STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
@@ -107,8 +107,8 @@ def _pairs() -> tuple[tuple[str, str], ...]:
     """Pairs of effects that act independently: beside a connection, only factors of the force."""
     return tuple(
         (one, other)
-        for place, one in enumerate(IDS)
-        for other in IDS[place + 1 :]
+        for place, one in enumerate(PAIRED)
+        for other in PAIRED[place + 1 :]
         if not ({one, other} & PLACED and not {one, other} & FACTORS)
         and {one, other} != {"coulomb_friction", "stribeck_friction"}
         and "current_lag" not in (one, other)
@@ -129,7 +129,7 @@ KINDS = {
         0.2,
         {"plain": 0.45, "noise": 0.1, "small": 0.1, "missing": 0.1, "two": 0.1, "outside": 0.15},
         (*of_rig.ACTUATOR, "sensor_offset", "sensor_drift", "sensor_clipping", "sensor_dropout"),
-        tuple(pair for pair in combinations(of_rig.ACTUATOR, 2) if not set(pair) <= SINGLE_PISTON),
+        tuple(pair for pair in combinations(of_rig.PAIRED, 2) if not set(pair) <= SINGLE_PISTON),
         of_rig.OUTSIDE,
         actuator_case,
         _rig,
@@ -142,7 +142,7 @@ KINDS = {
         (*of_structure.IDS, *GROUND),
         tuple(
             pair
-            for pair in combinations(of_structure.IDS, 2)
+            for pair in combinations(of_structure.PAIRED, 2)
             if "base_flexibility" not in pair and pair != ("cubic_stiffness", "gap_contact")
         ),
         of_structure.OUTSIDE,

@@ -35,6 +35,14 @@ class Effect:
     def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
         return []
 
+    def felt(self, at: At, s: Numbers) -> float:
+        """The share of the displacement that the law feels."""
+        return 1.0
+
+    def felt_rate(self, at: At, s: Numbers, f: float) -> float:
+        """The rate of that share, where the law gives the force f."""
+        return 0.0
+
 
 @dataclass
 class LuGre(Effect):

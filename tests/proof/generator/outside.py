@@ -59,16 +59,19 @@ class HardeningByTravel(Effect):
 
 
 @dataclass
-class DampedStop(Effect):
-    """f + k d^1.5 (1 + v / v_c) beyond x = g on one side only (Hunt and Crossley 1975)"""
+class SelfPumping(Effect):
+    """f + F s,  tau s' = |v| / v_r - s: motion pumps up a pressure that leaks away"""
 
-    stiffness: float
-    gap: float
+    strength: float
     velocity: float
+    leaking: float
+    states = 1
 
     def force(self, at: At, s: Numbers, f: float) -> float:
-        deep = at.x - self.gap
-        return f + self.stiffness * deep**1.5 * max(1.0 + at.v / self.velocity, 0.0) if deep > 0 else f
+        return f + self.strength * s[0]
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        return [(abs(at.v) / self.velocity - s[0]) / self.leaking]
 
 
 @dataclass
@@ -107,13 +110,12 @@ def drawn(random: np.random.Generator, name: str, size: float, scale: dict[str, 
             return Cogging(size * f, x * random.uniform(0.15, 0.5), random.uniform(0, 2 * math.pi))
         case "hardening_by_travel":
             return HardeningByTravel(size, scale["travel"] * random.uniform(0.2, 0.4))
-        case "damped_stop":
-            gap = x * random.uniform(0.3, 0.6)
-            return DampedStop(size * f / (x - gap) ** 1.5, gap, v * random.uniform(0.3, 1.0))
+        case "self_pumping":
+            return SelfPumping(size * f, v, random.uniform(0.3, 1.0))
         case "cubic_memory":
             return CubicMemory(size * f / v**3, random.uniform(0.03, 0.1))
         case _:
             return PumpRipple(size, random.uniform(3.0, 7.0) / duration)
 
 
-NAMES = ("fractional_creep", "cogging", "hardening_by_travel", "damped_stop", "cubic_memory", "pump_ripple")
+NAMES = ("fractional_creep", "cogging", "hardening_by_travel", "self_pumping", "cubic_memory", "pump_ripple")

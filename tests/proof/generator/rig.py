@@ -20,6 +20,7 @@ NUMBERS = (
     *("order", "time_constant", "omega", "zeta", "dead_time", "speed"),
     *("delay", "slope", "memory", "lag", "lag_zeta", "band", "flexibility", "yielding_time"),
     *("play", "stick", "catching", "gain", "uneven", "rate_gain", "hysteresis", "hysteresis_width", "wander", "wander_rate"),
+    *("stall", "sustained", "reserve"),
     *("law", "a", "b", "n", "k", "c", "x_0", "v_0"),
     *("fade", "drop", "drop_time", "asymmetry", "exponent", "reference", "spring", "cubic"),
     *("friction", "presliding", "static", "stribeck", "strength", "x_y", "sharpness", "fullness", "depth", "width"),
@@ -28,14 +29,14 @@ AT = {name: place for place, name in enumerate(NUMBERS)}
 # fmt: off
 (
     ORDER, TIME, OMEGA, ZETA, DEAD, SPEED, DELAY, SLOPE, MEMORY, LAG, LAG_ZETA, BAND, FLEXIBILITY, YIELDING,
-    PLAY, STICK, CATCHING, GAIN, UNEVEN, RATE_GAIN, HYSTERESIS, HYSTERESIS_WIDTH, WANDER, WANDER_RATE, LAW, A, B, N,
+    PLAY, STICK, CATCHING, GAIN, UNEVEN, RATE_GAIN, HYSTERESIS, HYSTERESIS_WIDTH, WANDER, WANDER_RATE, STALL, SUSTAINED, RESERVE, LAW, A, B, N,
     K, C, X_0, V_0, FADE, DROP, DROP_TIME, ASYMMETRY, EXPONENT, REFERENCE, SPRING, CUBIC, FRICTION, PRESLIDING,
     STATIC, STRIBECK, STRENGTH, X_Y, SHARPNESS, FULLNESS, DEPTH, WIDTH,
 ) = range(len(NUMBERS))
 # fmt: on
 LINEAR, SLIDER_MAXWELL, TANGENT = range(3)
 # state of the actuator: drive, its rate, deflection, piston, stuck, offset, way, memory of amplitude, hysteresis
-Y, Y_RATE, DEFLECTED, PISTON, STUCK, OFFSET, WAY, AMPLITUDE, BENT, LAGGING, LAG_RATE, STATES = range(12)
+Y, Y_RATE, DEFLECTED, PISTON, STUCK, OFFSET, WAY, AMPLITUDE, BENT, LAGGING, LAG_RATE, LOAD, LEFT, STATES = range(14)
 # state of the specimen: Maxwell force, energy, friction, Bouc-Wen, then its place of the last two ticks and its speed
 MAXWELL, ENERGY, BRISTLE, ZETA_BW, LAST, EARLIER, LAST_SPEED, SPECIMEN_STATES = range(8)
 
@@ -43,6 +44,7 @@ MAXWELL, ENERGY, BRISTLE, ZETA_BW, LAST, EARLIER, LAST_SPEED, SPECIMEN_STATES = 
 def rig(**numbers: float) -> Array:
     """The parameters of a rig as one vector."""
     made = np.zeros(len(NUMBERS))
+    made[AT["sustained"]] = 1e9
     made[[AT["memory"], AT["yielding_time"], AT["catching"], AT["reference"]]] = 2.0, 0.005, 0.02, 0.1
     made[[AT["presliding"], AT["stribeck"], AT["x_y"], AT["sharpness"], AT["width"], AT["hysteresis_width"]]] = 1.0
     for name, value in numbers.items():
@@ -86,6 +88,9 @@ def _tick(p, s, m, commands, sent, q, force, last, dt):  # type: ignore[no-untyp
         _late(commands, q, late / dt) if late >= 0.0 else commands[q] - late * (commands[q] - commands[max(q - 1, 0)]) / dt
     )
     h = dt / PARTS
+    s[LOAD] = force
+    if q == 0:
+        s[LEFT] = p[RESERVE]
     if p[LAG] > 0.0:
         before = sent[max(q - 1, 0)] if q > 0 else sent[q]
         # the command as it came to the lag is kept in s by its own last value: linear over the tick
@@ -96,7 +101,7 @@ def _tick(p, s, m, commands, sent, q, force, last, dt):  # type: ignore[no-untyp
         t = q * dt - dt + (part + 1) * h
         _drive(p, s, sent, q, part / PARTS, h, dt, t)
         s[DEFLECTED] += (1.0 - math.exp(-h / p[YIELDING])) * (p[FLEXIBILITY] * force - s[DEFLECTED])
-        s[PISTON] = _piston(p, s, h)
+        s[PISTON] = _supplied(p, s, _piston(p, s, h), h)
     return s[PISTON], _moved(p, m, s[PISTON], q * dt - dt, dt), last
 
 
@@ -139,16 +144,18 @@ def _lagged(p, s, before, now, dt):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _asked(p, d, y):  # type: ignore[no-untyped-def]
+def _asked(p, s, d, y):  # type: ignore[no-untyped-def]
     error = d - y
+    if p[STALL] > 0.0:  # the flow of an orifice: the root of the pressure that the load leaves
+        return error * math.sqrt(max(1.0 - math.copysign(s[LOAD] / p[STALL], s[LOAD] * error), 0.0))
     if abs(error) <= p[BAND]:
         return 0.0
     return error - p[BAND] if error > 0.0 else error + p[BAND]
 
 
 @njit(cache=True)
-def _rate(p, d, y, t):  # type: ignore[no-untyped-def]
-    error = _asked(p, d, y)
+def _rate(p, s, d, y, t):  # type: ignore[no-untyped-def]
+    error = _asked(p, s, d, y)
     constant = p[TIME] * (1.0 + p[WANDER] * math.sin(2.0 * math.pi * p[WANDER_RATE] * t))
     if error < 0.0:
         constant *= 1.0 + p[UNEVEN]
@@ -160,10 +167,10 @@ def _drive(p, s, sent, q, share, h, dt, t):  # type: ignore[no-untyped-def]
     y = s[Y]
     if p[ORDER] == 1.0:
         d = sent[q]
-        k1 = _rate(p, d, y, t)
-        k2 = _rate(p, d, y + 0.5 * h * k1, t)
-        k3 = _rate(p, d, y + 0.5 * h * k2, t)
-        k4 = _rate(p, d, y + h * k3, t)
+        k1 = _rate(p, s, d, y, t)
+        k2 = _rate(p, s, d, y + 0.5 * h * k1, t)
+        k3 = _rate(p, s, d, y + 0.5 * h * k2, t)
+        k4 = _rate(p, s, d, y + h * k3, t)
         s[Y] = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         s[Y_RATE] = (s[Y] - y) / h
         return
@@ -172,13 +179,13 @@ def _drive(p, s, sent, q, share, h, dt, t):  # type: ignore[no-untyped-def]
     d2 = _late(sent, q, late + 1.0 - share - 0.5 / PARTS)
     d3 = _late(sent, q, late + 1.0 - share - 1.0 / PARTS)
     v = s[Y_RATE]
-    a1 = w * w * _asked(p, d1, y) - 2.0 * p[ZETA] * w * v
+    a1 = w * w * _asked(p, s, d1, y) - 2.0 * p[ZETA] * w * v
     v2 = v + 0.5 * h * a1
-    a2 = w * w * _asked(p, d2, y + 0.5 * h * v) - 2.0 * p[ZETA] * w * v2
+    a2 = w * w * _asked(p, s, d2, y + 0.5 * h * v) - 2.0 * p[ZETA] * w * v2
     v3 = v + 0.5 * h * a2
-    a3 = w * w * _asked(p, d2, y + 0.5 * h * v2) - 2.0 * p[ZETA] * w * v3
+    a3 = w * w * _asked(p, s, d2, y + 0.5 * h * v2) - 2.0 * p[ZETA] * w * v3
     v4 = v + h * a3
-    a4 = w * w * _asked(p, d3, y + h * v3) - 2.0 * p[ZETA] * w * v4
+    a4 = w * w * _asked(p, s, d3, y + h * v3) - 2.0 * p[ZETA] * w * v4
     move = h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4)
     s[Y_RATE] = v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
     if abs(move) > p[SPEED] * h:
@@ -210,6 +217,15 @@ def _piston(p, s, h):  # type: ignore[no-untyped-def]
         s[OFFSET] *= math.exp(-h / p[CATCHING])
         return y + s[OFFSET]
     return y - s[DEFLECTED]
+
+
+@njit(cache=True)
+def _supplied(p, s, y, h):  # type: ignore[no-untyped-def]
+    """The piston after the supply: beyond the sustained speed it uses up the reserve of the accumulator."""
+    most = p[SUSTAINED] * h + s[LEFT]
+    move = min(max(y - s[PISTON], -most), most)
+    s[LEFT] = min(max(s[LEFT] + p[SUSTAINED] * h - abs(move), 0.0), p[RESERVE])
+    return s[PISTON] + move
 
 
 @njit(cache=True)

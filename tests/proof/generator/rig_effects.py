@@ -19,7 +19,10 @@ ACTUATOR = (
     "backlash",
     "stick_friction",
     "gain_error",
+    "valve_flow",
+    "supply_saturation",
 )
+PAIRED = ACTUATOR[:9]  # of which pairs are drawn: the others act through the load, or are relatives of these
 SPECIMEN = (
     "coulomb_friction",
     "stribeck_friction",
@@ -83,6 +86,11 @@ def effect(seed: int, name: str, size: float, seen: dict[str, float]) -> Left:
             return actuator({"stick": size * x, "catching": lasting}, breakaway=size * x, catching=lasting)
         case "gain_error":
             return actuator({"gain": sign * size}, share=sign * size)
+        case "valve_flow":
+            return actuator({"stall": f / size}, inverse_stall_force=size / f)
+        case "supply_saturation":
+            sustained, reserve = max(1 - 1.2 * size, 0.1) * 0.6 * v, x * random.uniform(0.2, 0.6)
+            return actuator({"sustained": sustained, "reserve": reserve}, velocity=sustained, reserve=reserve)
         case "uneven_speed":
             return actuator({"uneven": 3 * size})
         case "rate_dependent_gain":

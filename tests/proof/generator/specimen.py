@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -32,10 +33,21 @@ def _direct(law: Law, effects: Sequence[Effect], motion: Motion, time: Array, cu
     places = np.cumsum([law.states, *(one.states for one in effects)]).tolist()
     start = [0.0] * law.states + [value for one in effects for value in one.start(current(0.0))]
 
+    def felt(at: At, s: Sequence[float]) -> tuple[float, float]:
+        """What the law feels of the displacement, and its rate."""
+        shares = [one.felt(at, s[place : place + one.states]) for one, place in zip(effects, places, strict=False)]
+        share = math.prod(shares)
+        if share == 1.0:
+            return at.x, at.v
+        f = law.force(at.t, share * at.x, share * at.v, s)
+        rates = [one.felt_rate(at, s[place : place + one.states], f) for one, place in zip(effects, places, strict=False)]
+        return share * at.x, share * at.v + at.x * sum(rates)
+
     def through(t: float, s: Sequence[float]) -> tuple[float, list[float]]:
         x, v, a = motion(t)
         at = At(t, x, v, a, current(t))
-        f, slopes = law.force(t, x, v, s), law.slopes(t, x, v, s)
+        u, rate = felt(at, s)
+        f, slopes = law.force(t, u, rate, s), law.slopes(t, u, rate, s)
         for one, place in zip(effects, places, strict=False):
             own, before = s[place : place + one.states], f
             f = one.force(at, own, before)

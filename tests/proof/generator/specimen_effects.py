@@ -24,6 +24,16 @@ from tests.proof.generator.left_out import (
     Spring,
 )
 from tests.proof.generator.readings import Reading, reading
+from tests.proof.generator.wearing import (
+    CheckValve,
+    PeakLoss,
+    Pendulum,
+    RingSpring,
+    StiffnessLoss,
+    Sticking,
+    Stop,
+    StrengthLoss,
+)
 
 IDS = (
     "coulomb_friction",
@@ -40,13 +50,22 @@ IDS = (
     "pinching",
     "strength_drop",
     "current_lag",
+    "strength_degradation",
+    "peak_degradation",
+    "stiffness_degradation",
+    "self_centring",
+    "pendulum_friction",
+    "gap_contact",
+    "asymmetric_viscosity",
+    "stick_slip",
 )
+PAIRED = IDS[:14]  # of which pairs are drawn: the others are sums or near relatives of some of these
 # effects that are numbers of the law itself, and so no effect of that law
 OWN = {
-    "linear": {"parallel_stiffness"},
+    "linear": {"parallel_stiffness", "stiffness_degradation", "pendulum_friction"},
     "mr_damper": {"series_compliance"},
-    "hyperbolic_tangent": {"parallel_stiffness"},
-    "friction_slider": {"backlash", "series_compliance", "coulomb_friction"},
+    "hyperbolic_tangent": {"parallel_stiffness", "pendulum_friction"},
+    "friction_slider": {"backlash", "series_compliance", "coulomb_friction", "stiffness_degradation", "pendulum_friction"},
 }
 FIRST, MOST = 0.05, 0.6  # of the force, where the search for a size begins and ends
 SOFT = 1e-6  # m, what the contact springs of a play give way at the largest force
@@ -113,6 +132,31 @@ def effect(seed: int, name: str, size: float, scale: dict[str, float]) -> Left:
         case "current_lag":
             zero = random.uniform(0.5, 2.0)
             return left(CurrentLag(size, zero), time_constant=size, zero_current=zero)
+        case "strength_degradation":
+            energy = scale["energy"] * random.uniform(0.1, 0.4)
+            return left(StrengthLoss(size, energy), "energy as a state", share=size, energy=energy)
+        case "peak_degradation":
+            return left(PeakLoss(size / x, x), "peak as a state", rate=size / x)
+        case "stiffness_degradation":
+            energy = scale["energy"] * random.uniform(0.1, 0.4)
+            return left(StiffnessLoss(size, energy), "energy as a state", share=size, energy=energy)
+        case "self_centring":
+            opening, width = x * random.uniform(0.05, 0.2), random.uniform(0.4, 0.9)
+            acts = RingSpring(size * f, opening, width)
+            return left(acts, "preloaded slider", strength=size * f, opening=opening, width=width)
+        case "pendulum_friction":
+            slow, rise, presliding = random.uniform(0.4, 0.6), v * random.uniform(0.1, 0.3), x * random.uniform(0.003, 0.02)
+            acts = Pendulum(size * f / x, size * f, rise, slow, presliding)
+            return left(acts, "LuGre", stiffness=size * f / x, friction=size * f, velocity=rise)
+        case "gap_contact":
+            gap, hardening = x * random.uniform(0.4, 0.7), random.uniform(0.5, 3.0) / x
+            stop = size * f / ((x - gap) * (1 + hardening * (x - gap)))
+            return left(Stop(gap, stop, hardening, 1e-3 * x), "soft contact", gap=gap, stiffness=stop, hardening=hardening)
+        case "asymmetric_viscosity":
+            return left(CheckValve(sign * size * f / v), damping=sign * size * f / v)
+        case "stick_slip":
+            release = x * random.uniform(0.03, 0.2)
+            return left(Sticking(size * f, release), "bristles as states", force=size * f, release=release)
         case _:
             error, parameters = reading(random, name.removeprefix("sensor_"), size, f, scale["time"])
             return Left(name.removeprefix("sensor_"), "sensor:f_meas.1", error, parameters)
@@ -120,4 +164,4 @@ def effect(seed: int, name: str, size: float, scale: dict[str, float]) -> Left:
 
 def most(name: str) -> float:
     """Where the search for a size ends: physics outside the library may be of any size but for factors of the force."""
-    return 20.0 if name in ("fractional_creep", "cogging", "damped_stop", "cubic_memory") else MOST
+    return 20.0 if name in ("fractional_creep", "cogging", "self_pumping", "cubic_memory") else MOST

@@ -14,7 +14,7 @@ from scipy.linalg import eigh, expm
 from tests.proof.generator.motion import Array
 
 FINE = 1e-4  # s: substeps are at most this long, (omega h)^5 < 1e-11 at 10 Hz
-FRICTION, QUADRATIC, CUBIC, YIELDING, HYSTERESIS, PINCHING, GAP, DROP, MEMORY, TIRED, COGGING, PARAMETRIC, ONE_SIDED = range(13)
+FRICTION, QUADRATIC, CUBIC, YIELDING, HYSTERESIS, PINCHING, GAP, DROP, MEMORY, HEALING, COGGING, PARAMETRIC, ONE_SIDED, SOFTENING, TURNED = range(15)
 NUMBERS = 4  # of an element, at most
 
 
@@ -46,8 +46,9 @@ class Element:
     FRICTION    F s,  x_e s' = v - |v| s  (LuGre)              QUADRATIC  c |v| v           CUBIC  k_3 d^3
     YIELDING    (1 - r) (F_y s - w),  F_y s' = w' unless |s| = 1 and w goes on             PINCHING  -p w exp(-(d / d_p)^2)
     HYSTERESIS  F s,  x_y s' = v - eta |v| |s|^(n-1) s - (1 - eta) v |s|^n  (Bouc-Wen)     DROP  -p w from t_d on
-    GAP         k max(d - g, 0) + k min(d + g, 0)
-    Outside any library: MEMORY F s^3, tau s' = v / v_m - s;  TIRED -p w (1 - exp(-s)), s' = |v| / travel;
+    GAP         k max(d - g, 0) + k min(d + g, 0)          SOFTENING  -p w |d| / (|d| + d_s)
+    TURNED      -p w (1 - exp(-s)),  E_d s' = |w v|
+    Outside any library: MEMORY F s^3, tau s' = v / v_m - s;  HEALING -p w (1 - exp(-s)), s' = |v| / travel - s / tau;
     COGGING F sin(2 pi d / pitch);  PARAMETRIC p w sin(2 pi f t);  ONE_SIDED c max(v, 0)^3
     """
 
@@ -163,8 +164,10 @@ def _force(kind, p, t, d, v, w, s):  # type: ignore[no-untyped-def]
         return -p[0] * w if t > p[1] else 0.0
     if kind == MEMORY:
         return p[0] * s**3
-    if kind == TIRED:
+    if kind in (HEALING, TURNED):
         return -p[0] * w * (1.0 - math.exp(-s))
+    if kind == SOFTENING:
+        return -p[0] * w * abs(d) / (abs(d) + p[1])
     if kind == COGGING:
         return p[0] * math.sin(2.0 * math.pi * d / p[1])
     if kind == PARAMETRIC:
@@ -173,7 +176,7 @@ def _force(kind, p, t, d, v, w, s):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _slope(kind, p, v, w_rate, s):  # type: ignore[no-untyped-def]
+def _slope(kind, p, v, w, w_rate, s):  # type: ignore[no-untyped-def]
     if kind == FRICTION:
         return (v - abs(v) * s) / p[1]
     if kind == YIELDING:
@@ -183,8 +186,10 @@ def _slope(kind, p, v, w_rate, s):  # type: ignore[no-untyped-def]
         return (v - turned - (1.0 - p[3]) * v * abs(s) ** p[2]) / p[1]
     if kind == MEMORY:
         return (v / p[1] - s) / p[2]
-    if kind == TIRED:
-        return abs(v) / p[1]
+    if kind == HEALING:
+        return abs(v) / p[1] - s / p[2]
+    if kind == TURNED:
+        return abs(w * v) / p[1]
     return 0.0
 
 
@@ -206,7 +211,7 @@ def _slopes(inverse, damping, stiffness, elastic, kinds, storeys, numbers, a, t,
         grown[n + top] -= inverse[top] * force
         if top > 0:
             grown[n + top - 1] += inverse[top - 1] * force
-        grown[own] = _slope(kinds[e], numbers[e], v, k * v, s[own])
+        grown[own] = _slope(kinds[e], numbers[e], v, k * d, k * v, s[own])
 
 
 @njit(cache=True)

@@ -26,8 +26,11 @@ IDS = (
     "p_delta",
     "base_flexibility",
     "stiffness_drop",
+    "softening",
+    "stiffness_degradation",
 )
-OUTSIDE = ("cubic_memory", "softening_by_travel", "cogging", "parametric_stiffness", "one_sided_cubic_damping")
+PAIRED = IDS[:13]  # of which pairs are drawn: the others are near relatives of some of these
+OUTSIDE = ("cubic_memory", "healing_softening", "cogging", "parametric_stiffness", "one_sided_cubic_damping")
 
 
 @dataclass
@@ -92,6 +95,12 @@ def effect(seed: int, name: str, size: float, seen: dict[str, Any]) -> Left:
         case "stiffness_drop":
             moment = seen["time"] * random.uniform(0.25, 0.6)
             return of(Element(storey, physics.DROP, (size, moment)), share=size, time=moment)
+        case "softening":
+            drift = d * random.uniform(0.1, 0.5)
+            return of(Element(storey, physics.SOFTENING, (size, drift)), share=size, drift=drift)
+        case "stiffness_degradation":
+            energy = k * d**2 * random.uniform(3.0, 10.0)
+            return of(Element(storey, physics.TURNED, (size, energy)), share=size, energy=energy)
         case "input_scale_error":
             return of(ground={"scale": sign * size}, share=sign * size)
         case "input_time_shift":
@@ -112,8 +121,8 @@ def strange(
     match name:
         case "cubic_memory":
             return Element(storey, physics.MEMORY, (size * f, v, random.uniform(0.05, 0.2)))
-        case "softening_by_travel":
-            return Element(storey, physics.TIRED, (size, d * random.uniform(5, 15)))
+        case "healing_softening":
+            return Element(storey, physics.HEALING, (size, d * random.uniform(3, 8), lasting * random.uniform(0.05, 0.15)))
         case "cogging":
             return Element(storey, physics.COGGING, (size * f, d * random.uniform(0.15, 0.4)))
         case "parametric_stiffness":

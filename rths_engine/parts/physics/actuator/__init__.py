@@ -14,6 +14,8 @@ from rths_engine.parts.physics.actuator.velocity_saturation import VelocitySatur
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.registry import laws, union
 from rths_engine.parts.physics.search import Search
+from rths_engine.parts.physics.actuator.valve_flow import ValveFlow, ValveFlowSearch
+from rths_engine.parts.physics.actuator.supply_saturation import SupplySaturation, SupplySaturationSearch
 
 SEARCHES: tuple[Search[Any], ...] = (
     DelayErrorSearch(DelayError),
@@ -25,6 +27,8 @@ SEARCHES: tuple[Search[Any], ...] = (
     BacklashSearch(Backlash),
     StickFrictionSearch(StickFriction),
     GainErrorSearch(GainError),
+    ValveFlowSearch(ValveFlow),
+    SupplySaturationSearch(SupplySaturation),
 )
 KINDS = laws(SEARCHES)
 if TYPE_CHECKING:

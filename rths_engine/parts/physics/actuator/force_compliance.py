@@ -44,7 +44,7 @@ class ForceCompliance(Effect):
 
 class ForceComplianceSearch(Search[ForceCompliance]):
     needs = ("x_comp", "x_meas", "f_meas")
-    relatives = ("gain_error", "stick_friction")
+    relatives = ("gain_error", "stick_friction", "valve_flow")
     held = ("lag",)
     noun = "compliance under force"
 

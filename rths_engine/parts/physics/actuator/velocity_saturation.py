@@ -40,7 +40,7 @@ class VelocitySaturation(Effect):
 
 class VelocitySaturationSearch(Search[VelocitySaturation]):
     needs = ("x_comp", "x_meas")
-    relatives = ("amplitude_dependent_delay", "delay_error")
+    relatives = ("amplitude_dependent_delay", "delay_error", "supply_saturation", "valve_flow")
     noun = "velocity saturation"
 
     def guesses(self, seen: Seen) -> Iterator[VelocitySaturation]:

@@ -19,6 +19,14 @@ from rths_engine.parts.physics.specimen.strength_drop import StrengthDrop, Stren
 from rths_engine.parts.physics.specimen.stribeck_friction import StribeckFriction, StribeckFrictionSearch
 from rths_engine.parts.physics.specimen.velocity_exponent import VelocityExponent, VelocityExponentSearch
 from rths_engine.parts.physics.specimen.viscous_heating import ViscousHeating, ViscousHeatingSearch
+from rths_engine.parts.physics.specimen.asymmetric_viscosity import AsymmetricViscosity, AsymmetricViscositySearch
+from rths_engine.parts.physics.specimen.gap_contact import GapContact, GapContactSearch
+from rths_engine.parts.physics.specimen.peak_degradation import PeakDegradation, PeakDegradationSearch
+from rths_engine.parts.physics.specimen.pendulum_friction import PendulumFriction, PendulumFrictionSearch
+from rths_engine.parts.physics.specimen.self_centring import SelfCentring, SelfCentringSearch
+from rths_engine.parts.physics.specimen.stick_slip import StickSlip, StickSlipSearch
+from rths_engine.parts.physics.specimen.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
+from rths_engine.parts.physics.specimen.strength_degradation import StrengthDegradation, StrengthDegradationSearch
 
 SEARCHES: tuple[Search[Any], ...] = (
     CoulombFrictionSearch(CoulombFriction),
@@ -35,6 +43,14 @@ SEARCHES: tuple[Search[Any], ...] = (
     PinchingSearch(Pinching),
     StrengthDropSearch(StrengthDrop),
     CurrentLagSearch(CurrentLag),
+    StrengthDegradationSearch(StrengthDegradation),
+    PeakDegradationSearch(PeakDegradation),
+    StiffnessDegradationSearch(StiffnessDegradation),
+    SelfCentringSearch(SelfCentring),
+    PendulumFrictionSearch(PendulumFriction),
+    GapContactSearch(GapContact),
+    AsymmetricViscositySearch(AsymmetricViscosity),
+    StickSlipSearch(StickSlip),
 )
 KINDS = laws(SEARCHES)
 if TYPE_CHECKING:

@@ -38,7 +38,7 @@ class Asymmetry(Effect):
 
 class AsymmetrySearch(Search[Asymmetry]):
     needs = ("x_meas", "f_meas")
-    relatives = ("offset",)
+    relatives = ("offset", "asymmetric_viscosity")
     proportional = True
     noun = "strength asymmetry"
 

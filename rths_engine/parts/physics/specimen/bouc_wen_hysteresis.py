@@ -51,7 +51,7 @@ E = TypeVar("E", bound=BoucWenHysteresis)
 
 class BoucWenHysteresisSearch(Search[E]):
     needs: tuple[str, ...] = ("x_meas", "f_meas")
-    relatives: tuple[str, ...] = ("coulomb_friction", "stribeck_friction")
+    relatives: tuple[str, ...] = ("coulomb_friction", "stribeck_friction", "self_centring", "stick_slip")
     held = ("exponent", "fullness")
     otherwise: ClassVar = {"exponent": 2.0, "fullness": 0.75}
     proportional = True

@@ -43,7 +43,7 @@ E = TypeVar("E", bound=CubicStiffness)
 
 class CubicStiffnessSearch(Search[E]):
     needs: tuple[str, ...] = ("x_meas", "f_meas")
-    relatives: tuple[str, ...] = ("parallel_stiffness", "pinching")
+    relatives: tuple[str, ...] = ("parallel_stiffness", "pinching", "gap_contact")
     proportional = True
     noun = "cubic stiffness"
 

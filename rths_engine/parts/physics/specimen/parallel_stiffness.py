@@ -39,7 +39,7 @@ class ParallelStiffness(Effect):
 
 class ParallelStiffnessSearch(Search[ParallelStiffness]):
     needs = ("x_meas", "f_meas")
-    relatives = ("cubic_stiffness", "added_inertia")
+    relatives = ("cubic_stiffness", "added_inertia", "pendulum_friction")
     proportional = True
     noun = "a parallel stiffness"
 

@@ -43,7 +43,7 @@ class Pinching(Effect):
 
 class PinchingSearch(Search[Pinching]):
     needs = ("x_meas", "f_meas")
-    relatives = ("backlash", "cubic_stiffness")
+    relatives = ("backlash", "cubic_stiffness", "self_centring")
     proportional = True
     noun = "pinching"
 

@@ -40,7 +40,7 @@ class SeriesCompliance(Effect):
 
 class SeriesComplianceSearch(Search[SeriesCompliance]):
     needs = ("x_meas", "f_meas")
-    relatives = ("backlash",)
+    relatives = ("backlash", "coulomb_friction")
     noun = "series compliance"
 
     def guesses(self, seen: Seen) -> Iterator[SeriesCompliance]:

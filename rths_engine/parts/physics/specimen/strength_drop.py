@@ -11,7 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.gate import past
-from rths_engine.parts.physics.search import Search, Seen
+from rths_engine.parts.physics.search import EventSearch, Seen
 from rths_engine.parts.physics.wording import said
 
 
@@ -39,9 +39,9 @@ class StrengthDrop(Effect):
         return y * (1.0 - p[0] * past(t, p[1], dt))
 
 
-class StrengthDropSearch(Search[StrengthDrop]):
+class StrengthDropSearch(EventSearch[StrengthDrop]):
     needs = ("x_meas", "f_meas")
-    relatives = ("viscous_heating",)
+    relatives = ("viscous_heating", "strength_degradation", "peak_degradation")
     proportional = True
     noun = "a strength drop"
 

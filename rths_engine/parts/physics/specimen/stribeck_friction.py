@@ -51,7 +51,7 @@ class StribeckFriction(Effect):
 
 class StribeckFrictionSearch(Search[StribeckFriction]):
     needs = ("x_meas", "f_meas")
-    relatives = ("coulomb_friction", "bouc_wen_hysteresis")
+    relatives = ("coulomb_friction", "bouc_wen_hysteresis", "stick_slip", "pendulum_friction")
     proportional = True
     noun = "Stribeck friction"
 

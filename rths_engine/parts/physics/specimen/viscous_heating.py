@@ -11,7 +11,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import Search, Seen
-from rths_engine.parts.physics.wording import said
+from rths_engine.parts.physics.wording import lost
 
 # chosen; see docs/decisions/0023
 LEAST = 0.05  # of the cold force
@@ -51,7 +51,7 @@ class ViscousHeating(Effect):
 
 class ViscousHeatingSearch(Search[ViscousHeating]):
     needs = ("x_meas", "f_meas")
-    relatives = ("strength_drop",)
+    relatives = ("strength_degradation", "strength_drop")
     noun = "viscous heating"
 
     def guesses(self, seen: Seen) -> Iterator[ViscousHeating]:
@@ -59,4 +59,5 @@ class ViscousHeatingSearch(Search[ViscousHeating]):
             yield self.sized(fade=loss / max(seen.energy, 1.0))
 
     def says(self, effect: ViscousHeating) -> str:
-        return f"loses {said(effect.fade * 1e6, '%')} of its force for every MJ that it dissipates"
+        share, unit = lost(effect.fade, "MJ")
+        return f"loses {share} of its force for every {unit} that it dissipates"

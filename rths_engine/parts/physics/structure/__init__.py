@@ -18,6 +18,8 @@ from rths_engine.parts.physics.structure.quadratic_damping import QuadraticDampi
 from rths_engine.parts.physics.structure.stiffness_drop import StiffnessDrop, StiffnessDropSearch
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError, StiffnessErrorSearch
 from rths_engine.parts.physics.structure.yielding import Yielding, YieldingSearch
+from rths_engine.parts.physics.structure.softening import Softening, SofteningSearch
+from rths_engine.parts.physics.structure.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
 
 SEARCHES: tuple[Search[Any], ...] = (
     StiffnessErrorSearch(StiffnessError),
@@ -33,6 +35,8 @@ SEARCHES: tuple[Search[Any], ...] = (
     PDeltaSearch(PDelta),
     BaseFlexibilitySearch(BaseFlexibility),
     StiffnessDropSearch(StiffnessDrop),
+    SofteningSearch(Softening),
+    StiffnessDegradationSearch(StiffnessDegradation),
 )
 KINDS = laws(SEARCHES)
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ class CubicStiffness(OfStorey, specimen.CubicStiffness):
 
 
 class CubicStiffnessSearch(StoreySearch[CubicStiffness], specimen.CubicStiffnessSearch[CubicStiffness]):
-    relatives = ("yielding", "gap_contact", "pinching")
+    relatives = ("yielding", "gap_contact", "pinching", "softening")
     noun = "cubic stiffness"
 
     def says(self, effect: CubicStiffness) -> str:

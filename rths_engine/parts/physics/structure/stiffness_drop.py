@@ -10,7 +10,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.gate import past
-from rths_engine.parts.physics.search import Seen
+from rths_engine.parts.physics.search import EventSearch, Seen
 from rths_engine.parts.physics.structure.storey import OfStorey, StoreySearch
 from rths_engine.parts.physics.wording import said
 
@@ -38,8 +38,8 @@ class StiffnessDrop(OfStorey):
         return y - p[0] * w * past(t, p[1], dt)
 
 
-class StiffnessDropSearch(StoreySearch[StiffnessDrop]):
-    relatives = ("stiffness_error", "yielding")
+class StiffnessDropSearch(StoreySearch[StiffnessDrop], EventSearch[StiffnessDrop]):
+    relatives = ("stiffness_error", "yielding", "softening", "stiffness_degradation")
     noun = "a stiffness drop"
 
     def guesses(self, seen: Seen) -> Iterator[StiffnessDrop]:
