@@ -157,11 +157,13 @@ def test_a_valve_moves_the_error_by_the_root_of_the_pressure_that_the_load_leave
     assert back == pytest.approx(-np.sqrt([1.0, 1.3, 2.0, 0.7]))
 
 
-def test_a_supply_gives_its_reserve_and_then_its_sustained_velocity_until_it_rests() -> None:
-    """Over a ramp of V the reserve lasts R_0 / (V - v_p); from there on the piston moves with v_p."""
-    dt, sustained, reserve, fast = 1e-3, 0.1, 0.02, 0.3
-    drive = fast * dt * np.arange(300)
-    moved = stepped(SupplySaturation(velocity=sustained, reserve=reserve), drive, dt=dt)
-    emptied = reserve / (fast - sustained)
-    assert moved[: int(emptied / dt)] == pytest.approx(drive[: int(emptied / dt)])
-    assert moved[-1] == pytest.approx(fast * emptied + sustained * (299 * dt - emptied), rel=1e-6)
+def test_a_supply_weakens_by_the_root_of_the_pressure_left_and_recovers_at_rest() -> None:
+    """A piston at V draws (V - v_p) t; at rest the pump fills the accumulator with v_p t."""
+    effect, dt = SupplySaturation(emptying=10.0, velocity=0.1), 1e-3
+    parameters, state = effect.build(dt)
+    moving = [effect.step(parameters, state, 1.0, 0.0, 0.3, 0.0, 0.0, dt) for _ in range(400)]
+    assert moving[99] == pytest.approx(np.sqrt(1 - 10 * 0.02))  # after 0.1 s
+    assert moving[199] == pytest.approx(np.sqrt(1 - 10 * 0.04))
+    resting = [effect.step(parameters, state, 1.0, 0.0, 0.0, 0.0, 0.0, dt) for _ in range(900)]
+    assert resting[399] == pytest.approx(np.sqrt(1 - 10 * (0.08 - 0.04)))
+    assert resting[-1] == 1.0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rths_engine.parts import physics
+from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.specimen import PeakDegradation, StiffnessDegradation, StrengthDegradation, ViscousHeating
 from rths_engine.parts.physics.structure import Softening
 from rths_engine.parts.physics.structure import StiffnessDegradation as StoreyDegradation
@@ -71,9 +72,12 @@ def test_a_cycle_of_a_storey_does_the_work_that_wears_it() -> None:
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 def test_no_sentence_has_a_number_of_more_than_four_digits(scale: float) -> None:
     """A wooden connection dissipates some joules: it does not lose 184 000 % for every MJ."""
-    made = {ViscousHeating: {"fade": 5.8e-7}, StrengthDegradation: {"share": 0.4, "energy": 3e3}, PeakDegradation: {"rate": 5.0}}
-    for kind, numbers in made.items():
-        sized = {name: min(value * (scale if name != "share" else 1.0), 1.0 if name == "fade" else 1e6) for name, value in numbers.items()}
-        said = physics.SEARCHES[kind].says(kind(**sized))
+    made: tuple[Effect, ...] = (
+        ViscousHeating(fade=min(5.8e-7 * scale, 1.0)),
+        StrengthDegradation(share=0.4, energy=3e3 * scale),
+        PeakDegradation(rate=min(5.0 * scale, 1e6)),
+    )
+    for effect in made:
+        said = physics.SEARCHES[type(effect)].says(effect)
         digits = [word for word in said.split() if word[0].isdigit()]
         assert digits and all(len(word.replace(".", "").lstrip("0")) <= 4 for word in digits), said

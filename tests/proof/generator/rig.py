@@ -20,7 +20,7 @@ NUMBERS = (
     *("order", "time_constant", "omega", "zeta", "dead_time", "speed"),
     *("delay", "slope", "memory", "lag", "lag_zeta", "band", "flexibility", "yielding_time"),
     *("play", "stick", "catching", "gain", "uneven", "rate_gain", "hysteresis", "hysteresis_width", "wander", "wander_rate"),
-    *("stall", "sustained", "reserve"),
+    *("stall", "sustained", "emptying"),
     *("law", "a", "b", "n", "k", "c", "x_0", "v_0"),
     *("fade", "drop", "drop_time", "asymmetry", "exponent", "reference", "spring", "cubic"),
     *("friction", "presliding", "static", "stribeck", "strength", "x_y", "sharpness", "fullness", "depth", "width"),
@@ -29,14 +29,15 @@ AT = {name: place for place, name in enumerate(NUMBERS)}
 # fmt: off
 (
     ORDER, TIME, OMEGA, ZETA, DEAD, SPEED, DELAY, SLOPE, MEMORY, LAG, LAG_ZETA, BAND, FLEXIBILITY, YIELDING,
-    PLAY, STICK, CATCHING, GAIN, UNEVEN, RATE_GAIN, HYSTERESIS, HYSTERESIS_WIDTH, WANDER, WANDER_RATE, STALL, SUSTAINED, RESERVE, LAW, A, B, N,
-    K, C, X_0, V_0, FADE, DROP, DROP_TIME, ASYMMETRY, EXPONENT, REFERENCE, SPRING, CUBIC, FRICTION, PRESLIDING,
+    PLAY, STICK, CATCHING, GAIN, UNEVEN, RATE_GAIN, HYSTERESIS, HYSTERESIS_WIDTH, WANDER, WANDER_RATE, STALL,
+    SUSTAINED, EMPTYING,
+    LAW, A, B, N, K, C, X_0, V_0, FADE, DROP, DROP_TIME, ASYMMETRY, EXPONENT, REFERENCE, SPRING, CUBIC, FRICTION, PRESLIDING,
     STATIC, STRIBECK, STRENGTH, X_Y, SHARPNESS, FULLNESS, DEPTH, WIDTH,
 ) = range(len(NUMBERS))
 # fmt: on
 LINEAR, SLIDER_MAXWELL, TANGENT = range(3)
 # state of the actuator: drive, its rate, deflection, piston, stuck, offset, way, memory of amplitude, hysteresis
-Y, Y_RATE, DEFLECTED, PISTON, STUCK, OFFSET, WAY, AMPLITUDE, BENT, LAGGING, LAG_RATE, LOAD, LEFT, STATES = range(14)
+Y, Y_RATE, DEFLECTED, PISTON, STUCK, OFFSET, WAY, AMPLITUDE, BENT, LAGGING, LAG_RATE, LOAD, DRAWN, STATES = range(14)
 # state of the specimen: Maxwell force, energy, friction, Bouc-Wen, then its place of the last two ticks and its speed
 MAXWELL, ENERGY, BRISTLE, ZETA_BW, LAST, EARLIER, LAST_SPEED, SPECIMEN_STATES = range(8)
 
@@ -44,7 +45,6 @@ MAXWELL, ENERGY, BRISTLE, ZETA_BW, LAST, EARLIER, LAST_SPEED, SPECIMEN_STATES = 
 def rig(**numbers: float) -> Array:
     """The parameters of a rig as one vector."""
     made = np.zeros(len(NUMBERS))
-    made[AT["sustained"]] = 1e9
     made[[AT["memory"], AT["yielding_time"], AT["catching"], AT["reference"]]] = 2.0, 0.005, 0.02, 0.1
     made[[AT["presliding"], AT["stribeck"], AT["x_y"], AT["sharpness"], AT["width"], AT["hysteresis_width"]]] = 1.0
     for name, value in numbers.items():
@@ -89,8 +89,6 @@ def _tick(p, s, m, commands, sent, q, force, last, dt):  # type: ignore[no-untyp
     )
     h = dt / PARTS
     s[LOAD] = force
-    if q == 0:
-        s[LEFT] = p[RESERVE]
     if p[LAG] > 0.0:
         before = sent[max(q - 1, 0)] if q > 0 else sent[q]
         # the command as it came to the lag is kept in s by its own last value: linear over the tick
@@ -101,7 +99,9 @@ def _tick(p, s, m, commands, sent, q, force, last, dt):  # type: ignore[no-untyp
         t = q * dt - dt + (part + 1) * h
         _drive(p, s, sent, q, part / PARTS, h, dt, t)
         s[DEFLECTED] += (1.0 - math.exp(-h / p[YIELDING])) * (p[FLEXIBILITY] * force - s[DEFLECTED])
-        s[PISTON] = _supplied(p, s, _piston(p, s, h), h)
+        before = s[PISTON]
+        s[PISTON] = _piston(p, s, h)
+        s[DRAWN] = max(s[DRAWN] + abs(s[PISTON] - before) - p[SUSTAINED] * h, 0.0)
     return s[PISTON], _moved(p, m, s[PISTON], q * dt - dt, dt), last
 
 
@@ -146,6 +146,8 @@ def _lagged(p, s, before, now, dt):  # type: ignore[no-untyped-def]
 @njit(cache=True)
 def _asked(p, s, d, y):  # type: ignore[no-untyped-def]
     error = d - y
+    if p[EMPTYING] > 0.0:  # the supply that the drawn way leaves
+        return error * math.sqrt(max(1.0 - p[EMPTYING] * s[DRAWN], 0.0))
     if p[STALL] > 0.0:  # the flow of an orifice: the root of the pressure that the load leaves
         return error * math.sqrt(max(1.0 - math.copysign(s[LOAD] / p[STALL], s[LOAD] * error), 0.0))
     if abs(error) <= p[BAND]:
@@ -217,15 +219,6 @@ def _piston(p, s, h):  # type: ignore[no-untyped-def]
         s[OFFSET] *= math.exp(-h / p[CATCHING])
         return y + s[OFFSET]
     return y - s[DEFLECTED]
-
-
-@njit(cache=True)
-def _supplied(p, s, y, h):  # type: ignore[no-untyped-def]
-    """The piston after the supply: beyond the sustained speed it uses up the reserve of the accumulator."""
-    most = p[SUSTAINED] * h + s[LEFT]
-    move = min(max(y - s[PISTON], -most), most)
-    s[LEFT] = min(max(s[LEFT] + p[SUSTAINED] * h - abs(move), 0.0), p[RESERVE])
-    return s[PISTON] + move
 
 
 @njit(cache=True)

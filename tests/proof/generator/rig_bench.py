@@ -12,7 +12,7 @@ from tests.proof.generator.case import Truth
 from tests.proof.generator.motion import Array
 from tests.proof.generator.noise import Colour
 from tests.proof.generator.rig import LINEAR, SLIDER_MAXWELL, TANGENT, rig
-from tests.proof.generator.rig_effects import OUTSIDE, Left, effect
+from tests.proof.generator.rig_effects import OUTSIDE, SUSTAINED, Left, effect
 from tests.proof.generator.sizing import Absorbed, sized
 
 LAWS = {"linear": LINEAR, "mr_damper": SLIDER_MAXWELL, "hyperbolic_tangent": TANGENT}
@@ -119,7 +119,11 @@ def coloured(random: np.random.Generator, level: str, signal: Array, step: float
 def seen_of(x: Array, f: Array, step: float) -> dict[str, float]:
     v = np.gradient(x, step)
     peaks = {key: float(np.max(np.abs(one))) for key, one in (("x", x), ("v", v), ("f", f))}
-    return {**peaks, "energy": float(np.sum(np.abs(f * v)) * step), "time": len(x) * step}
+    drawn, most = 0.0, 0.0  # from an accumulator: the longest way beyond what SUSTAINED of the largest speed gives
+    for moved in np.abs(np.diff(x)).tolist():
+        drawn = max(drawn + moved - SUSTAINED * peaks["v"] * step, 0.0)
+        most = max(most, drawn)
+    return {**peaks, "energy": float(np.sum(np.abs(f * v)) * step), "time": len(x) * step, "drawn": most}
 
 
 def sized_effect(absorbed: Absorbed, out: Any, seed: int, name: str, wanted: float, seen: dict[str, float]) -> Left:

@@ -22,6 +22,7 @@ ACTUATOR = (
     "valve_flow",
     "supply_saturation",
 )
+SUSTAINED = 0.5  # of the largest speed: what a pump gives alone
 PAIRED = ACTUATOR[:9]  # of which pairs are drawn: the others act through the load, or are relatives of these
 SPECIMEN = (
     "coulomb_friction",
@@ -89,8 +90,8 @@ def effect(seed: int, name: str, size: float, seen: dict[str, float]) -> Left:
         case "valve_flow":
             return actuator({"stall": f / size}, inverse_stall_force=size / f)
         case "supply_saturation":
-            sustained, reserve = max(1 - 1.2 * size, 0.1) * 0.6 * v, x * random.uniform(0.2, 0.6)
-            return actuator({"sustained": sustained, "reserve": reserve}, velocity=sustained, reserve=reserve)
+            sustained, emptying = SUSTAINED * v, size / seen["drawn"]
+            return actuator({"sustained": sustained, "emptying": emptying}, velocity=sustained, emptying=emptying)
         case "uneven_speed":
             return actuator({"uneven": 3 * size})
         case "rate_dependent_gain":

@@ -29,8 +29,8 @@ from tests.proof.generator.wearing import (
     PeakLoss,
     Pendulum,
     RingSpring,
-    StiffnessLoss,
     Sticking,
+    StiffnessLoss,
     Stop,
     StrengthLoss,
 )
@@ -142,14 +142,14 @@ def effect(seed: int, name: str, size: float, scale: dict[str, float]) -> Left:
             return left(StiffnessLoss(size, energy), "energy as a state", share=size, energy=energy)
         case "self_centring":
             opening, width = x * random.uniform(0.05, 0.2), random.uniform(0.4, 0.9)
-            acts = RingSpring(size * f, opening, width)
-            return left(acts, "preloaded slider", strength=size * f, opening=opening, width=width)
+            flag = RingSpring(size * f, opening, width)
+            return left(flag, "preloaded slider", strength=size * f, opening=opening, width=width)
         case "pendulum_friction":
             slow, rise, presliding = random.uniform(0.4, 0.6), v * random.uniform(0.1, 0.3), x * random.uniform(0.003, 0.02)
-            acts = Pendulum(size * f / x, size * f, rise, slow, presliding)
-            return left(acts, "LuGre", stiffness=size * f / x, friction=size * f, velocity=rise)
+            bearing = Pendulum(size * f / x, size * f, rise, slow, presliding)
+            return left(bearing, "LuGre", stiffness=size * f / x, friction=size * f, velocity=rise)
         case "gap_contact":
-            gap, hardening = x * random.uniform(0.4, 0.7), random.uniform(0.5, 3.0) / x
+            gap, hardening = x * random.uniform(0.5, 0.8), random.uniform(0.5, 3.0) / x
             stop = size * f / ((x - gap) * (1 + hardening * (x - gap)))
             return left(Stop(gap, stop, hardening, 1e-3 * x), "soft contact", gap=gap, stiffness=stop, hardening=hardening)
         case "asymmetric_viscosity":

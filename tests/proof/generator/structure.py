@@ -14,7 +14,23 @@ from scipy.linalg import eigh, expm
 from tests.proof.generator.motion import Array
 
 FINE = 1e-4  # s: substeps are at most this long, (omega h)^5 < 1e-11 at 10 Hz
-FRICTION, QUADRATIC, CUBIC, YIELDING, HYSTERESIS, PINCHING, GAP, DROP, MEMORY, HEALING, COGGING, PARAMETRIC, ONE_SIDED, SOFTENING, TURNED = range(15)
+(
+    FRICTION,
+    QUADRATIC,
+    CUBIC,
+    YIELDING,
+    HYSTERESIS,
+    PINCHING,
+    GAP,
+    DROP,
+    MEMORY,
+    HEALING,
+    COGGING,
+    PARAMETRIC,
+    ONE_SIDED,
+    SOFTENING,
+    TURNED,
+) = range(15)
 NUMBERS = 4  # of an element, at most
 
 

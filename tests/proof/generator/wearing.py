@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from tests.proof.generator.laws import Numbers
 from tests.proof.generator.left_out import At, Effect
 
-CREEP = 1e-5  # s: how long the slider of a self-centring element takes to follow
-ROUNDED = 1e-3  # of the opening displacement: over which the preload turns
+CREEP = 1e-4  # s: how long the slider of a self-centring element takes to follow
+ROUNDED = 5e-3  # of the opening displacement: over which the preload turns
 
 
 @dataclass

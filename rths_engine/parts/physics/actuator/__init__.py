@@ -10,12 +10,12 @@ from rths_engine.parts.physics.actuator.force_compliance import ForceCompliance,
 from rths_engine.parts.physics.actuator.gain_error import GainError, GainErrorSearch
 from rths_engine.parts.physics.actuator.second_order_lag import SecondOrderLag, SecondOrderLagSearch
 from rths_engine.parts.physics.actuator.stick_friction import StickFriction, StickFrictionSearch
+from rths_engine.parts.physics.actuator.supply_saturation import SupplySaturation, SupplySaturationSearch
+from rths_engine.parts.physics.actuator.valve_flow import ValveFlow, ValveFlowSearch
 from rths_engine.parts.physics.actuator.velocity_saturation import VelocitySaturation, VelocitySaturationSearch
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.registry import laws, union
 from rths_engine.parts.physics.search import Search
-from rths_engine.parts.physics.actuator.valve_flow import ValveFlow, ValveFlowSearch
-from rths_engine.parts.physics.actuator.supply_saturation import SupplySaturation, SupplySaturationSearch
 
 SEARCHES: tuple[Search[Any], ...] = (
     DelayErrorSearch(DelayError),

@@ -24,8 +24,8 @@ class ValveFlow(Effect):
     y = x + e sqrt(max(1 - r F sgn(e), 0)),  e = d - x
 
     The flow of an orifice grows with the square root of its pressure difference, which a force F against the motion reduces.
-    The drive feels only this part of the error e between the command d and the piston x, so that it moves slower against a force,
-    and faster with a force that helps. r (1/N) is the inverse of the stall force A p_s. Neutral: r = 0. No state.
+    The drive feels only this part of the error e between the command d and the piston x, so that it moves slower against a
+    force, and faster with a force that helps. r (1/N) is the inverse of the stall force A p_s. Neutral: r = 0. No state.
     Source: Merritt (1967), "Hydraulic Control Systems", Wiley, chapter 5. Not valid where the piston is not symmetric.
     """
 

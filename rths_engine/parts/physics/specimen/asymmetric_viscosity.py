@@ -13,6 +13,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 
+
 class AsymmetricViscosity(Effect):
     """Viscosity that differs between the two directions of motion.
 
@@ -20,7 +21,7 @@ class AsymmetricViscosity(Effect):
 
     c_a (N s/m) is half the difference of the damping coefficients in positive and in negative velocity. It has either sign.
     Causes are orifices or valves that open in one direction. Neutral: c_a = 0. No state.
-    Source: dampers with check valves, Dixon (2007), "The Shock Absorber Handbook", Wiley. Not valid where a preload opens a valve.
+    Source: dampers with check valves, Dixon (2007), "The Shock Absorber Handbook", Wiley. Not valid where a preload opens it.
     """
 
     kind: Literal["asymmetric_viscosity"] = "asymmetric_viscosity"

@@ -51,7 +51,13 @@ E = TypeVar("E", bound=CoulombFriction)
 
 class CoulombFrictionSearch(Search[E]):
     needs: tuple[str, ...] = ("x_meas", "f_meas")
-    relatives: tuple[str, ...] = ("stribeck_friction", "bouc_wen_hysteresis", "velocity_exponent", "pendulum_friction", "stick_slip", "series_compliance")
+    relatives: tuple[str, ...] = (
+        "stribeck_friction",
+        "bouc_wen_hysteresis",
+        "velocity_exponent",
+        "pendulum_friction",
+        "stick_slip",
+    )
     proportional = True
     noun = "Coulomb friction"
 

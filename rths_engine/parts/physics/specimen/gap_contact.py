@@ -14,6 +14,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import said
 
+
 class GapContact(Effect):
     """A stop beyond a gap that hardens as it is pressed.
 
@@ -34,7 +35,9 @@ class GapContact(Effect):
     neutral: ClassVar = {"stiffness": 0.0}
 
     def build(self, dt: float) -> tuple[Array, Array]:
-        return np.array([self.gap, self.stiffness, self.hardening, self.side != "negative", self.side != "positive"]), np.zeros(1)
+        return np.array([self.gap, self.stiffness, self.hardening, self.side != "negative", self.side != "positive"]), np.zeros(
+            1
+        )
 
     @staticmethod
     def step(p, s, y, x, v, w, t, dt):

@@ -14,6 +14,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import TINY, Search, Seen
 from rths_engine.parts.physics.wording import lost
 
+
 class PeakDegradation(Effect):
     """Force that is lost with the largest displacement so far.
 

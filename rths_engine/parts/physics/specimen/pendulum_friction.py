@@ -15,6 +15,7 @@ from rths_engine.parts.physics.friction import bristle
 from rths_engine.parts.physics.search import PRESLIDING, Search, Seen, beyond
 from rths_engine.parts.physics.wording import said
 
+
 class PendulumFriction(Effect):
     """A bearing that slides on a curved surface under a vertical load.
 

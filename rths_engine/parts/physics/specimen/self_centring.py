@@ -13,6 +13,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
+
 class SelfCentring(Effect):
     """A self-centring element beside the specimen, with a flag-shaped hysteresis.
 
@@ -54,8 +55,7 @@ class SelfCentringSearch(Search[SelfCentring]):
     noun = "self-centring"
 
     def guesses(self, seen: Seen) -> Iterator[SelfCentring]:
-        for share in (0.05, 0.3):
-            yield self.sized(strength=0.1 * seen.f, opening=share * seen.x, width=0.6)
+        yield self.sized(strength=0.1 * seen.f, opening=0.12 * seen.x, width=0.6)
 
     def says(self, effect: SelfCentring) -> str:
         back = said(effect.strength * (1 - effect.width), "kN")

@@ -24,7 +24,7 @@ class StickSlip(Effect):
 
     f = f_0 + F_s (z_1 - z_2) / 1.394,  x_s z_2' = v - |v| z_2,  0.1 x_s z_1' = v - |v| z_1
 
-    After a reversal the force rises to F_s (N) and vanishes again as the specimen moves on by x_s (m), the release displacement:
+    After a reversal the force rises to F_s (N). It vanishes as the specimen moves on by x_s (m), the release displacement:
     static friction that a reversal renews. Neutral: F_s = 0.
     State: s[0] x of the last substep, s[1] z_1, s[2] z_2, s[3] 1 after the first substep.
     Source: breakaway of sliding bearings, Mokha, Constantinou and Reinhorn (1990), J. Struct. Eng. 116, 438-454;
@@ -59,8 +59,7 @@ class StickSlipSearch(Search[StickSlip]):
     noun = "stick-slip"
 
     def guesses(self, seen: Seen) -> Iterator[StickSlip]:
-        for share in (0.05, 0.3):
-            yield self.sized(force=0.1 * seen.f, release=share * seen.x)
+        yield self.sized(force=0.1 * seen.f, release=0.1 * seen.x)
 
     def says(self, effect: StickSlip) -> str:
         return f"sticks at each reversal with {said(effect.force, 'kN')}, and slips within {said(effect.release, 'mm')}"

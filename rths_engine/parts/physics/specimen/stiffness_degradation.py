@@ -14,6 +14,7 @@ from rths_engine.parts.physics.effect import INPUT, Effect
 from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
+
 class StiffnessDegradation(Effect):
     """Stiffness that is lost with the dissipated energy, while the strength stays.
 

@@ -14,6 +14,7 @@ from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.search import Search, Seen
 from rths_engine.parts.physics.wording import said
 
+
 class StrengthDegradation(Effect):
     """Force that wears away with the dissipated energy, down to a share that stays.
 

@@ -15,11 +15,11 @@ from rths_engine.parts.physics.structure.mass_error import MassError, MassErrorS
 from rths_engine.parts.physics.structure.p_delta import PDelta, PDeltaSearch
 from rths_engine.parts.physics.structure.pinching import Pinching, PinchingSearch
 from rths_engine.parts.physics.structure.quadratic_damping import QuadraticDamping, QuadraticDampingSearch
+from rths_engine.parts.physics.structure.softening import Softening, SofteningSearch
+from rths_engine.parts.physics.structure.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
 from rths_engine.parts.physics.structure.stiffness_drop import StiffnessDrop, StiffnessDropSearch
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError, StiffnessErrorSearch
 from rths_engine.parts.physics.structure.yielding import Yielding, YieldingSearch
-from rths_engine.parts.physics.structure.softening import Softening, SofteningSearch
-from rths_engine.parts.physics.structure.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
 
 SEARCHES: tuple[Search[Any], ...] = (
     StiffnessErrorSearch(StiffnessError),
