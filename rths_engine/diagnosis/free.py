@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -17,6 +18,7 @@ from rths_engine.parts.physics.effect import Effect
 
 # chosen; see docs/decisions/0023
 SMALLEST = 1e-12
+LARGEST_LOGARITHM = math.log(sys.float_info.max)  # an interval may end beyond it
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,7 @@ class Number:
         return math.log(value) if self.logarithmic else value / self.scale
 
     def from_z(self, z: float) -> float:
-        value = math.exp(z) if self.logarithmic else z * self.scale
+        value = math.exp(min(z, LARGEST_LOGARITHM)) if self.logarithmic else z * self.scale
         return min(max(value, self.low), self.high)
 
     @property

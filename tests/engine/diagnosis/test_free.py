@@ -72,6 +72,7 @@ def test_a_number_that_must_be_positive_moves_by_its_logarithm_and_never_to_zero
     assert number.logarithmic
     assert number.to_z(2e-3) == pytest.approx(math.log(2e-3))
     assert number.from_z(-1e3) >= SMALLEST
+    assert number.from_z(1e3) == number.high  # the end of an interval that is wider than any float
     assert number.from_z(number.to_z(2e-3) + math.log(2)) == pytest.approx(4e-3)
 
 
