@@ -102,7 +102,7 @@ def stiffening(scale: Scale) -> list[Material]:
 HYSTERESIS = frozenset({"bouc_wen_hysteresis", "yielding"})
 STOP, HARDENING = frozenset({"gap_contact"}), frozenset({"cubic_stiffness"})
 WEAR = frozenset({"pinching", "strength_degradation", "stiffness_degradation", "peak_degradation"})
-SLIDER = frozenset({"coulomb_friction"})  # a bilinear loop is a slider on a spring
+SLIDER = frozenset({"coulomb_friction", "series_compliance"})  # together they are a slider on a spring: a bilinear loop
 HEATED = frozenset({"backlash", "viscous_heating"})  # force that is absent about the centre, or lost with dissipated energy
 
 SPECIMENS = {
