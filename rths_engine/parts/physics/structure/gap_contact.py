@@ -49,6 +49,8 @@ class GapContactSearch(StoreySearch[GapContact]):
         guess = self.sized(gap=0.7 * seen.x, stiffness=0.5 * seen.stiffness)
         for side in ("both", "positive", "negative"):
             yield guess.model_copy(update={"storey": seen.storey, "side": side})
+        # stiff stops keep the drift far below that of the planned model, which `seen` is of
+        yield self.sized(gap=0.4 * seen.x, stiffness=2.0 * seen.stiffness).model_copy(update={"storey": seen.storey})
 
     def says(self, effect: GapContact) -> str:
         where = {"both": "both sides", "positive": "the positive side", "negative": "the negative side"}[effect.side]
