@@ -13,6 +13,7 @@ from rths_engine.parts.physics.specimen import (
     SelfCentring,
     StickSlip,
 )
+from rths_engine.parts.physics.structure import SelfCentring as StoreySelfCentring
 from tests.engine.effects import enclosed, stepped
 
 DT = 1 / 4096
@@ -34,6 +35,12 @@ def test_a_flag_returns_to_its_centre_and_encloses_two_parallelograms() -> None:
 def test_a_flag_without_width_is_elastic() -> None:
     flag = stepped(SelfCentring(strength=1e4, opening=2e-3, width=0.0), NOTHING, CYCLES)
     assert flag == pytest.approx(1e4 * np.clip(CYCLES / 2e-3, -1, 1), abs=1e-6)
+
+
+def test_a_storey_centres_itself_as_a_specimen_does() -> None:
+    numbers = {"strength": 1e4, "opening": 2e-3, "width": 0.6}
+    storey, specimen = (kind(**numbers) for kind in (StoreySelfCentring, SelfCentring))
+    assert stepped(storey, NOTHING, CYCLES) == pytest.approx(stepped(specimen, NOTHING, CYCLES))
 
 
 def test_a_pendulum_is_restored_by_its_weight_and_its_friction_grows_with_velocity() -> None:

@@ -126,6 +126,7 @@ def test_storeys_of_every_kind_take_their_force_and_none_without_strength() -> N
         physics.ONE_SIDED: (1e8,),
         physics.SOFTENING: (0.3, d),
         physics.TURNED: (0.3, 2e3),
+        physics.FLAG: (2e4, d / 10, 0.6),
     }
     for kind, numbers in strong.items():
         x, _ = response(BUILDING, Whole(), [Element(2, kind, numbers)], Ground(motion, {}), time)

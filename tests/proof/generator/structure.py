@@ -30,7 +30,8 @@ FINE = 1e-4  # s: substeps are at most this long, (omega h)^5 < 1e-11 at 10 Hz
     ONE_SIDED,
     SOFTENING,
     TURNED,
-) = range(15)
+    FLAG,
+) = range(16)
 NUMBERS = 4  # of an element, at most
 
 
@@ -63,7 +64,7 @@ class Element:
     YIELDING    (1 - r) (F_y s - w),  F_y s' = w' unless |s| = 1 and w goes on             PINCHING  -p w exp(-(d / d_p)^2)
     HYSTERESIS  F s,  x_y s' = v - eta |v| |s|^(n-1) s - (1 - eta) v |s|^n  (Bouc-Wen)     DROP  -p w from t_d on
     GAP         k max(d - g, 0) + k min(d + g, 0)          SOFTENING  -p w |d| / (|d| + d_s)
-    TURNED      -p w (1 - exp(-s)),  E_d s' = |w v|
+    TURNED      -p w (1 - exp(-s)),  E_d s' = |w v|           FLAG  F s,  x_a s' = v within the flag's borders
     Outside any library: MEMORY F s^3, tau s' = v / v_m - s;  HEALING -p w (1 - exp(-s)), s' = |v| / travel - s / tau;
     COGGING F sin(2 pi d / pitch);  PARAMETRIC p w sin(2 pi f t);  ONE_SIDED c max(v, 0)^3
     """
@@ -163,6 +164,14 @@ def _on_base(
 
 
 @njit(cache=True)
+def _within(p, d, s):  # type: ignore[no-untyped-def]
+    """s within the borders of a flag at the drift d: opening at 1, closing at 1 - p[2]."""
+    side = 1.0 if d >= 0.0 else -1.0
+    reach = abs(d) / p[1]
+    return side * min(max(side * s, min(reach, 1.0 - p[2])), min(reach, 1.0))
+
+
+@njit(cache=True)
 def _force(kind, p, t, d, v, w, s):  # type: ignore[no-untyped-def]
     if kind in (FRICTION, HYSTERESIS):
         return p[0] * s
@@ -182,6 +191,8 @@ def _force(kind, p, t, d, v, w, s):  # type: ignore[no-untyped-def]
         return p[0] * s**3
     if kind in (HEALING, TURNED):
         return -p[0] * w * (1.0 - math.exp(-s))
+    if kind == FLAG:
+        return p[0] * _within(p, d, s)
     if kind == SOFTENING:
         return -p[0] * w * abs(d) / (abs(d) + p[1])
     if kind == COGGING:
@@ -192,7 +203,7 @@ def _force(kind, p, t, d, v, w, s):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _slope(kind, p, v, w, w_rate, s):  # type: ignore[no-untyped-def]
+def _slope(kind, p, d, v, w, w_rate, s):  # type: ignore[no-untyped-def]
     if kind == FRICTION:
         return (v - abs(v) * s) / p[1]
     if kind == YIELDING:
@@ -206,6 +217,9 @@ def _slope(kind, p, v, w, w_rate, s):  # type: ignore[no-untyped-def]
         return abs(v) / p[1] - s / p[2]
     if kind == TURNED:
         return abs(w * v) / p[1]
+    if kind == FLAG:  # towards a border that it has left, within a time far below a substep of the recording
+        inside = _within(p, d, s)
+        return v / p[1] if inside == s else (inside - s) / 1e-3
     return 0.0
 
 
@@ -227,7 +241,7 @@ def _slopes(inverse, damping, stiffness, elastic, kinds, storeys, numbers, a, t,
         grown[n + top] -= inverse[top] * force
         if top > 0:
             grown[n + top - 1] += inverse[top - 1] * force
-        grown[own] = _slope(kinds[e], numbers[e], v, k * d, k * v, s[own])
+        grown[own] = _slope(kinds[e], numbers[e], d, v, k * d, k * v, s[own])
 
 
 @njit(cache=True)

@@ -28,6 +28,7 @@ IDS = (
     "stiffness_drop",
     "softening",
     "stiffness_degradation",
+    "self_centring",
 )
 PAIRED = IDS[:13]  # of which pairs are drawn: the others are near relatives of some of these
 OUTSIDE = ("cubic_memory", "healing_softening", "cogging", "parametric_stiffness", "one_sided_cubic_damping")
@@ -101,6 +102,10 @@ def effect(seed: int, name: str, size: float, seen: dict[str, Any]) -> Left:
         case "stiffness_degradation":
             energy = k * d**2 * random.uniform(3.0, 10.0)
             return of(Element(storey, physics.TURNED, (size, energy)), share=size, energy=energy)
+        case "self_centring":
+            opening, width = d * random.uniform(0.1, 0.3), random.uniform(0.4, 0.9)
+            flag = Element(storey, physics.FLAG, (size * f, opening, width))
+            return of(flag, strength=size * f, opening=opening, width=width)
         case "input_scale_error":
             return of(ground={"scale": sign * size}, share=sign * size)
         case "input_time_shift":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, TypeVar
 
 import numpy as np
 
@@ -48,15 +48,18 @@ class SelfCentring(Effect):
         return y + p[0] * s[1]
 
 
-class SelfCentringSearch(Search[SelfCentring]):
-    needs = ("x_meas", "f_meas")
-    relatives = ("bouc_wen_hysteresis", "pinching", "cubic_stiffness")
+E = TypeVar("E", bound=SelfCentring)
+
+
+class SelfCentringSearch(Search[E]):
+    needs: tuple[str, ...] = ("x_meas", "f_meas")
+    relatives: tuple[str, ...] = ("bouc_wen_hysteresis", "pinching", "cubic_stiffness")
     proportional = True
     noun = "self-centring"
 
-    def guesses(self, seen: Seen) -> Iterator[SelfCentring]:
+    def guesses(self, seen: Seen) -> Iterator[E]:
         yield self.sized(strength=0.1 * seen.f, opening=0.12 * seen.x, width=0.6)
 
-    def says(self, effect: SelfCentring) -> str:
+    def says(self, effect: E) -> str:
         back = said(effect.strength * (1 - effect.width), "kN")
         return f"has a further force that opens at {said(effect.strength, 'kN')} and returns to its centre at {back}"

@@ -15,6 +15,7 @@ from rths_engine.parts.physics.structure.mass_error import MassError, MassErrorS
 from rths_engine.parts.physics.structure.p_delta import PDelta, PDeltaSearch
 from rths_engine.parts.physics.structure.pinching import Pinching, PinchingSearch
 from rths_engine.parts.physics.structure.quadratic_damping import QuadraticDamping, QuadraticDampingSearch
+from rths_engine.parts.physics.structure.self_centring import SelfCentring, SelfCentringSearch
 from rths_engine.parts.physics.structure.softening import Softening, SofteningSearch
 from rths_engine.parts.physics.structure.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
 from rths_engine.parts.physics.structure.stiffness_drop import StiffnessDrop, StiffnessDropSearch
@@ -37,6 +38,7 @@ SEARCHES: tuple[Search[Any], ...] = (
     StiffnessDropSearch(StiffnessDrop),
     SofteningSearch(Softening),
     StiffnessDegradationSearch(StiffnessDegradation),
+    SelfCentringSearch(SelfCentring),
 )
 KINDS = laws(SEARCHES)
 if TYPE_CHECKING:

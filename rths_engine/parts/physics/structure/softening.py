@@ -40,7 +40,7 @@ class Softening(OfStorey):
 
 
 class SofteningSearch(StoreySearch[Softening]):
-    relatives = ("cubic_stiffness", "yielding", "stiffness_degradation", "stiffness_drop")
+    relatives = ("cubic_stiffness", "yielding", "self_centring", "stiffness_degradation", "stiffness_drop")
     noun = "softening with amplitude"
 
     def guesses(self, seen: Seen) -> Iterator[Softening]:

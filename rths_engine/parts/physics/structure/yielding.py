@@ -44,7 +44,7 @@ class Yielding(OfStorey):
 
 
 class YieldingSearch(StoreySearch[Yielding]):
-    relatives = ("bouc_wen_hysteresis", "coulomb_friction", "softening")
+    relatives = ("bouc_wen_hysteresis", "coulomb_friction", "softening", "self_centring")
     noun = "yielding"
 
     def guesses(self, seen: Seen) -> Iterator[Yielding]:
