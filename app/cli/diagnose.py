@@ -7,13 +7,18 @@ from argparse import Namespace
 
 from app.cli.run_input import model_at
 from app.reports.diagnosis import report_html
+from app.reports.diagnosis_names import Names, capital
+from app.reports.digits import chance, words
 from app.shown import VERDICTS
+from rths_engine.diagnosis.linear import linear_plan
 from rths_engine.diagnosis.pictures import pictures
 from rths_engine.diagnosis.schema import ComponentVerdict, Verdict
 from rths_engine.diagnosis.verdict import diagnose as engine
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, PlanError, RecordingError, renamed
 from rths_engine.recordings import opening
+
+LINEAR = "linear"  # in place of a plan: a linear model that is fitted to the recording
 
 
 def diagnose(given: Namespace) -> None:
@@ -24,19 +29,21 @@ def diagnose(given: Namespace) -> None:
         if path and not path.parent.is_dir():
             problem = f"there is no folder {path.parent}"
             raise PlanError(Issue(option, problem, str(path), f"create it first: mkdir -p '{path.parent}'"))
-    plan = model_at(given.plan).plan
+    planned = None if given.plan == LINEAR else model_at(given.plan).plan
     heldout = [opening.load(path) for path in given.holdout]
     more = [opening.load(path) for path in given.more]
     try:
-        diagnosis = engine(plan, opening.load(given.recording), heldout, given.level, more=more)
+        recording = opening.load(given.recording)
+        plan = planned or linear_plan(recording, given.recording.name)
+        diagnosis = engine(plan, recording, heldout, given.level, more=more)
     except RecordingError as error:
         raise renamed(error, _names(given)) from None
     found = diagnosis.verdict
     if given.json:
         files.write(given.json, json.dumps(found.as_dict(), indent=2, allow_nan=False) + "\n")
     if given.report:
-        files.write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis)))
-    print(_text(found))
+        files.write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis), plan.as_dict()))
+    print(_text(found, Names.of(plan.as_dict())))
 
 
 def _names(given: Namespace) -> dict[str, str]:
@@ -52,20 +59,22 @@ def _facts(given: Namespace) -> list[tuple[str, str]]:
     return [("Recording", given.recording.name), *more, *heldout, ("False-alarm rate", f"{given.level:g}")]
 
 
-def _text(found: Verdict) -> str:
-    lines = [VERDICTS[found.verdict], *(_component(one) for one in found.components)]
+def _text(found: Verdict, names: Names) -> str:
+    lines = [VERDICTS[found.verdict], *(_component(one, names) for one in found.components)]
     for effect in found.effects:
-        lines.append(
-            effect.sentence if effect.probability is None else f"{effect.sentence} Probability {effect.probability:.2f}."
-        )
+        lines.append(f"{effect.sentence}{_said(effect.probability, found.replicated)}")
     if found.effects:
         before, after = (_percent(one.heldout_nrmse) for one in (found.fit.baseline, found.fit.extended))
         lines.append(f"On held-out data the error changes from {before} to {after}.")
     return "\n".join(lines)
 
 
-def _component(one: ComponentVerdict) -> str:
-    figures = [f"{one.component}: residual as planned {_percent(one.residual_nrmse)}"]
+def _said(probability: float | None, replicated: bool) -> str:
+    return "" if probability is None else f" {capital(words(probability, replicated))}: probability {chance(probability)}."
+
+
+def _component(one: ComponentVerdict, names: Names) -> str:
+    figures = [f"{capital(names.component(one.component))}: residual as planned {_percent(one.residual_nrmse)}"]
     if one.noise_nrmse is not None:
         figures.append(f"noise {100 * one.noise_nrmse:.2g} %")
     if one.p_value is not None:

@@ -100,7 +100,7 @@ def parser() -> argparse.ArgumentParser:
         "app.cli.diagnose:diagnose",
         "compare a recording with a plan and name the physics that its models leave out",
     )
-    diagnose.add_argument("plan", metavar="PLAN.yaml", help="file with the plan to check")
+    diagnose.add_argument("plan", metavar="PLAN.yaml", help="file with the plan to check; linear: a fitted linear model")
     diagnose.add_argument("recording", type=Path, metavar="REC.h5", help="recording of the stations of the plan")
     diagnose.add_argument(
         "--holdout", type=Path, nargs="+", default=[], metavar="REC.h5", help="held-out recordings: tested, not fitted"

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import Depends, Request
 
 from app.dependencies import OneSession
+from app.diagnoses.repository import DiagnosisRepository
 from app.diagnoses.service import DiagnosisService
 from app.diagnoses.sources import Sources
 from app.measured.dependency import Recordings
@@ -18,7 +19,7 @@ def diagnosis_service(
     request: Request, session: OneSession, runs: Runs, recordings: Recordings, plans: Plans
 ) -> DiagnosisService:
     """The service of diagnoses in the session of the request."""
-    return DiagnosisService(session, Sources(runs, recordings, plans), request.app.state.queue)
+    return DiagnosisService(session, Sources(runs, recordings, plans, DiagnosisRepository(session)), request.app.state.queue)
 
 
 Diagnoses = Annotated[DiagnosisService, Depends(diagnosis_service)]

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query
 from fastapi.responses import HTMLResponse, Response
 
+from app.dependencies import Configured
 from app.diagnoses import exports
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.schemas import Asked, DiagnosisDetail, DiagnosisList, DiagnosisOut, Simulations
@@ -78,9 +79,14 @@ def cancel(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Bo
 
 
 @router.post("/{diagnosis_id}/simulations", status_code=201, responses=told(409))
-def simulate(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Body()] = NOBODY) -> Simulations:
-    """Queue the plan and the extended plan as ordinary runs, for comparison with the recording."""
-    before, after = diagnoses.simulate(diagnosis_id, person.by)
+def simulate(
+    diagnosis_id: str, diagnoses: Diagnoses, configured: Configured, person: Annotated[Person, Body()] = NOBODY
+) -> Simulations:
+    """Queue the plan and the extended plan as ordinary runs under the recorded excitation, for comparison with the recording.
+
+    The recorded command, ground motion, floor forces and start replace those of the plan where they differ.
+    """
+    before, after = diagnoses.simulate(diagnosis_id, person.by, configured)
     return Simulations(before=RunOut.of(before), after=RunOut.of(after))
 
 

@@ -22,11 +22,13 @@ class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
 
     def order(self, job: Diagnosis, settings: Settings) -> DiagnosisOrder:
         first, *others = [file_of(given, settings).resolve() for given in job.inputs]
-        return DiagnosisOrder(job.id, job.attempt, job.plan, first, tuple(others), job.level)
+        plan = None if "fitted" in job.plan else job.plan
+        return DiagnosisOrder(job.id, job.attempt, plan, job.recording.name, first, tuple(others), job.level)
 
     def store(self, job: Diagnosis, result: Diagnosed) -> Ending:
+        job.plan = result.plan
         job.verdict, job.pictures = result.verdict.as_dict(), result.pictures.as_dict()
-        job.found, job.sentence = result.verdict.verdict, tables(result.verdict).sentence
+        job.found, job.sentence = result.verdict.verdict, tables(result.verdict, job.plan).sentence
         return Ending(State.COMPLETED, "Done.")
 
 

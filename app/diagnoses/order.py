@@ -12,17 +12,28 @@ from rths_engine.diagnosis.schema import Pictures, Verdict
 
 @dataclass(frozen=True, slots=True)
 class DiagnosisOrder(Order):
-    """One attempt at a diagnosis: plan, file of the recording, files of the held-out recordings, false-alarm rate."""
+    """One attempt at a diagnosis: plan, file of the recording, files of the held-out recordings, false-alarm rate.
 
-    plan: dict[str, Any]
+    The plan is None for a linear model, which the process fits to the recording named `name`.
+    """
+
+    plan: dict[str, Any] | None
+    name: str
     recording: Path
     heldout: tuple[Path, ...]
     level: float
 
 
+def linear(recording: str) -> dict[str, Any]:
+    """The stored plan of a diagnosis whose linear model is not fitted yet."""
+    return {"name": f"Linear model fitted to {recording}", "fitted": "linear"}
+
+
 @dataclass(frozen=True, slots=True)
 class Diagnosed:
-    """The verdict (`rths-diagnosis/1`) and its pictures (`rths-diagnosis-pictures/1`)."""
+    """The compared plan, the verdict (`rths-diagnosis/1`) and its pictures (`rths-diagnosis-pictures/1`)."""
+
+    plan: dict[str, Any]
 
     verdict: Verdict
     pictures: Pictures

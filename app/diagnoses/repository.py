@@ -19,3 +19,9 @@ class DiagnosisRepository(JobRepository[Diagnosis]):
         total = self.session.scalar(sa.select(sa.func.count()).select_from(Diagnosis)) or 0
         query = sa.select(Diagnosis).order_by(Diagnosis.number.desc()).limit(limit).offset(offset)
         return list(self.session.scalars(query)), total
+
+    def extended(self, limit: int) -> list[Diagnosis]:
+        """The newest diagnoses whose verdict has an extended plan."""
+        plan = Diagnosis.verdict["extended_plan"].as_string()
+        query = sa.select(Diagnosis).where(Diagnosis.found == "mismatch", plan.is_not(None), plan != "null")
+        return list(self.session.scalars(query.order_by(Diagnosis.number.desc()).limit(limit)))

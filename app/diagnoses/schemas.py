@@ -27,8 +27,9 @@ class Source(BaseModel):
 class Asked(BaseModel):
     """A recording and the plan to compare it with.
 
-    The plan is JSON or YAML text (`plan`), a template (`template`) or the plan of a run (`plan_of_run`). Without these, it is
-    the plan of the run that made the recording. `heldout` recordings are never fitted.
+    The plan is JSON or YAML text (`plan`), a template (`template`), the plan of a run (`plan_of_run`), the extended plan of a
+    diagnosis (`extended_plan_of`), or a linear model that is fitted to the recording (`linear`). Without these, it is the plan
+    of the run that made the recording. `heldout` recordings are never fitted.
     """
 
     model_config = ConfigDict(extra="forbid")
@@ -38,6 +39,11 @@ class Asked(BaseModel):
     plan: PlanData | str | None = None
     template: Storable | None = Field(None, max_length=80)
     plan_of_run: Storable | None = Field(None, max_length=36)
+    extended_plan_of: Storable | None = Field(None, max_length=36)
+    linear: bool = Field(
+        False,
+        description="true: check a spring and dashpot, a first-order delay or a shear building that is fitted to the recording",
+    )
     level: float = Field(
         0.01, gt=0, le=0.5, description="false-alarm rate: probability of a mismatch where the models of the plan are right"
     )
@@ -86,7 +92,10 @@ class DiagnosisOut(BaseModel):
 
 
 class DiagnosisDetail(DiagnosisOut):
-    """A diagnosis with its plan and, after it has completed, its verdict (`rths-diagnosis/1`)."""
+    """A diagnosis with its plan and, after it has completed, its verdict (`rths-diagnosis/1`).
+
+    Until a linear model has been fitted, `plan` is its name and `fitted: linear`.
+    """
 
     plan: PlanData
     verdict: Verdict | None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from sqlalchemy.exc import IntegrityError
@@ -9,7 +10,7 @@ from sqlalchemy.orm import Session
 
 from app.config import Settings
 from app.diagnoses.job import DIAGNOSES
-from app.diagnoses.order import Diagnosed
+from app.diagnoses.order import Diagnosed, linear
 from app.diagnoses.repository import DiagnosisRepository
 from app.diagnoses.schemas import Asked
 from app.diagnoses.sources import Sources, file_of
@@ -17,10 +18,13 @@ from app.jobs.service import JobService, Queue
 from app.jobs.states import State
 from app.models import Diagnosis, Run
 from app.problems import Conflict
+from app.reports.diagnosis_names import capital
+from app.reports.diagnosis_overlay import Overlaid
 from app.runs.service import RunService
 from rths_engine import __version__
 from rths_engine.diagnosis.schema import Pictures, Verdict
-from rths_engine.recordings.measured import Measured
+from rths_engine.planning.reading import read_plan
+from rths_engine.recordings.excitation import differences, lead, under_recorded
 from rths_engine.recordings.opening import load
 
 LONGEST_NAME = 200
@@ -47,7 +51,7 @@ class DiagnosisService:
         inputs = self.sources.inputs(asked, plan)
         diagnosis = Diagnosis(
             name=asked.name.strip() or inputs[0].name,
-            plan=plan.as_dict(),
+            plan=plan.as_dict() if plan else linear(inputs[0].name),
             level=asked.level,
             code_version=__version__,
             inputs=inputs,
@@ -64,6 +68,10 @@ class DiagnosisService:
 
     def listed(self, limit: int, offset: int) -> tuple[list[Diagnosis], int]:
         return self.rows.listed(limit, offset)
+
+    def extended(self, limit: int) -> list[Diagnosis]:
+        """Diagnoses that found a mismatch, whose extended plan can be checked; the newest first."""
+        return self.rows.extended(limit)
 
     def result(self, diagnosis_id: str) -> tuple[Diagnosis, Verdict, Pictures]:
         """The diagnosis, its verdict and its plots. Raises Conflict where it has no result."""
@@ -83,19 +91,23 @@ class DiagnosisService:
         """Delete a diagnosis. Raises Conflict where it is queued or running."""
         self.jobs.remove(diagnosis_id)
 
-    def simulate(self, diagnosis_id: str, by: str) -> tuple[Run, Run]:
-        """Queue the plan and the extended plan as ordinary runs.
+    def simulate(self, diagnosis_id: str, by: str, settings: Settings) -> tuple[Run, Run]:
+        """Queue the plan and the extended plan as ordinary runs, both under the recorded excitation.
 
         Raises Conflict where there is no extended plan, or where both runs are queued already, unless a run ended without a
-        recording.
+        recording or had another excitation. Raises RthsError where the recording has no excitation for a run.
         """
         diagnosis = self.jobs.locked(diagnosis_id)
         extended = Verdict.read(diagnosis.verdict).extended_plan if diagnosis.verdict else None
         if extended is None:
             raise Conflict("There is no extended plan to run: no identified effect can be added to this plan.")
-        if any(not run.state.ended or run.recording_sha256 for run in self.simulations(diagnosis)):
+        queued = self.simulations(diagnosis)
+        recorded = any(not run.state.ended or run.recording_sha256 for run in queued)
+        if recorded and not self.differences(diagnosis, settings):
             raise Conflict("The plan and the extended plan have already been queued.")
-        plans = [_called(diagnosis.plan, "before"), _called(extended, "after")]
+        recording, motions = load(file_of(diagnosis.recording, settings)), self.runs.motions
+        pairs = [(read_plan(diagnosis.plan), "before"), (read_plan(extended), "after")]
+        plans = [_called(under_recorded(plan, recording, motions).as_dict(), word) for plan, word in pairs]
         before, after = self.runs.submit(plans, by, prefix="extended_plan.{}")
         diagnosis.before_id, diagnosis.after_id = before.id, after.id
         return before, after
@@ -104,13 +116,30 @@ class DiagnosisService:
         """The runs of the plan and of the extended plan; empty where they were not queued."""
         return [self.runs.get(run_id) for run_id in (diagnosis.before_id, diagnosis.after_id) if run_id]
 
-    def recordings(self, diagnosis: Diagnosis, settings: Settings) -> list[Measured]:
-        """The recording and the recordings of both runs; empty until both runs have completed."""
+    def differences(self, diagnosis: Diagnosis, settings: Settings) -> str:
+        """The reason why the runs cannot be compared with the recording: another excitation. Empty where they can.
+
+        Runs that have not completed are not compared. Raises RthsError where the recording cannot be read.
+        """
         runs = self.simulations(diagnosis)
-        if len(runs) < 2 or any(run.state is not State.COMPLETED for run in runs):
-            return []
-        paths = [file_of(diagnosis.recording, settings), *(settings.recordings / f"{run.id}.h5" for run in runs)]
-        return [load(path) for path in paths]
+        if not _completed(runs):
+            return ""
+        recording, motions = load(file_of(diagnosis.recording, settings)), self.runs.motions
+        found = {run.name: differences(self.runs.plan_of(run), recording, motions) for run in runs}
+        return " ".join(f"{capital(', '.join(map(str, one)))} in the run {name}." for name, one in found.items() if one)
+
+    def overlaid(self, diagnosis: Diagnosis, settings: Settings) -> Overlaid | None:
+        """The recording with the recordings of both runs; None until both have completed. Raises RthsError."""
+        runs = self.simulations(diagnosis)
+        if not _completed(runs):
+            return None
+        recording = load(file_of(diagnosis.recording, settings))
+        before, after = (load(settings.recordings / f"{run.id}.h5") for run in runs)
+        return Overlaid(recording, before, after, lead(self.runs.plan_of(runs[0]), recording))
+
+
+def _completed(runs: Sequence[Run]) -> bool:
+    return len(runs) == 2 and all(run.state is State.COMPLETED for run in runs)
 
 
 def _called(plan: dict[str, Any], word: str) -> dict[str, Any]:

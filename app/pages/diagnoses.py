@@ -38,9 +38,10 @@ def listed(
     plans: Plans,
     recording: str = "",
     run: str = "",
+    plan: str = "",
     number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1,
 ) -> HTMLResponse:
-    """The list of diagnoses with the form. `recording` or `run` is preselected in the form."""
+    """The list of diagnoses with the form. `recording` or `run`, and the `plan` to check, are preselected in the form."""
     found, total = diagnoses.listed(LIMIT, LIMIT * (number - 1))
     recorded = [one for one in runs.listed(Filter(states=RECORDED), Page(limit=OFFERED))[0] if one.recording_sha256]
     if run and all(one.id != run for one in recorded):
@@ -49,9 +50,11 @@ def listed(
     if recording and all(one.id != recording for one in imported):
         imported.insert(0, recordings.get(recording))
     offered: dict[str, Any] = {"imported": imported, "recorded": recorded, "templates": plans.templates()}
+    offered["extended"] = diagnoses.extended(OFFERED)
     chosen = f"run:{run}" if run else f"recording:{recording}" if recording else ""
     part: dict[str, Any] = {"diagnoses": found, "total": total, "number": number, "first": LIMIT * (number - 1) + 1}
-    return page(request, "diagnoses.html", chosen=chosen, **offered, **part)
+    plan = plan or ("linear" if recording else "own")
+    return page(request, "diagnoses.html", chosen=chosen, plan=plan, **offered, **part)
 
 
 @router.get("/diagnoses/{diagnosis_id}")
@@ -62,7 +65,7 @@ def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: C
     if diagnosis.verdict is not None and diagnosis.pictures is not None:
         _, verdict, pictures = diagnoses.result(diagnosis_id)
         result = {
-            **shown(verdict, pictures),
+            **shown(verdict, pictures, diagnosis.plan),
             "extended": verdict.extended_plan is not None,
             "simulations": diagnoses.simulations(diagnosis),
             **_overlaid(diagnosis, diagnoses, configured),
@@ -72,8 +75,11 @@ def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: C
 
 def _overlaid(diagnosis: Diagnosis, diagnoses: Diagnoses, configured: Configured) -> dict[str, Any]:
     """The plots over the recording, or the reason why they are missing: an unreadable file does not fail the page."""
+    empty: dict[str, Any] = {"overlay": [], "not_overlaid": "", "not_alike": ""}
     try:
-        recordings = diagnoses.recordings(diagnosis, configured)
+        if different := diagnoses.differences(diagnosis, configured):
+            return {**empty, "not_alike": different}
+        found = diagnoses.overlaid(diagnosis, configured)
     except RthsError as error:
-        return {"overlay": [], "not_overlaid": str(error)}
-    return {"overlay": overlay(*recordings) if recordings else [], "not_overlaid": ""}
+        return {**empty, "not_overlaid": str(error)}
+    return {**empty, "overlay": overlay(found) if found else []}

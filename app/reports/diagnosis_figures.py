@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from app.reports.diagnosis_names import capital
 from app.reports.figures import Panel
 from app.reports.packed import Samples, packed
 from rths_engine.diagnosis.schema import Pictures
@@ -49,13 +50,13 @@ def over_time(pictures: Pictures) -> Panel:
         decades = np.log10(np.clip(np.nan_to_num(level, nan=1e9), 0.5, 1e9))
         rows.append(
             {
-                "name": one.component,
+                "name": capital(one.title),
                 "x": one.over_time.time_s,
                 "z": decades.round(3).tolist(),
                 "said": one.over_time.level,
             }
         )
-    said = "; ".join(f"{one.title} ({one.component}) {_beyond(one.over_time)}" for one in components)
+    said = "; ".join(f"{one.title} {_beyond(one.over_time)}" for one in components)
     spec = {
         "rows": rows,
         "scale": SCALE,
@@ -69,7 +70,7 @@ def over_time(pictures: Pictures) -> Panel:
 
 def details(pictures: Pictures) -> list[Section]:
     """One section for each component that is shown in detail."""
-    return [_section(_capital(one.title), one.detail) for one in pictures.components if one.detail]
+    return [_section(capital(one.title), one.detail) for one in pictures.components if one.detail]
 
 
 def _section(title: str, detail: Detail) -> Section:
@@ -83,7 +84,7 @@ def _panels(detail: Detail, models: Models) -> list[Panel]:
     spans = [{"from": one.from_s, "to": one.to_s, "text": "held out"} for one in detail.blocks if one.held_out]
     found = []
     for channel in detail.channels:
-        name = _capital(channel.label)
+        name = capital(channel.label)
         signals = [("measured", channel.signals.measured), *_of(channel.signals, models)]
         left = _of(channel.residuals, models)
         axes = (f"{name}, {channel.shown}", f"Residual, {channel.shown}")
@@ -128,7 +129,7 @@ def _planes(state: State, models: Models) -> list[Panel]:
     whole = [(key, _array(row) / factor) for key, row in given]
     left = [(key, _array(row) / factor) for key, row in _of(state, models, "residual_")]
     return [
-        _plane(f"{_capital(name)} against {moved.label}", moved, whole, f"{_capital(name)}, {unit}", unit),
+        _plane(f"{capital(name)} against {moved.label}", moved, whole, f"{capital(name)}, {unit}", unit),
         _plane(f"Residual against {moved.label}", moved, left, f"Residual, {unit}", unit),
         _plane(f"Residual against {speed.label}", speed, left, f"Residual, {unit}", unit),
     ]
@@ -138,7 +139,7 @@ def _plane(title: str, axis: Axis, lines: Sequence[tuple[str, Samples]], y: str,
     x = _array(axis.values) / axis.factor
     traces = [{**trace(name, x, row), "thin": True} for name, row in lines]
     said = ", ".join(f"{NAMES[name].lower()} {_range(row, unit)}" for name, row in lines)
-    spec = {"traces": traces, "x": f"{_capital(axis.label)}, {axis.shown}", "y": y, "from_zero": ""}
+    spec = {"traces": traces, "x": f"{capital(axis.label)}, {axis.shown}", "y": y, "from_zero": ""}
     return Panel(title, f"{title}, over {_range(x, axis.shown)}: {said}.", spec)
 
 
@@ -178,7 +179,3 @@ def _range(values: Samples, unit: str) -> str:
 def _array(values: Sequence[float | None]) -> Samples:
     """The values as an array; null becomes NaN, which a plot leaves out."""
     return np.array([np.nan if value is None else value for value in values], dtype=float)
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
+from app.reports.diagnosis_claims import Claim, claims, doubt
+from app.reports.diagnosis_names import Names, capital
+from app.reports.digits import NONE, chance, percent, short
 from app.shown import VERDICTS
 from rths_engine.diagnosis.schema import (
     Candidate,
@@ -19,8 +23,10 @@ from rths_engine.diagnosis.schema import (
 )
 
 LEAST_P = 1e-12  # smaller p-values are shown as < 1e-12
+MOST_BIC = 1000.0  # larger differences of BIC are shown as > 1000
+LEFT_OVER = 0.005  # smaller probabilities that no candidate is true are not shown
+OTHERWISE = "None of these candidates"
 SPANS = 6  # most time spans listed
-NONE = "–"  # a number that was not computed, or has no unit
 WITHOUT_DRIVE = ("structure", "input")  # components for which no next test is searched
 
 
@@ -31,6 +37,9 @@ class Tables:
     kind: str
     sentence: str
     further: list[str]
+    claims: list[Claim]
+    doubt: list[tuple[str, str]]
+    remaining: float | None
     components: list[list[str]]
     where: list[tuple[str, str]]
     ranking: list[tuple[str, float, list[str]]]
@@ -42,44 +51,37 @@ class Tables:
     next_test: str
 
 
-def tables(verdict: Verdict) -> Tables:
-    """The tables and sentences of a verdict."""
-    told = [one.sentence for one in verdict.effects]
-    sentence, *further = told or [VERDICTS[verdict.verdict]]
+def tables(verdict: Verdict, plan: Mapping[str, Any]) -> Tables:
+    """The tables and sentences of a verdict on a plan in JSON form.
+
+    The first sentence is that of the verdict; the claims bring the sentences of the named effects.
+    """
+    names = Names.of(plan)
+    named = claims(verdict, names)
+    claimed = {one.sentence for one in named}
+    sentence, *others = [one.sentence for one in verdict.effects] or [VERDICTS[verdict.verdict]]
     return Tables(
         kind=verdict.verdict,
         sentence=sentence,
-        further=further,
-        components=[_component(one) for one in verdict.components],
-        where=_where(verdict.where),
-        ranking=[_candidate(one) for one in verdict.candidates],
-        alike=[" or ".join(_named(one) for one in group) for group in verdict.indistinguishable],
-        parameters=[_parameter(one, number) for one in verdict.effects for number in one.parameters],
+        further=[one for one in others if one not in claimed],
+        claims=named,
+        doubt=doubt(verdict, names),
+        remaining=verdict.remaining_share,
+        components=[_component(one, names) for one in verdict.components],
+        where=_where(verdict.where, names),
+        ranking=_ranking(verdict, names),
+        alike=[" or ".join(names.candidate(one) for one in group) for group in verdict.indistinguishable],
+        parameters=[_parameter(one, number, names) for one in verdict.effects for number in one.parameters],
         fit=_fit(verdict.fit),
-        noise_floor=_percent(verdict.fit.noise_floor_nrmse),
+        noise_floor=percent(verdict.fit.noise_floor_nrmse),
         unexplained=_unexplained(verdict.unexplained),
-        next_test=_next_test(verdict),
+        next_test=_next_test(verdict, names),
     )
 
 
-def named(effects: Sequence[str]) -> str:
-    """The names of effects: `specimen:1/backlash` gives `backlash of specimen 1`."""
-    return " and ".join(_one(effect) for effect in effects) or "no left-out effect"
-
-
-def _one(effect: str) -> str:
-    place, _, name = effect.partition("/")
-    kind, _, number = place.partition(":")
-    return f"{name.replace('_', ' ')} of {kind}{f' {number}' if number else ''}"
-
-
-def _named(group: str) -> str:
-    return named(group.split(", ") if group else [])
-
-
-def _component(one: ComponentVerdict) -> list[str]:
-    verdict = one.verdict.replace("_", " ")
-    return [one.component, verdict, _percent(one.residual_nrmse), _percent(one.noise_nrmse), _chance(one.p_value)]
+def _component(one: ComponentVerdict, names: Names) -> list[str]:
+    errors = (percent(one.residual_nrmse), percent(one.noise_nrmse))
+    return [capital(names.component(one.component)), one.verdict.replace("_", " "), *errors, _chance(one.p_value)]
 
 
 def _chance(p_value: float | None) -> str:
@@ -88,41 +90,38 @@ def _chance(p_value: float | None) -> str:
     return "< 1e-12" if p_value < LEAST_P else f"{p_value:.2g}"
 
 
-def _where(place: Where | None) -> list[tuple[str, str]]:
+def _where(place: Where | None, names: Names) -> list[tuple[str, str]]:
     if not place:
         return []
     times = ", ".join(f"{start:.1f} to {end:.1f} s" for start, end in place.times_s[:SPANS])
     if len(place.times_s) > SPANS:
         times += f" and {len(place.times_s) - SPANS} more spans"
     bands = ", ".join(f"{low:.3g} to {high:.3g} Hz" for low, high in place.bands_hz)
-    found = [("Component", place.component), ("Time", times), ("Frequency", bands), ("State", place.state)]
+    component = capital(names.component(place.component))
+    found = [("Component", component), ("Time", times), ("Frequency", bands), ("State", place.state)]
     return [(name, text) for name, text in found if text]
 
 
-def _candidate(one: Candidate) -> tuple[str, float, list[str]]:
-    chance = one.probability
-    shown = f"{chance:.3f}" if chance >= 0.0005 or chance == 0 else "< 0.001"
-    return named(one.effects), chance, [shown, f"{one.delta_bic:.0f}", _percent(one.heldout_nrmse)]
+def _ranking(verdict: Verdict, names: Names) -> list[tuple[str, float, list[str]]]:
+    """The candidates by their probability, the largest first, with the probability that none of them is true."""
+    rows = [_candidate(one, names) for one in verdict.candidates]
+    left = 1 - sum(one.probability for one in verdict.candidates)
+    if rows and left > LEFT_OVER:
+        rows.append((OTHERWISE, left, [chance(left), NONE, NONE]))
+    return sorted(rows, key=lambda row: -row[1])
 
 
-def _parameter(effect: NamedEffect, number: Parameter) -> list[str]:
-    low, high = number.ci90
+def _candidate(one: Candidate, names: Names) -> tuple[str, float, list[str]]:
+    difference = f"> {MOST_BIC:g}" if one.delta_bic > MOST_BIC else f"{one.delta_bic:.0f}"
+    shown = [chance(one.probability), percent(one.heldout_nrmse), difference]
+    return names.effects(one.effects), one.probability, shown
+
+
+def _parameter(effect: NamedEffect, number: Parameter, names: Names) -> list[str]:
     unit = number.unit if number.shown is None else number.shown
-    shown = [_digits(value / number.factor, (high - low) / number.factor) for value in (number.value, low, high)]
-    return [
-        _one(f"{effect.component}/{effect.id}"),
-        number.label or number.name,
-        *shown,
-        NONE if unit in ("", "1") else unit,
-    ]
-
-
-def _digits(value: float, width: float) -> str:
-    """A value with as many digits as the width of its interval justifies."""
-    digits = 4
-    while digits < 7 and width > 0 and abs(value) * 10.0 ** (1 - digits) > 0.2 * width:
-        digits += 1
-    return f"{value:.{digits}g}"
+    shown = [short(value / number.factor) for value in (number.value, *number.ci90)]
+    title = names.title(effect.component, effect.id)
+    return [title, number.label or number.name.replace("_", " "), *shown, NONE if unit in ("", "1") else unit]
 
 
 def _fit(fit: Fit) -> list[list[str]]:
@@ -131,32 +130,24 @@ def _fit(fit: Fit) -> list[list[str]]:
 
 
 def _errors(model: Errors) -> list[str]:
-    return [_percent(model.fit_nrmse), _percent(model.heldout_nrmse)]
+    return [percent(model.fit_nrmse), percent(model.heldout_nrmse)]
 
 
 def _unexplained(left: Unexplained) -> list[tuple[str, str]]:
-    share = f"{_percent(left.fraction)} % of the RMS of the measured signal about its mean"
+    share = f"{percent(left.fraction)} % of the RMS of the measured signal about its mean"
     found = [("Description", left.words), ("Share", share)]
     return [*found, ("Formula", left.formula)] if left.formula else found
 
 
-def _next_test(verdict: Verdict) -> str:
+def _next_test(verdict: Verdict, names: Names) -> str:
     """The next test in words, or the reason why none is proposed."""
     found = verdict.next_test
     if found:
-        first, second = (_named(one) for one in found.separates)
-        expected = f"The expected λ between {first} and {second} is {found.expected_lambda:.3g}"
-        return f"{_capital(found.signal)}. {expected}; a test separates two candidates from λ = 10 on."
+        first, second = (names.candidate(one) for one in found.separates)
+        expected = f"The expected λ between {first} and {second} is {short(found.expected_lambda, 3)}"
+        return f"{capital(found.signal)}. {expected}; a test separates two candidates from λ = 10 on."
     if not verdict.indistinguishable:
         return "No test is proposed: no two candidates are close enough to need a separating test."
     if verdict.indistinguishable[0][0].startswith(WITHOUT_DRIVE):
         return "No test is proposed: a structure has no drive whose command could be chosen."
     return "No test is proposed: no test within the limits of the rig separates these candidates."
-
-
-def _percent(share: float | None) -> str:
-    return NONE if share is None else f"{100 * share:.3g}"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -11,7 +11,8 @@ def prepare() -> None:
 
 
 def execute(order: DiagnosisOrder, line: Line) -> Diagnosed:
-    """Diagnose a recording. Raises Refused if the recording does not fit the plan."""
+    """Diagnose a recording, by a linear model if no plan is given. Raises Refused if the recording does not fit the plan."""
+    from rths_engine.diagnosis.linear import linear_plan
     from rths_engine.diagnosis.pictures import pictures
     from rths_engine.diagnosis.verdict import diagnose
     from rths_engine.foundation.errors import RthsError, renamed
@@ -20,12 +21,13 @@ def execute(order: DiagnosisOrder, line: Line) -> Diagnosed:
 
     line.progress("reading the recording", 0.0)
     try:
-        plan, recording = read_plan(order.plan), opening.load(order.recording)
+        recording = opening.load(order.recording)
+        plan = linear_plan(recording, order.name) if order.plan is None else read_plan(order.plan)
         heldout = [opening.load(path) for path in order.heldout]
         found = diagnose(plan, recording, heldout, order.level, told=line.progress)
     except RthsError as error:
         raise Refused("; ".join(str(issue) for issue in renamed(error, _names(order)).issues)) from None
-    return Diagnosed(found.verdict, pictures(found))
+    return Diagnosed(plan.as_dict(), found.verdict, pictures(found))
 
 
 def _names(order: DiagnosisOrder) -> dict[str, str]:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.linalg import eigh
 
 from rths_engine.diagnosis.components import (
     Actuator,
@@ -27,8 +26,8 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RecordingError
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 from rths_engine.parts.physics.sensor.channel import Reading
-from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan, Station
+from rths_engine.recordings.excitation.start import released_start
 from rths_engine.recordings.measured import Measured
 from rths_engine.running import replay
 
@@ -36,8 +35,6 @@ from rths_engine.running import replay
 LEAST = 200  # fewest samples: with fewer, noise and physics cannot be separated
 MOST = 4_000_000  # samples of a channel
 FAR_OFF = 30.0  # ratio of measured to simulated size that indicates a wrong unit
-AT_REST = 0.02  # of the largest displacement: with less at the start, the structure counts as at rest
-FIRST_MOMENTS = 0.12  # of the first period: the samples that determine the start
 Pair = tuple[Component, Any]
 FLOORS = ("x_floor", "v_floor", "a_floor")
 
@@ -162,7 +159,7 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
         return []
     ground = recording.get("ag") if recording.has("ag") else np.zeros(recording.samples)
     forces = {one.number: one.values for one in recording.channels if one.role == "force_ext" and one.number}
-    released = None if recording.of_run else _released(plan, recording, ground, forces)
+    released = None if recording.of_run else released_start(plan, recording, ground, forces)
     if recording.of_run:
         plan_start = plan.start
         count = len(plan.structure.assemble().floors)
@@ -176,45 +173,6 @@ def _structure(plan: Plan, recording: Measured, where: str) -> list[Pair]:
     )
     read = [floor for kind, floor, _ in floors if kind == "x"]
     return [(Structure("structure", based(plan, released is not None and not recording.of_run, read), plan), data)]
-
-
-def _released(plan: Plan, recording: Measured, ground: Array, forces: dict[int, Array]) -> Any:
-    """Displacements and velocities of the floors at the start; None where the structure is at rest.
-
-    A cubic polynomial is fitted to the first samples of each floor. Where only accelerations were measured, the first mode
-    gives the displacements.
-    """
-    count = len(plan.structure.assemble().floors)
-    period = float(Model(plan).periods[0])
-    few = max(8, min(recording.samples, round(FIRST_MOMENTS * period / recording.dt)))
-    time = np.arange(few) * recording.dt
-    x, v, moving = [0.0] * count, [0.0] * count, False
-    for floor in range(1, count + 1):
-        if not recording.has("x_floor", floor):
-            continue
-        values = recording.get("x_floor", floor)
-        law = np.polynomial.Polynomial.fit(time, values[:few], 3).convert().coef
-        x[floor - 1], v[floor - 1] = float(law[0]), float(law[1])
-        moving = moving or abs(law[0]) > AT_REST * float(np.max(np.abs(values)))
-    still = not ground.any() and not any(np.any(force) for force in forces.values())
-    if not any(x) and still:
-        x = _by_acceleration(plan, recording, few)
-    return (tuple(x), tuple(v)) if moving or still else None
-
-
-def _by_acceleration(plan: Plan, recording: Measured, few: int) -> list[float]:
-    """Displacements x = -a / omega_1^2 at the start; the measured accelerations a give the size of the first mode."""
-    built = plan.structure.assemble()
-    flexible, modes = eigh(built.mass, built.stiffness)  # 1 / omega^2, rising
-    shape = modes[list(built.floors), -1]
-    measured = [floor for floor in range(1, len(shape) + 1) if recording.has("a_floor", floor)]
-    if not measured:
-        return [0.0] * len(shape)
-    time = np.arange(few) * recording.dt
-    begun = [np.polynomial.Polynomial.fit(time, recording.get("a_floor", one)[:few], 3)(0.0) for one in measured]
-    seen = shape[[one - 1 for one in measured]]
-    size = float(seen @ np.array(begun) / (seen @ seen))
-    return [float(one) for one in -size * flexible[-1] * shape]
 
 
 def suspicious(pairs: Sequence[Pair]) -> list[str]:

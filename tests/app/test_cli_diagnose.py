@@ -111,6 +111,6 @@ def test_the_report_is_one_file_with_the_verdict_its_tables_and_its_plots(folder
         assert heading in html
     found = re.findall(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)
     specs = [json.loads(text, parse_constant=pytest.fail) for text in found]
-    assert [row["name"] for row in specs[0]["rows"]] == ["actuator:1", "specimen:1"]
+    assert [row["name"] for row in specs[0]["rows"]] == ["Actuator of Station", "Specimen of Station"]
     assert [trace["name"] for trace in specs[1]["traces"]] == ["Recording", "Planned model", "Extended model"]
     assert len(specs[1]["spans"]) == 3

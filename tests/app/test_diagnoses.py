@@ -15,6 +15,7 @@ from tests.browser.service import Service, until
 
 ENDED = {"completed", "cancelled", "failed"}
 PATIENCE_S = 180  # two busy cores
+OTHER = {"drive": {"amplitude": 0.01, "shape": {"kind": "sine"}}}  # another motion than the recorded one
 LEFT_OUT = [{"kind": "backlash", "gap": 0.002}]
 
 
@@ -62,7 +63,7 @@ def files(service: Service) -> set[str]:
 
 @pytest.fixture(scope="module")
 def diagnosed(service: Service, played: str) -> dict[str, Any]:
-    return until_state(service, ask(service, played, name="Worn damper"), "completed")
+    return until_state(service, ask(service, played, name="Worn damper", plan={**plan(), **OTHER}), "completed")
 
 
 def test_play_that_the_plan_leaves_out_is_named_and_stored_with_its_pictures(
@@ -84,7 +85,9 @@ def test_play_that_the_plan_leaves_out_is_named_and_stored_with_its_pictures(
     assert [one["id"] for one in service.get("/diagnoses?limit=500")["diagnoses"]].count(diagnosed["id"]) == 1
 
 
-def test_the_extended_plan_and_the_plan_are_queued_once_as_ordinary_runs(service: Service, diagnosed: dict[str, Any]) -> None:
+def test_the_extended_plan_and_the_plan_are_queued_once_as_ordinary_runs_under_the_recorded_motion(
+    service: Service, diagnosed: dict[str, Any]
+) -> None:
     path = f"/diagnoses/{diagnosed['id']}"
     runs = service.post(f"{path}/simulations", {"by": "Bo"})
     again = service.http.post(f"/api/v1{path}/simulations", json={})
@@ -95,6 +98,16 @@ def test_the_extended_plan_and_the_plan_are_queued_once_as_ordinary_runs(service
         assert [one["kind"] for one in run["plan"]["stations"][0]["specimen_physics"]] == (
             ["backlash"] if word == "after" else []
         )
+        assert run["plan"]["drive"]["shape"]["kind"] == "samples"
+
+
+def test_a_run_is_diagnosed_by_a_linear_model_that_is_fitted_to_it(service: Service, played: str) -> None:
+    diagnosis = ask(service, played, plan=None, linear=True)
+    assert service.get(f"/diagnoses/{diagnosis}")["plan"]["fitted"] == "linear"
+    found = until_state(service, diagnosis, "completed")
+    assert found["found"] == "mismatch" and found["plan"]["name"].startswith("Linear model fitted to")
+    specimen = found["plan"]["stations"][0]["specimen"]
+    assert specimen["kind"] == "linear" and 1e6 < specimen["stiffness"] < 3e6
 
 
 def test_a_cancelled_diagnosis_leaves_nothing_behind(service: Service, long: dict[str, Any]) -> None:

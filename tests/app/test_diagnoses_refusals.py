@@ -28,7 +28,7 @@ VERDICT: dict[str, Any] = {
     "unexplained": {"fraction": 0.0, "formula": None, "words": "Noise."}, "next_test": None, "extended_plan": None,
 }  # fmt: skip
 PICTURES: dict[str, Any] = {"schema": "rths-diagnosis-pictures/1", "components": []}
-RESULT = Diagnosed(Verdict.read(VERDICT), Pictures.read(PICTURES))
+RESULT = Diagnosed(specimen().as_dict(), Verdict.read(VERDICT), Pictures.read(PICTURES))
 
 
 @pytest.fixture
@@ -58,6 +58,8 @@ def queued(client: TestClient, recording: str, **more: Any) -> dict[str, Any]:
         ({"plan": "name: \ud800"}, 422, ""),
         ({"plan": None, "template": "table3-99"}, 404, "There is no template 'table3-99'"),
         ({"plan": None, "plan_of_run": "nobody"}, 404, "There is no run nobody"),
+        ({"plan": None, "extended_plan_of": "nobody"}, 404, "There is no diagnosis nobody"),
+        ({"linear": True}, 422, "is given 2 times"),
         ({"plan": hybrid()}, 422, "is of a 'specimen' test; the plan describes a 'hybrid' test"),
         ({"recording": {}}, 422, "needs exactly one of recording and run"),
         ({"recording": {"recording": "a", "run": "b"}}, 422, "needs exactly one of recording and run"),

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.app.test_diagnoses import LEFT_OUT, PATIENCE_S, ask, plan, until_state
+from tests.app.test_diagnoses import LEFT_OUT, OTHER, PATIENCE_S, ask, plan, until_state
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 from tests.browser.test_pages import expect_accessible
@@ -27,7 +27,7 @@ def played(service: Service) -> str:
 
 @pytest.fixture(scope="module")
 def diagnosed(service: Service, played: str) -> str:
-    return str(until_state(service, ask(service, played, name="Played damper"), "completed")["id"])
+    return str(until_state(service, ask(service, played, name="Played damper", plan={**plan(), **OTHER}), "completed")["id"])
 
 
 def test_a_run_is_diagnosed_against_a_plan_file_and_the_result_read(
@@ -44,9 +44,9 @@ def test_a_run_is_diagnosed_against_a_plan_file_and_the_result_read(
     expect(page.locator(".verdict")).to_contain_text("backlash was left out", timeout=DONE_MS)
     expect(page.get_by_text("by Ana Ruiz")).to_be_visible()
     components = page.get_by_role("region", name="Components", exact=True)
-    expect(components.locator("tr", has_text="specimen:1")).to_contain_text("mismatch")
+    expect(components.locator("tr", has_text="Specimen of Station")).to_contain_text("mismatch")
     ranking = page.get_by_role("region", name="Ranking of the candidates").locator("tbody tr")
-    expect(ranking.first).to_contain_text("backlash of specimen 1")
+    expect(ranking.first).to_contain_text("Backlash (specimen of Station)")
     parameters = page.get_by_role("region", name="Parameters of the left-out physics").locator("tbody tr")
     expect(parameters).to_have_count(1)
     expect(parameters).to_contain_text("mm")

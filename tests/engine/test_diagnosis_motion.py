@@ -7,7 +7,6 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from rths_engine.diagnosis.components import ClockSkew, Specimen, SpecimenData, StepError
-from rths_engine.diagnosis.smoother import Smoother
 from rths_engine.diagnosis.verdict import diagnose
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
@@ -18,6 +17,7 @@ from rths_engine.parts.specimens.mr_damper import MrDamper
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 from rths_engine.planning.shapes import BandNoise
+from rths_engine.recordings.excitation.smoother import Smoother
 from rths_engine.recordings.measured import Measured, MeasuredChannel
 from rths_engine.running import replay
 

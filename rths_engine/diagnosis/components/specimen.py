@@ -12,13 +12,13 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal, guessed
 from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
-from rths_engine.diagnosis.smoother import Smoother
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen, trend
 from rths_engine.parts.physics.sensor.channel import OfForce
+from rths_engine.recordings.excitation.smoother import Smoother
 from rths_engine.running import replay
 
 # chosen; see docs/decisions/0023

@@ -13,12 +13,13 @@ function source(chosen) {
   return { [chosen.slice(0, at)]: chosen.slice(at + 1) };
 }
 
-/** The part of the request that names the plan. @returns {Promise<Record<string, string>>} */
+/** The part of the request that names the plan. @returns {Promise<Record<string, string | boolean>>} */
 async function planned() {
   if (plan.value === "own") return {};
+  if (plan.value === "linear") return { linear: true };
   if (plan.value !== "file") {
-    const { template, run } = source(plan.value);
-    return template ? { template } : { plan_of_run: run };
+    const { template, run, extended } = source(plan.value);
+    return template ? { template } : run ? { plan_of_run: run } : { extended_plan_of: extended };
   }
   const chosen = file.files?.[0];
   if (!chosen) throw new Error("Select a plan file, or select another plan.");
@@ -40,6 +41,11 @@ async function asked() {
 
 const shown = () => (byId("plan-file-field").hidden = plan.value !== "file");
 plan.addEventListener("change", shown);
+byId("recording").addEventListener("change", () => {
+  const imported = byId("recording").value.startsWith("recording:"); // an imported recording has no plan of its own
+  if (imported && plan.value === "own") plan.value = "linear";
+  shown();
+});
 shown();
 
 form.addEventListener("submit", async (/** @type {SubmitEvent} */ event) => {

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import ShortTimeFFT
 
-from rths_engine.diagnosis.stretches import Stretches
+from rths_engine.recordings.excitation.stretches import Stretches
 
 RANDOM = np.random.default_rng(5)
 

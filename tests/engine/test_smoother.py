@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rths_engine.diagnosis.smoother import Smoother
 from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.excitation.smoother import Smoother
 
 DT = 1 / 256
 TIME = DT * np.arange(16 * 256)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import binary_dilation, binary_propagation, uniform_filter
 
-from rths_engine.diagnosis.stretches import Stretches
 from rths_engine.foundation.arrays import Array
+from rths_engine.recordings.excitation.stretches import Stretches
 
 # chosen; see docs/decisions/0023
 STRETCH = 2.0  # s, duration of the spectrum of a stretch
