@@ -53,6 +53,8 @@ def groups(title: str, part: BaseModel, test: str = "", leave_out: Sequence[str]
                 own.rows.append(Row(label, _name(value)))
         elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
             own.grids.append(_grid(label, value))
+        elif isinstance(value, dict):
+            own.rows += [Row(f"{label}: {path}", how) for path, how in value.items()]
         elif isinstance(value, tuple) and value and isinstance(value[0], tuple) and len(value[0]) <= _LISTED:
             own.grids.append(_matrix(label, value, info))
         elif value is not None and value != ():

@@ -52,7 +52,7 @@ def numbers(component: Component, parts: Sequence[Part]) -> list[Number]:
     found = []
     for owner, part in enumerate(parts):
         planned = component.base[owner] if owner < base else None
-        for number in _of(owner, part, planned, None if planned is None else component.spread(planned)):
+        for number in _of(owner, part, planned, component):
             if planned is None or isinstance(planned, Effect | Loose) or getattr(planned, number.field) != 0.0:
                 found.append(number)
     return found
@@ -71,7 +71,7 @@ def moved(parts: Sequence[Part], free: Sequence[Number], z: Array) -> list[Part]
     return [part.model_copy(update=change) if change else part for part, change in zip(parts, changes, strict=True)]
 
 
-def _of(owner: int, part: Part, planned: Part | None, spread: float | None) -> Iterator[Number]:
+def _of(owner: int, part: Part, planned: Part | None, component: Component) -> Iterator[Number]:
     held = physics.SEARCHES[type(part)].held if isinstance(part, Effect) else ()
     for name, field in type(part).model_fields.items():
         if field.annotation is not float or name in held:
@@ -90,6 +90,7 @@ def _of(owner: int, part: Part, planned: Part | None, spread: float | None) -> I
         if logarithmic:
             low = max(low, SMALLEST)
         number = Number(owner, name, low, high, scale, logarithmic, 0.0, math.inf)
+        spread = None if planned is None else component.spread(planned, name)
         if planned is not None and spread is not None:
             number = replace(number, planned=number.to_z(float(getattr(planned, name))), spread=spread)
         yield number

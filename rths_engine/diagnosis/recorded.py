@@ -96,15 +96,15 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
         x, force = _moving(recording, "x_meas", number), _moving(recording, "f_meas", number)
         command = _command(plan, station, recording, number)
         if x is not None and command is not None and _same_rate(plan, recording):
-            moved = Actuator(f"actuator:{number}", (station.actuator, *station.actuator_physics))
+            moved = Actuator(f"actuator:{number}", (station.actuator, *station.actuator_physics), known=plan.known)
             found.append((moved, ActuatorData(*base, command, x, force, isinstance(station.actuator, VelocityDrive))))
         if force is not None and x is not None:
-            pressed = Specimen(f"specimen:{number}", (station.specimen, *station.specimen_physics, *skew))
+            pressed = Specimen(f"specimen:{number}", (station.specimen, *station.specimen_physics, *skew), known=plan.known)
             current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))
             found.append((pressed, SpecimenData(*base, x, force, current)))
         if force is not None and x is None and command is not None:
             planned = (station.actuator, station.specimen, *station.actuator_physics, *station.specimen_physics, *skew)
-            chain = Chain(f"specimen:{number}", planned)
+            chain = Chain(f"specimen:{number}", planned, known=plan.known)
             found.append((chain, ChainData(*base, command, command, force)))
     return found
 

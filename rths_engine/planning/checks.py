@@ -12,6 +12,7 @@ from rths_engine.foundation.errors import Issue
 from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.planning.excitation import Drive
 from rths_engine.planning.kinds_of_test import DRIVEN
+from rths_engine.planning.known import issues_of_known
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 
@@ -27,6 +28,7 @@ def issues(model: Model) -> Iterator[Issue]:
     yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(model))
     yield from _names(plan)
     yield from _capacity(plan)
+    yield from issues_of_known(plan)
 
 
 def _too_long(plan: Plan) -> Iterator[Issue]:

@@ -23,6 +23,7 @@ from rths_engine.parts.structures import Structure
 from rths_engine.parts.structures.no_structure import NoStructure
 from rths_engine.planning.excitation import Drive, FloorForce, Start
 from rths_engine.planning.kinds_of_test import DRIVEN, TESTS
+from rths_engine.planning.known import HOW, How
 from rths_engine.planning.motion import NoMotion, PlannedMotion
 from rths_engine.planning.safety import Limits
 
@@ -122,6 +123,13 @@ class Plan(Value):
     motion_physics: tuple[InputEffect, ...] = Field(
         (), title="Errors of the ground motion", max_length=8, json_schema_extra=COMPUTED
     )
+    known: dict[str, How] = Field(
+        {},
+        title="How well the numbers are known",
+        max_length=200,
+        description="Diagnoses refit a number within the tolerance that its statement gives. Runs do not use it.",
+        json_schema_extra={"titles": {**HOW}},
+    )
     seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
     duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: duration of the excitation")
     pace: Pace = Field(Fastest(), title="Pace")
@@ -132,7 +140,7 @@ class Plan(Value):
     @property
     def digest(self) -> str:
         """Hex SHA-256 over the canonical JSON of everything that decides the result."""
-        decisive = self.model_dump(mode="json", by_alias=True, exclude={"name", "notes", "template", "pace"})
+        decisive = self.model_dump(mode="json", by_alias=True, exclude={"name", "notes", "template", "pace", "known"})
         return hashlib.sha256(json.dumps(decisive, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
     @property

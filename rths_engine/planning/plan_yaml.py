@@ -64,6 +64,8 @@ def _commented(value: Any) -> Any:
             if isinstance(extra, dict) and extra.get("unit", "1") != "1" and isinstance(result[key], float):
                 result.yaml_add_eol_comment(_comment(result[key], str(extra["unit"]), str(extra["shown"])), key)
         return result
+    if isinstance(value, dict):
+        return CommentedMap(value)
     if isinstance(value, tuple):
         items = CommentedSeq(_commented(item) for item in value)
         if all(isinstance(item, float) for item in value):

@@ -83,8 +83,9 @@ class Actuator(Component):
 
     output: ClassVar[str] = "displacement"
 
-    def spread(self, part: Part) -> float | None:
-        return TOLERANCE
+    def spread(self, part: Part, field: str = "") -> float | None:
+        stated = self.stated("actuator", "" if isinstance(part, Effect) else field)
+        return TOLERANCE if stated is None else stated
 
     def predicted(self, parts: Sequence[Any], data: ActuatorData) -> Array:
         return data.reduced(self.moved(parts, data)[None])

@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from rths_engine.diagnosis.components.actuator import TOLERANCE, ActuatorData
-from rths_engine.diagnosis.components.component import Component, Feature, Signal, guessed
+from rths_engine.diagnosis.components.component import Component, Feature, Loose, Signal, guessed
 from rths_engine.diagnosis.components.features import of_motion, of_position
-from rths_engine.diagnosis.components.specimen import SENSORS, SPREADS, pressed, settled
+from rths_engine.diagnosis.components.specimen import SENSORS, loose_spread, pressed, settled
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
@@ -34,8 +34,12 @@ class Chain(Component):
 
     output: ClassVar[str] = "force"
 
-    def spread(self, part: Part) -> float | None:
-        return TOLERANCE if part in self.base[:1] else SPREADS.get(type(part))
+    def spread(self, part: Part, field: str = "") -> float | None:
+        if isinstance(part, Loose):
+            return loose_spread(self, part)
+        moving = part in self.base[:1] or isinstance(part, physics.ACTUATOR)
+        stated = self.stated("actuator" if moving else "specimen", "" if isinstance(part, Effect) else field)
+        return TOLERANCE if stated is None and part in self.base[:1] else stated
 
     def predicted(self, parts: Sequence[Any], data: ChainData) -> Any:
         resisting, x, current = _between(parts, data)

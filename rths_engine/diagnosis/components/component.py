@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
@@ -18,6 +18,7 @@ from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import Reading
+from rths_engine.planning.known import How, station_tolerance
 
 # chosen; see docs/decisions/0023
 REPLAY_RATE = 1024.0  # Hz
@@ -136,14 +137,21 @@ class Feature(NamedTuple):
 
 @dataclass(frozen=True)
 class Component(ABC):
-    """A component that is simulated alone. `base` are the planned parts; `spread` gives the tolerance of their parameters."""
+    """A component that is simulated alone. `base` are the planned parts; `spread` gives the tolerance of their parameters.
+
+    `known` states how well the numbers of the plan are known, by path.
+    """
 
     name: str
     base: tuple[Part, ...]
+    known: Mapping[str, How] = field(default_factory=dict, kw_only=True)
     output: ClassVar[str]
 
-    def spread(self, part: Part) -> float | None:
-        """The tolerance of a planned part's parameters: the relative standard deviation, or None where they are free."""
+    def spread(self, part: Part, field: str = "") -> float | None:
+        """The tolerance of a planned parameter: its relative standard deviation, or None where it is free.
+
+        `field` is the name of the parameter in the part. What the plan states about the number comes before the default.
+        """
         return None
 
     @abstractmethod
@@ -173,6 +181,10 @@ class Component(ABC):
     def present(self, parts: Sequence[Part]) -> set[tuple[type[Part], int]]:
         """Keys of the effects that the model already contains, which need no hypothesis."""
         return {key(part) for part in parts if isinstance(part, Effect)}
+
+    def stated(self, section: str, field: str = "") -> float | None:
+        """The tolerance that the plan states for a section of the component's station, or for a field in it."""
+        return station_tolerance(self.known, int(self.station or 1) - 1, section, field)
 
     @property
     def station(self) -> str:

@@ -141,6 +141,12 @@ class StepError(Loose):
 SPREADS: dict[type[Part], float] = {ClockSkew: 0.25, StepError: 0.25}  # ms; of the difference
 
 
+def loose_spread(component: Component, part: Loose) -> float | None:
+    """The tolerance of a nuisance parameter of a force: the clock skew or the step error."""
+    stated = component.stated("clock") if isinstance(part, ClockSkew) else None
+    return SPREADS.get(type(part)) if stated is None else stated
+
+
 @dataclass(frozen=True)
 class Specimen(Component):
     """The specimen of a station: displacement -> force.
@@ -150,8 +156,10 @@ class Specimen(Component):
 
     output: ClassVar[str] = "force"
 
-    def spread(self, part: Part) -> float | None:
-        return SPREADS.get(type(part))
+    def spread(self, part: Part, field: str = "") -> float | None:
+        if isinstance(part, Loose):
+            return loose_spread(self, part)
+        return self.stated("specimen", "" if isinstance(part, Effect) else field)
 
     def predicted(self, parts: Sequence[Any], data: SpecimenData) -> Array:
         return pressed(parts, data.fine, data.current, data)

@@ -20,10 +20,12 @@ from rths_engine.parts.integrators.cr import CrIntegrator
 from rths_engine.parts.physics.effect import GROUND, MATRICES, Effect
 from rths_engine.parts.physics.search import Seen, trend
 from rths_engine.parts.physics.structure.damping_error import DampingError
+from rths_engine.parts.physics.structure.mass_error import MassError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.parts.structures.assembled import Assembled
 from rths_engine.planning.excitation import FloorForce, Start
+from rths_engine.planning.known import structure_tolerance
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.running import replay
@@ -64,6 +66,7 @@ class AddedDamping(NamedTuple):
 
 # chosen; see docs/decisions/0023
 TOLERANCES: dict[type[Part], float] = {StiffnessError: 0.03, DampingError: 0.2, ModeDamping: 0.03}
+QUANTITIES = {MassError: "mass", StiffnessError: "stiffness", DampingError: "damping", ModeDamping: "mode"}
 
 
 class Zero(Loose):
@@ -109,8 +112,10 @@ class Structure(Component):
     plan: Plan
     output: ClassVar[str] = "motion of the floors"
 
-    def spread(self, part: Part) -> float | None:
-        return TOLERANCES.get(type(part))
+    def spread(self, part: Part, field: str = "") -> float | None:
+        quantity = QUANTITIES.get(type(part))
+        stated = structure_tolerance(self.plan.known, quantity) if quantity else None
+        return TOLERANCES.get(type(part)) if stated is None else stated
 
     def predicted(self, parts: Sequence[Any], data: StructureData) -> Array:
         zeros = {part.floor: part.displacement for part in parts if isinstance(part, Zero)}
@@ -243,15 +248,17 @@ class Structure(Component):
 def based(plan: Plan, released: bool, read: Sequence[int]) -> tuple[Part, ...]:
     """The base parts of a structure, whose parameters are fitted within tolerances.
 
-    They are the stiffness error of each storey and the damping errors, also of higher modes. A `released` structure also has
-    the corrections of the start and the zeros of the floor displacements that were `read`.
+    They are the stiffness error of each storey and the damping errors, also of higher modes. Where the plan states how well the
+    mass is known, the mass error of each floor follows. A `released` structure also has the corrections of the start and the
+    zeros of the floor displacements that were `read`.
     """
     floors = range(1, len(plan.structure.assemble().floors) + 1)
     stiff = [StiffnessError(storey=storey) for storey in floors]
     damped = (DampingError(), *(ModeDamping(mode=mode) for mode in range(2, min(FEW_MODES, len(stiff)) + 1)))
+    heavy = [MassError(storey=storey) for storey in floors] if "structure.mass" in plan.known else []
     if not released:
-        return (*stiff, *damped)
-    return (*stiff, *damped, *(Release(floor=floor) for floor in floors), *(Zero(floor=floor) for floor in read))
+        return (*stiff, *damped, *heavy)
+    return (*stiff, *damped, *heavy, *(Release(floor=floor) for floor in floors), *(Zero(floor=floor) for floor in read))
 
 
 def _drifts(x: Array) -> Array:

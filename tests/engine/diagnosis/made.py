@@ -110,7 +110,7 @@ class Linear(Component):
     share: float | None = None
     waves: int = len(SHAPES)
 
-    def spread(self, part: Part) -> float | None:
+    def spread(self, part: Part, field: str = "") -> float | None:
         return self.share
 
     def predicted(self, parts: Sequence[Any], data: Driven) -> Array:

@@ -1,6 +1,7 @@
 // @ts-check
 import { el, htmlElements } from "../dom.js";
 import { drivePart } from "./drive.js";
+import { knownPart } from "./known.js";
 import { motionPart } from "./motion.js";
 import { part, usedIn } from "./parts.js";
 
@@ -15,6 +16,7 @@ const SECTIONS = [
   { title: "Structure", names: ["structure", "structure_physics"] },
   { title: "Integration and controller", names: ["integrator", "controller_rate"] },
   { title: "Stations: actuator, specimen, compensator, limits", names: ["stations"] },
+  { title: "How well the numbers are known", names: ["known"] },
   { title: "Duration, pace and seed", names: ["duration", "pace", "seed"] },
 ];
 const KEPT = ["schema", "template"];
@@ -63,6 +65,7 @@ export class PlanForm {
   #part(node, name, value) {
     if (name === "motion") return motionPart(this.schema, node, value, this.records);
     if (name === "drive") return drivePart(this.schema, node, value ?? this.schema.initial(node), () => this.read());
+    if (name === "known") return knownPart(this.schema, node, value ?? {}, () => this.parts.get("stations")?.read() ?? []);
     return part(this.schema, node, name, value ?? this.schema.initial(node));
   }
 
