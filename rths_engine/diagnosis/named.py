@@ -12,7 +12,9 @@ from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.diagnosis.separate import separation
 from rths_engine.diagnosis.unknown import Law
+from rths_engine.foundation import units
 from rths_engine.parts import physics
+from rths_engine.parts.physics import wording
 from rths_engine.parts.physics.effect import Effect
 
 
@@ -88,11 +90,12 @@ def _declared(effect: Effect, name: str) -> dict[str, Any]:
     field = type(effect).model_fields[name]
     extra = field.json_schema_extra
     extra = extra if isinstance(extra, dict) else {}
+    shown = wording.fitting(getattr(effect, name), str(extra.get("shown", "1")))
     return {
         "unit": str(extra.get("unit", "1")),
         "label": str(field.title or name),
-        "shown": str(extra.get("shown_label", "")),
-        "factor": extra.get("factor", 1.0),
+        "shown": units.pretty(shown),
+        "factor": units.factor(shown),
     }
 
 

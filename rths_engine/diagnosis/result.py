@@ -32,7 +32,7 @@ def verdict_of(
     worst = max(judged, key=lambda one: (ORDER.index(one.verdict), one.gain))
     wrong = [one for one in digital if one.differs]
     chosen = worst.selection.chosen
-    near = alike(worst.recordings, chosen, worst.selection.tried) if worst.effects else []
+    near = alike(worst.recordings, chosen, worst.selection.tried, worst.selection.chances) if worst.effects else []
     beyond = worst.verdict == "mismatch" and worst.selection.detections[-1].p_general <= level
     remains = law(worst.recordings, chosen) if beyond or worst.verdict == "undetermined" else None
     ranked = sorted(judged, key=lambda one: -one.gain)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rths_engine.foundation import units
-from rths_engine.parts.physics.wording import SCALES, lost, said
+from rths_engine.parts.physics.wording import SCALES, fitting, lost, said
 
 
 @pytest.mark.parametrize(
@@ -37,3 +37,9 @@ def test_each_scale_holds_units_of_one_dimension_from_small_to_large() -> None:
         assert len({units.UNITS[unit][0] for unit in scale}) == 1
         factors = [units.factor(unit) for unit in scale]
         assert factors == sorted(factors)
+
+
+def test_a_parameter_is_shown_in_its_own_unit_while_that_gives_a_short_number() -> None:
+    assert [fitting(value, "1/MJ") for value in (5.8e-7, 0.0, 1.84e-3, 1.84e-2)] == ["1/MJ", "1/MJ", "1/MJ", "1/kJ"]
+    assert fitting(1.37e-7, "1/kN") == "1/MN"
+    assert fitting(1e-5, "%") == "%"  # a share has no other unit

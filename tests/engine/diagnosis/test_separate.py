@@ -57,6 +57,14 @@ def test_models_are_alike_where_their_lambda_is_below_ten() -> None:
         assert all(apart < APART and model is not best for model, apart in found)
 
 
+def test_a_rival_that_is_likely_is_alike_whatever_its_distance() -> None:
+    """Measured tests have errors beyond the noise: probabilities count them, lambda does not."""
+    used = recordings(linear(), noisy([Gain(), Wave(size=0.5, storey=1)], 4))
+    fits = tuple(fit(used, [Gain(), Wave(size=0.1, storey=storey)]) for storey in (1, 4))
+    assert [model for model, _ in alike(used, fits[0], fits, (0.6, 0.4))] == [fits[1]]
+    assert alike(used, fits[0], fits, (0.96, 0.04)) == []
+
+
 def test_models_of_other_counts_of_effects_or_far_behind_are_no_rivals() -> None:
     used = recordings(linear(), noisy([Gain(), Wave(size=0.02, storey=1)], 5))
     best, plain, both = (fit(used, [Gain(), *(Wave(size=0.02, storey=one) for one in waves)]) for waves in ((1,), (), (1, 4)))
