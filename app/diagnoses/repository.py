@@ -23,5 +23,5 @@ class DiagnosisRepository(JobRepository[Diagnosis]):
     def extended(self, limit: int) -> list[Diagnosis]:
         """The newest diagnoses whose verdict has an extended plan."""
         plan = Diagnosis.verdict["extended_plan"].as_string()
-        query = sa.select(Diagnosis).where(Diagnosis.found == "mismatch", plan.is_not(None), plan != "null")
+        query = sa.select(Diagnosis).where(Diagnosis.found == "mismatch", plan.is_not(None))
         return list(self.session.scalars(query.order_by(Diagnosis.number.desc()).limit(limit)))

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from app.documents.markdown import code, table
+from app.reports.digits import CHANCES
 from rths_engine.diagnosis.schema import Form, Pictures, Verdict
 
 HEADS = ("field", "type", "unit", "meaning")
@@ -19,6 +20,11 @@ Row = tuple[str, str, str, str]
 def verdict_fields() -> str:
     """Every field of `rths-diagnosis/1`."""
     return table(HEADS, _rows(Verdict))
+
+
+def chances() -> str:
+    """The words for probabilities, and the smallest probability of each."""
+    return table(("words", "from"), [(words, f"{least:g}") for least, words in CHANCES])
 
 
 def pictures_fields() -> str:

@@ -17,6 +17,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "measures of floors and tests": outputs.measures_of_tests,
     "glossary": outputs.terms,
     "fields of a verdict": diagnosis.verdict_fields,
+    "probabilities in words": diagnosis.chances,
     "fields of the plots": diagnosis.pictures_fields,
     "structures": lambda: parts.kinds(structures.KINDS),
     "integrators": lambda: parts.kinds(integrators.KINDS),

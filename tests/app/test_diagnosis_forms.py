@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
-from sqlalchemy import update
+from sqlalchemy import select, update
 
 from app import db
+from app.diagnoses.service import DiagnosisService
 from app.models import Diagnosis
 from app.reports.diagnosis_tables import tables
 from app.reports.digits import NONE
@@ -96,3 +97,23 @@ def test_the_schemas_are_published_and_the_responses_typed_by_them(client: TestC
         typed = described["paths"][response]["get"]["responses"]["200"]["content"]["application/json"]["schema"]
         assert typed == {"$ref": f"#/components/schemas/{form.__name__}"}
         assert described["components"]["schemas"][form.__name__]["properties"].keys() == published["properties"].keys()
+
+
+def test_runs_with_another_excitation_are_not_plotted_and_can_be_queued_again(
+    client: TestClient, stored: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reason = "The ground motion differs by 132 % in the run A."
+    monkeypatch.setattr(DiagnosisService, "differences", lambda *_: reason)
+    with db.unit_of_work(client.app.state.sessions) as session:  # type: ignore[attr-defined]
+        extended = {**EARLIER, "extended_plan": session.scalar(select(Diagnosis.plan).where(Diagnosis.id == stored))}
+        session.execute(update(Diagnosis).where(Diagnosis.id == stored).values(verdict=extended))
+    text = client.get(f"/diagnoses/{stored}").text
+    assert reason in text and "different excitations" in text and 'id="simulate"' in text
+    answer = client.post(f"{URL}/{stored}/simulations", json={})
+    assert answer.status_code == 201, answer.text
+    again = client.post(URL, json={"recording": recording_of(client, stored), "extended_plan_of": stored})
+    assert again.status_code == 201, again.text
+
+
+def recording_of(client: TestClient, diagnosis: str) -> dict[str, str]:
+    return {"recording": client.get(f"{URL}/{diagnosis}").json()["recording"]["recording_id"]}

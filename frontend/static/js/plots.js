@@ -67,6 +67,9 @@
     text, x: (from + to) / 2, xref: "x", y: 1, yref: "paper", yanchor: "top", showarrow: false, font: { size: 10, color: theme.muted },
   }));
 
+  /** A long name of a row on two lines, so that it leaves room for the map. @param {string} name */
+  const twoLines = (name) => name.replace(/ (of|in) /, "<br>$1 ");
+
   /** @param {PlotSpec} spec @param {PlotTheme} theme @param {PlotSize} size */
   function layout(spec, theme, size) {
     const named = !spec.rows && spec.traces.length > 1;
@@ -77,7 +80,7 @@
       paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", dragmode: touch.matches ? false : "zoom", hovermode: "closest",
       barmode: "group", bargap: 0.35, shapes: shaded(spec.spans ?? [], theme), annotations: notes(spec.spans ?? [], theme),
       xaxis: axis(spec.x, theme, kind(spec, "x")),
-      yaxis: spec.rows ? axis("", theme, { tickvals: spec.rows.map((_, i) => i), ticktext: spec.rows.map((row) => row.name), range: [spec.rows.length - 0.5, -0.5], showgrid: false, zeroline: false }) : axis(spec.y, theme, kind(spec, "y")),
+      yaxis: spec.rows ? axis("", theme, { tickvals: spec.rows.map((_, i) => i), ticktext: spec.rows.map((row) => twoLines(row.name)), range: [spec.rows.length - 0.5, -0.5], showgrid: false, zeroline: false }) : axis(spec.y, theme, kind(spec, "y")),
     };
   }
 
