@@ -62,7 +62,7 @@ def _facts(given: Namespace) -> list[tuple[str, str]]:
 def _text(found: Verdict, names: Names) -> str:
     lines = [VERDICTS[found.verdict], *(_component(one, names) for one in found.components)]
     for effect in found.effects:
-        lines.append(f"{effect.sentence}{_said(effect.probability, found.replicated)}")
+        lines.append(f"{names.sentence(effect.sentence)}{_said(effect.probability, found.replicated)}")
     if found.effects:
         before, after = (_percent(one.heldout_nrmse) for one in (found.fit.baseline, found.fit.extended))
         lines.append(f"On held-out data the error changes from {before} to {after}.")

@@ -29,10 +29,8 @@ def claims(verdict: Verdict, names: Names) -> list[Claim]:
 
 
 def doubt(verdict: Verdict, names: Names) -> Facts:
-    """What speaks against the verdict: the remaining error, the missing replication, rejected effects, error rates."""
+    """What speaks against the verdict beside the remaining error: missing replication, rejected effects, error rates."""
     found: Facts = []
-    if verdict.remaining_share is not None:
-        found.append(("Remaining error", f"{_share(verdict.remaining_share)} of the held-out error beyond the noise"))
     proved = [one for one in verdict.effects if one.gain is not None]
     if proved:
         found.append(("Replication", _replication(verdict, any(one.other_motion for one in proved))))
@@ -47,7 +45,9 @@ def _claim(effect: NamedEffect, verdict: Verdict, names: Names) -> Claim:
     said = words(effect.probability, verdict.replicated)
     title = names.title(effect.component, effect.id)
     facts = [("Probability", f"{said}: {chance(effect.probability)}"), *_proof(effect)]
-    return Claim(f"Part of it: {title}" if effect.part_of_it else title, effect.sentence, said, effect.probability, facts)
+    return Claim(
+        f"Part of it: {title}" if effect.part_of_it else title, names.sentence(effect.sentence), said, effect.probability, facts
+    )
 
 
 def _proof(effect: NamedEffect) -> Facts:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from rths_engine.parts import physics
 from rths_engine.results.channels import CHANNELS
 
+_SENSOR = re.compile(r"\bsensor ([a-z]+_[a-z]+\.\d+)")
 ALONE = "The planned model without a left-out effect"
 SENSORS = {"x_meas": "displacement sensor", "f_meas": "load cell"}
 ENDINGS = (" of a storey", " of the actuator", " of the displacement sensor", " of the load cell", " of the ground motion")
@@ -57,6 +59,10 @@ class Names:
     def candidate(self, written: str) -> str:
         """The name of a candidate that is written as a list of effects, separated by commas."""
         return self.effects(written.split(", ") if written else [])
+
+    def sentence(self, text: str) -> str:
+        """A sentence of a verdict with the names of the sensors that it mentions: "sensor f_meas.1" is the load cell."""
+        return _SENSOR.sub(lambda found: self.component(f"sensor:{found[1]}"), text)
 
     def _at(self, number: str) -> str:
         place = int(number) - 1 if number.isdigit() else -1

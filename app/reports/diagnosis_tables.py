@@ -59,7 +59,7 @@ def tables(verdict: Verdict, plan: Mapping[str, Any]) -> Tables:
     names = Names.of(plan)
     named = claims(verdict, names)
     claimed = {one.sentence for one in named}
-    sentence, *others = [one.sentence for one in verdict.effects] or [VERDICTS[verdict.verdict]]
+    sentence, *others = [names.sentence(one.sentence) for one in verdict.effects] or [VERDICTS[verdict.verdict]]
     return Tables(
         kind=verdict.verdict,
         sentence=sentence,

@@ -20,8 +20,8 @@ CHANCES = (
 
 
 def short(value: float, digits: int = DIGITS) -> str:
-    """A number with at most four significant digits: `0.01234`, `1.84 × 10⁵`."""
-    shown = f"{value:.{digits}g}"
+    """A number rounded to `digits` significant digits, at most four: `0.01234`, `2850`, `1.84 × 10⁵`."""
+    shown = f"{float(f'{value:.{digits}g}'):.{DIGITS}g}"
     mantissa, _, power = shown.partition("e")
     return f"{mantissa} × 10{str(int(power)).translate(RAISED)}" if power else shown
 
