@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from app.reports.diagnosis_names import Names
+from app.reports.diagnosis_names import Names, capital
 from app.reports.digits import chance, percent, short, words
 from rths_engine.diagnosis.schema import Certificate, NamedEffect, Rate, RejectedEffect, Verdict
 
+PART = "Part of it: "  # begins the sentence of such an effect; on a page, its title
 NO_CLAIMS = ("unknown", "configuration_error")  # version 0.1.0 stored a probability for these too
 Facts = list[tuple[str, str]]
 
@@ -45,9 +46,10 @@ def _claim(effect: NamedEffect, verdict: Verdict, names: Names) -> Claim:
     said = words(effect.probability, verdict.replicated)
     title = names.title(effect.component, effect.id)
     facts = [("Probability", f"{said}: {chance(effect.probability)}"), *_proof(effect)]
-    return Claim(
-        f"Part of it: {title}" if effect.part_of_it else title, names.sentence(effect.sentence), said, effect.probability, facts
-    )
+    sentence = names.sentence(effect.sentence)
+    if effect.part_of_it:
+        title, sentence = f"{PART}{title}", capital(sentence.removeprefix(PART))
+    return Claim(title, sentence, said, effect.probability, facts)
 
 
 def _proof(effect: NamedEffect) -> Facts:

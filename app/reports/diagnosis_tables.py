@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from app.reports.diagnosis_claims import Claim, claims, doubt
+from app.reports.diagnosis_claims import PART, Claim, claims, doubt
 from app.reports.diagnosis_names import Names, capital
 from app.reports.digits import NONE, chance, percent, short
 from app.shown import VERDICTS
@@ -58,12 +58,12 @@ def tables(verdict: Verdict, plan: Mapping[str, Any]) -> Tables:
     """
     names = Names.of(plan)
     named = claims(verdict, names)
-    claimed = {one.sentence for one in named}
+    claimed = {capital(one.sentence) for one in named}
     sentence, *others = [names.sentence(one.sentence) for one in verdict.effects] or [VERDICTS[verdict.verdict]]
     return Tables(
         kind=verdict.verdict,
         sentence=sentence,
-        further=[one for one in others if one not in claimed],
+        further=[one for one in others if capital(one.removeprefix(PART)) not in claimed],
         claims=named,
         doubt=doubt(verdict, names),
         remaining=verdict.remaining_share,

@@ -104,7 +104,7 @@ def test_each_claim_stands_with_its_own_proof_and_what_remains_is_said_first(cle
     refused = {"component": "sensor:f_meas.1", "id": "offset", "contradicted": None, "reason": "Its interval holds zero.",
                "gain": 0.1, "gain_ci90": [-1.0, 1.2]}  # fmt: skip
     unknown = effect(id="unknown", probability=None, sentence="Most is unexplained.", parameters=[])
-    named = effect(sentence="Part of it: it plays.", part_of_it=True, **proof)
+    named = effect(sentence="Part of it: the damper plays.", part_of_it=True, **proof)
     verdict = with_claims(clean[0], effects=[unknown, named], remaining_share=0.62, rejected=[refused], certificate=CERTIFICATE)
     told = tables(verdict, PLAN)
     assert told.sentence == "Most is unexplained." and told.further == []
@@ -121,8 +121,8 @@ def test_each_claim_stands_with_its_own_proof_and_what_remains_is_said_first(cle
     assert doubt["Not named"].startswith("Offset (load cell of Damper). Its interval holds zero.")
     assert "0.5 % (0.1 to 1.8 %, 400 cases) false alarms" in doubt["Error rates"]
     html = report_html("Doubt", [], verdict, clean[1], PLAN)
-    assert html.index("Most is unexplained.") < html.index("Unexplained: 62 %") < html.index("Part of it: it plays.")
-    assert html.index("Part of it: it plays.") < html.index("Where recording and simulation differ")
+    assert html.index("Most is unexplained.") < html.index("Unexplained: 62 %") < html.index("The damper plays.")
+    assert html.index("The damper plays.") < html.index("Where recording and simulation differ")
 
 
 def test_candidates_are_sorted_by_probability_beside_the_chance_that_none_is_true(clean: tuple[Verdict, Pictures]) -> None:
