@@ -12,13 +12,13 @@ import pytest
 
 from app.documents.fields import name
 from app.documents.regions import documents
-from rths_engine.parts import actuators, compensators, integrators, physics, specimens, structures
+from rths_engine.parts import actuators, compensators, controllers, integrators, physics, specimens, structures
 from rths_engine.planning.shapes import SHAPES
 from tests.proof.generator.draw import KINDS as DRAWN
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-ROOMS = (structures, integrators, compensators, actuators, specimens)
+ROOMS = (structures, integrators, compensators, actuators, specimens, controllers)
 PARTS = [part for room in ROOMS for part in room.KINDS]
 TESTS = "\n".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "tests" / "engine").glob("test_*.py")))
 # which kinds of proof conceal the effects of a registry, and what the generator puts before their names

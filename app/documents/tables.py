@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.documents import commands, decisions, diagnosis, effects, formats, outputs, parts, rooms, routes, settings
-from rths_engine.parts import actuators, compensators, integrators, physics, specimens, structures
+from rths_engine.parts import actuators, compensators, controllers, integrators, physics, specimens, structures
 from rths_engine.planning.shapes import SHAPES
 
 TABLES: dict[str, Callable[[], str]] = {
@@ -24,6 +24,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "compensators": lambda: parts.kinds(compensators.KINDS),
     "actuators": lambda: parts.kinds(actuators.KINDS),
     "specimens": lambda: parts.kinds(specimens.KINDS),
+    "controllers": lambda: parts.kinds(controllers.KINDS),
     "shapes": lambda: parts.kinds(SHAPES),
     "safety limits": parts.limits,
     "effects of a specimen": lambda: effects.effects(physics.SPECIMEN),

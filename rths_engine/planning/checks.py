@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rths_engine.foundation.errors import Issue
+from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.planning.excitation import Drive
 from rths_engine.planning.kinds_of_test import DRIVEN
@@ -29,6 +30,7 @@ def issues(model: Model) -> Iterator[Issue]:
     yield from _names(plan)
     yield from _capacity(plan)
     yield from issues_of_known(plan)
+    yield from _commands(plan)
 
 
 def _too_long(plan: Plan) -> Iterator[Issue]:
@@ -186,3 +188,11 @@ def _capacity(plan: Plan) -> Iterator[Issue]:
             problem = f"allows {limit * 1e3:g} mm/s, more than the actuator's limit of {capacity * 1e3:g} mm/s"
             fix = "lower the limit to the actuator's capacity or choose a faster actuator"
             yield Issue(f"stations.{index}.limits.velocity", problem, limit, fix)
+
+
+def _commands(plan: Plan) -> Iterator[Issue]:
+    """Issues of specimens that follow a current which no controller commands."""
+    for index, station in enumerate(plan.stations):
+        if isinstance(station.specimen, Commanded) and station.controller.kind == "none":
+            problem = f"is none, but the specimen '{station.specimen.kind}' follows a current"
+            yield Issue(f"stations.{index}.controller", problem, "none", "choose a controller, for example a constant current")

@@ -13,6 +13,8 @@ from rths_engine.parts.actuators import Actuator
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.parts.compensators import Compensator
 from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.controllers import Controller
+from rths_engine.parts.controllers.no_control import NoControl
 from rths_engine.parts.integrators import Integrator
 from rths_engine.parts.integrators.cr import CrIntegrator
 from rths_engine.parts.physics import ActuatorEffect, InputEffect, SensorEffect, SpecimenEffect, StructureEffect
@@ -33,6 +35,9 @@ TESTED: dict[str, Any] = {"tests": ["hybrid", *DRIVEN], "one_in": [*DRIVEN]}
 ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}
 ONLY_HYBRID = ["hybrid"]
 MOST_STATIONS = 32
+ROOM = 293.15  # K
+# fields of a station that earlier plans do not have, with the value under which they leave the digest of a plan unchanged
+ADDED: dict[str, Any] = {"controller": {"kind": "none"}, "coil_resistance": None, "temperature": ROOM}
 
 
 class Noise(Value):
@@ -57,6 +62,11 @@ class Station(Value):
     compensator: Compensator = Field(AdaptiveInverseCompensation(), title="Delay compensator")
     actuator: Actuator = Field(FirstOrderDelay(), title="Actuator")
     specimen: Specimen = Field(MrDamper(), title="Specimen")
+    controller: Controller = Field(NoControl(), title="Controller of the current")
+    coil_resistance: float | None = quantity(
+        "Coil resistance", "ohm", gt=0, le=1e6, default=None, help="empty: 1 ohm; converts a recorded coil voltage to a current"
+    )
+    temperature: float = quantity("Temperature of the specimen", "K", gt=0, le=2000, default=ROOM, help="293.15 K is 20 °C")
     noise: Noise = Field(Noise(), title="Sensor noise")
     limits: Limits = Field(Limits(), title="Safety limits")
     actuator_physics: tuple[ActuatorEffect, ...] = Field((), title="Left-out physics of the actuator", max_length=8)
@@ -64,9 +74,10 @@ class Station(Value):
     sensor_physics: tuple[SensorEffect, ...] = Field((), title="Errors of the sensors", max_length=8)
 
     @property
-    def rig(self) -> tuple[Part, Part, Part]:
-        """Compensator, actuator and specimen as they are built, with the effects that change a part."""
-        return self.compensator, amended(self.actuator, self.actuator_physics), amended(self.specimen, self.specimen_physics)
+    def rig(self) -> tuple[Part, Part, Part, Part]:
+        """Compensator, actuator, specimen and controller as they are built, with the effects that change a part."""
+        moved, pressed = amended(self.actuator, self.actuator_physics), amended(self.specimen, self.specimen_physics)
+        return self.compensator, moved, pressed, self.controller
 
     @property
     def physics(self) -> tuple[Effect, ...]:
@@ -141,6 +152,9 @@ class Plan(Value):
     def digest(self) -> str:
         """Hex SHA-256 over the canonical JSON of everything that decides the result."""
         decisive = self.model_dump(mode="json", by_alias=True, exclude={"name", "notes", "template", "pace", "known"})
+        for station in decisive["stations"]:
+            for name in [name for name, default in ADDED.items() if station[name] == default]:
+                del station[name]
         return hashlib.sha256(json.dumps(decisive, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
     @property

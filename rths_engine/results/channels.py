@@ -12,7 +12,7 @@ from typing import Any, Literal
 from rths_engine.foundation import units
 from rths_engine.planning.loads import pushed
 from rths_engine.planning.model import Model
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.plan import Plan, Station
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,8 @@ CHANNELS: dict[str, Role] = {
     "x_meas": Role("Measured displacement", "d_m", "m", "mm", "station", "displacement that the sensor reads"),
     "v_meas": Role("Measured velocity", "v_m", "m/s", "mm/s", "station", "velocity that the sensor reads"),
     "f_meas": Role("Measured force", "r", "N", "kN", "station", "force of one specimen that the load cell reads"),
-    "current": Role("Current", "I", "A", "A", "station", "electric current in the specimen"),
+    "current": Role("Current", "I", "A", "A", "station", "electric current that is commanded to the specimen or measured in it"),
+    "voltage": Role("Coil voltage", "U", "V", "V", "station", "voltage on the coil of the specimen, without a measured current"),
     "temperature": Role("Temperature", "T", "K", "degC", "station", "temperature of the specimen"),
     "x_floor": Role("Floor displacement", "x", "m", "mm", "floor", "displacement of a floor relative to the ground"),
     "v_floor": Role("Floor velocity", "v", "m/s", "mm/s", "floor", "velocity of a floor relative to the ground"),
@@ -84,7 +85,7 @@ RECORDED = (
     "ti",
     "d_alpha",
     "energy_error",
-)  # of a station, in the loop's order
+)  # of a station, in the loop's order; the current follows where a controller commands it
 
 INPUTS, FLOORS = ("ag", "force_ext"), ("x_floor",)  # what moves a structure, and how it moves
 
@@ -153,8 +154,13 @@ def channels(planned: Plan | Model) -> tuple[Channel, ...]:
         floors = len(model.built.floors)
         found += [Channel("x_floor", floor, f"Floor {floor} displacement") for floor in range(1, floors + 1)]
     for number, station in enumerate(plan.stations, start=1):
-        found += [Channel(role, number, f"{station.name}: {CHANNELS[role].label}") for role in RECORDED]
+        found += [Channel(role, number, f"{station.name}: {CHANNELS[role].label}") for role in recorded(station)]
     return tuple(found)
+
+
+def recorded(station: Station) -> tuple[str, ...]:
+    """The roles that a run records of a station, in the loop's order."""
+    return RECORDED if station.controller.kind == "none" else (*RECORDED, "current")
 
 
 def columns(channels: tuple[Channel, ...], *roles: str) -> list[int]:

@@ -8,12 +8,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rths_engine.foundation.kernel import compiled, fold, named
-from rths_engine.parts import actuators, compensators, physics, specimens
+from rths_engine.parts import actuators, compensators, controllers, physics, specimens
 from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.specimens.commanded import Commanded
 
 compensate = fold([part.step for part in compensators.KINDS])
 actuate = fold([part.step for part in actuators.KINDS])
 resist = fold([part.step for part in specimens.KINDS])
+command = fold([part.step for part in controllers.KINDS])
+
+
+def _without_command(p, s, w, dt):
+    """The step of a specimen that has no command of its own."""
+
+
+energise = fold([part.energise if issubclass(part, Commanded) else _without_command for part in specimens.KINDS])
 
 
 class Effects(NamedTuple):

@@ -18,7 +18,9 @@ from rths_engine.parts.structures.assembled import Members
 from rths_engine.results.channels import RECORDED
 from rths_engine.running.dispatch import (
     actuate,
+    command,
     compensate,
+    energise,
     extend_actuator,
     extend_sensor,
     extend_specimen,
@@ -34,8 +36,9 @@ from rths_engine.running.solve import solve
 # memory of a station between substeps
 X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, X_TRUE, V_TRUE, X_SENT, X_END, WAVES = range(13)
 MEMORY = WAVES + SIZE  # the last ones are oscillation.half_waves'
+WIDTH = len(RECORDED)  # columns of every station; the current of a controller follows them
 # parts of a station
-COMPENSATOR, ACTUATOR, SPECIMEN = range(3)
+COMPENSATOR, ACTUATOR, SPECIMEN, CONTROLLER = range(4)
 
 
 @compiled
@@ -76,10 +79,11 @@ class Setup(NamedTuple):
     drifts: Any  # L (S, DOF)
     drive: Any  # (steps + 1, S), added to L x
     dampers: Any  # number of equal dampers that a station represents (S)
-    codes: Any  # part codes (S, 3)
-    parameters: Any  # (3, S, widest)
+    codes: Any  # part codes (S, 4)
+    parameters: Any  # (4, S, widest)
     limits: Any  # (S, 4), in the order of safety.LIMITS
     noise: Any  # (Q, S, 2)
+    columns: Any  # first and last column + 1 of the stations in a row of signals (S, 2)
 
 
 class State(NamedTuple):
@@ -89,7 +93,7 @@ class State(NamedTuple):
     v: Any  # (DOF)
     carry: Any  # c of the scheme (DOF)
     plastic: Any  # plastic curvature (members, 3)
-    parts: Any  # (3, S, widest)
+    parts: Any  # (4, S, widest)
     memory: Any  # (S, MEMORY)
 
 
@@ -111,7 +115,7 @@ class Record(NamedTuple):
 
 
 @compiled
-def _extended_rig(j, setup, state, left_out, x_comp, noise, t):
+def _extended_rig(j, setup, state, left_out, x_comp, current, noise, t):
     """The readings of station j: its actuator, specimen and sensors with their effects (`physics.effect`)."""
     memory, dt, effects = state.memory[j], setup.dt, own(left_out.stations, j)
     codes, parameters, parts = setup.codes[j], setup.parameters, state.parts
@@ -124,7 +128,7 @@ def _extended_rig(j, setup, state, left_out, x_comp, noise, t):
     flexibility = extend_specimen(SERIES, effects, 0.0, x, v, force, t, dt)
     own_state = parts[SPECIMEN, j]
     u, force = resisted(codes[SPECIMEN], parameters[SPECIMEN, j], own_state, flexibility, u, dt, own_state.copy(), force)
-    force = extend_specimen(FORCE, effects, force, u, (u - memory[X_END]) / dt, 1.0, t, dt)
+    force = extend_specimen(FORCE, effects, force, u, (u - memory[X_END]) / dt, current, t, dt)
     memory[X_TRUE], memory[V_TRUE], memory[X_SENT], memory[X_END], memory[F_TRUE] = x, v, sent, u, force
     x_meas = extend_sensor(X_SENSOR, effects, x + noise[0], x, v, x, t, dt)
     f_meas = extend_sensor(F_SENSOR, effects, force + noise[1], x, v, force, t, dt)
@@ -147,8 +151,12 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
     adapted = parts[COMPENSATOR, j]
     x_last, x_meas_last, ti = memory[X_CMD], memory[X_MEAS], memory[TI]
     x_comp = compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], adapted, x_cmd, x_last, x_meas_last, ti, dt)
+    current = command(
+        codes[CONTROLLER], parameters[CONTROLLER, j], parts[CONTROLLER, j], x_cmd, velocity, memory[F_MEAS], dt
+    )
+    energise(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], current, dt)
     if left_out is not None:
-        x_meas, f_meas = _extended_rig(j, setup, state, left_out, x_comp, noise, time)
+        x_meas, f_meas = _extended_rig(j, setup, state, left_out, x_comp, current, noise, time)
     else:
         x_true = actuate(codes[ACTUATOR], parameters[ACTUATOR, j], parts[ACTUATOR, j], x_comp, memory[F_TRUE])
         f_true = resist(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], x_true, dt)
@@ -158,6 +166,8 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
     track(memory, x_cmd, x_meas, f_meas)
     row[0], row[1], row[2], row[3] = x_cmd, x_comp, x_meas, f_meas
     row[4], row[5], row[6], row[7] = x_cmd - x_meas, memory[TI], adapted[0], memory[ENERGY_ERROR]
+    if row.size > WIDTH:
+        row[WIDTH] = current
     if not _within(f_meas, limits[2]):
         return 3, f_meas
     return 0, 0.0
@@ -213,15 +223,15 @@ def integrate(i, setup, state, left_out, residual, work, x_next):
 def advance(first, last, setup, state, left_out, record):
     """Integration steps first to last - 1. Returns 0 or the exceeded limit's position plus 1, and the substeps recorded."""
     x, n, floors, inputs = state.x, setup.n, setup.floors, setup.loads.shape[0]
-    stations, width = setup.dampers.size, len(RECORDED)
-    residual, work, x_next, command = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
+    stations = setup.dampers.size
+    residual, work, x_next, ends = np.empty(x.size), np.empty(x.size), np.empty(x.size), np.empty((stations, 2))
     for i in range(first, last):
         integrate(i, setup, state, left_out, residual, work, x_next)
         for j in range(stations):
-            command[j, 0], command[j, 1] = setup.drive[i, j], setup.drive[i + 1, j]
+            ends[j, 0], ends[j, 1] = setup.drive[i, j], setup.drive[i + 1, j]
             for a in range(x.size):
-                command[j, 0] += setup.drifts[j, a] * x[a]
-                command[j, 1] += setup.drifts[j, a] * x_next[a]
+                ends[j, 0] += setup.drifts[j, a] * x[a]
+                ends[j, 1] += setup.drifts[j, a] * x_next[a]
         for q in range(1, n + 1):
             done = i * n + q - 1
             share = q / n
@@ -232,9 +242,8 @@ def advance(first, last, setup, state, left_out, record):
                 a = floors[f]
                 row[inputs + f] = x[a] + share * (x_next[a] - x[a])
             for j in range(stations):
-                x_cmd = command[j, 0] + share * (command[j, 1] - command[j, 0])
-                start = inputs + floors.size + j * width
-                time, own_row = (done + 1) * setup.dt, row[start : start + width]
+                x_cmd = ends[j, 0] + share * (ends[j, 1] - ends[j, 0])
+                time, own_row = (done + 1) * setup.dt, row[setup.columns[j, 0] : setup.columns[j, 1]]
                 broken, value = _substep(j, setup, state, left_out, x_cmd, setup.noise[done, j], time, own_row)
                 if broken > 0:
                     record.trip[0], record.trip[1] = j, value

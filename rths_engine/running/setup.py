@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.parts import actuators, compensators, controllers, specimens
 from rths_engine.parts.physics.effect import STOREY
 from rths_engine.parts.physics.structure.storey import OfStorey, drift, stiffness
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS
+from rths_engine.results.channels import recorded
 from rths_engine.running import loop
 from rths_engine.running.dispatch import effects as effects_of
 from rths_engine.running.dispatch import stacked
@@ -22,7 +23,7 @@ from rths_engine.running.restoring import rows
 
 
 def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop.Setup, Array]:
-    """The constant data of a run, and the start states of the stations' parts (3, stations, widest).
+    """The constant data of a run, and the start states of the stations' parts (4, stations, widest).
 
     inputs (steps + 1, I), drive (steps + 1, stations), noise (substeps, stations, 2).
     """
@@ -50,15 +51,16 @@ def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop
         parameters=parameters,
         limits=np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS)),
         noise=noise,
+        columns=_columns(plan, len(model.loads) + len(built.floors)),
     )
     return held, parts
 
 
-_SLOTS: tuple[Sequence[Any], ...] = (compensators.KINDS, actuators.KINDS, specimens.KINDS)  # in the order of Station.rig
+_SLOTS: tuple[Sequence[Any], ...] = (compensators.KINDS, actuators.KINDS, specimens.KINDS, controllers.KINDS)  # as Station.rig
 
 
 def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
-    """Codes (stations, 3), parameters and states (3, stations, widest) of the stations' parts."""
+    """Codes (stations, 4), parameters and states (4, stations, widest) of the stations' parts."""
     stations = len(plan.stations)
     codes = np.zeros((stations, len(_SLOTS)), dtype=np.int64)
     built: list[list[tuple[Array, Array]]] = [[] for _ in _SLOTS]
@@ -68,6 +70,12 @@ def _built(plan: Plan) -> tuple[NDArray[np.int64], Array, Array]:
             codes[j, slot] = kinds.index(type(part))
             built[slot].append(part.build(plan.substep))
     return codes, _padded(built, 0), _padded(built, 1)
+
+
+def _columns(plan: Plan, first: int) -> NDArray[np.int64]:
+    """The first and the last column + 1 of each station in the loop's rows; the columns of the stations begin at `first`."""
+    ends = first + np.cumsum([0, *(len(recorded(station)) for station in plan.stations)])
+    return np.column_stack([ends[:-1], ends[1:]]).astype(np.int64)
 
 
 def left_out(model: Model) -> loop.LeftOut | None:

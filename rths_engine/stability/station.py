@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.planning.plan import Station
 
 # chosen; see docs/decisions/0023
@@ -81,7 +82,10 @@ class _Chain:
         actuator: Any = station.actuator
         if isinstance(actuator, FirstOrderDelay):
             actuator, self.lag = actuator.model_copy(update={"alpha": actuator.alpha + added}), 1.0
-        self.parts: tuple[Any, ...] = (station.compensator, actuator, station.specimen)
+        specimen = station.specimen
+        if isinstance(specimen, Commanded):
+            specimen = specimen.at(station.controller.mean)
+        self.parts: tuple[Any, ...] = (station.compensator, actuator, specimen)
         built = [part.build(dt) for part in self.parts]
         self.parameters = [parameters for parameters, _ in built]
         self.cuts = np.cumsum([len(state) for _, state in built])

@@ -1,4 +1,4 @@
-"""Specimens: `step(p, s, x, dt) -> force` (m, s, N), one damper."""
+"""Specimens: `step(p, s, x, dt) -> force` (m, s, N), one damper. A `Commanded` specimen follows a current too."""
 
 from typing import Annotated
 
@@ -11,9 +11,10 @@ from rths_engine.parts.specimens.friction_slider import FrictionSlider
 from rths_engine.parts.specimens.hyperbolic_tangent import HyperbolicTangent
 from rths_engine.parts.specimens.linear import LinearSpecimen
 from rths_engine.parts.specimens.mr_damper import MrDamper
+from rths_engine.parts.specimens.mr_damper_current import MrDamperCurrent
 
 Specimen = Annotated[
-    LinearSpecimen | MrDamper | BoucWen | HyperbolicTangent | FrictionSlider | Elastomeric,
+    LinearSpecimen | MrDamper | BoucWen | HyperbolicTangent | FrictionSlider | Elastomeric | MrDamperCurrent,
     Field(discriminator="kind"),
 ]
 KINDS = kinds(Specimen)
