@@ -91,7 +91,8 @@ def _triangle(amplitude: float, frequency: float, dt: float) -> Array:
 def _moved_as(data: Any, x: Array) -> Any:
     """The data with the motion `x` (m) in place of the recorded motion."""
     if isinstance(data, SpecimenData):
-        moved: Any = replace(data, x=x, force=x, current=np.full(len(x), float(np.mean(data.current))))
+        current, temperature = np.full(len(x), float(np.mean(data.current))), np.full(1, float(np.mean(data.temperature)))
+        moved: Any = replace(data, x=x, force=x, current=current, temperature=temperature)
         moved.__dict__["smooth"] = x
         return moved
     return replace(data, command=x, x=x, force=None)

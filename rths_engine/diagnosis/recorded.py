@@ -24,8 +24,10 @@ from rths_engine.diagnosis.components import (
 )
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.foundation.part import Part
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 from rths_engine.parts.physics.sensor.channel import Reading
+from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings.excitation.start import released_start
 from rths_engine.recordings.measured import Measured
@@ -45,7 +47,7 @@ def components(plan: Plan, recording: Measured, where: str) -> list[Pair]:
     Raises RecordingError, which names the input `where`, if the recording does not match the plan.
     """
     _checked(plan, recording, where)
-    found = _structure(plan, recording, where) if plan.test == "structure" else _stations(plan, recording)
+    found = _structure(plan, recording, where) if plan.test == "structure" else _stations(plan, recording, where)
     if not found:
         motions = "the motion of at least one floor"
         ends = "the displacement or the force of a station, and its command or displacement"
@@ -88,7 +90,7 @@ def _same_rate(plan: Plan, recording: Measured) -> bool:
     return bool(np.isclose(recording.dt, plan.substep, rtol=1e-6))
 
 
-def _stations(plan: Plan, recording: Measured) -> list[Pair]:
+def _stations(plan: Plan, recording: Measured, where: str) -> list[Pair]:
     found: list[Pair] = []
     skew = () if recording.of_run else (ClockSkew(), StepError())
     base = (recording.dt, recording.start, recording.of_run)
@@ -99,14 +101,38 @@ def _stations(plan: Plan, recording: Measured) -> list[Pair]:
             moved = Actuator(f"actuator:{number}", (station.actuator, *station.actuator_physics), known=plan.known)
             found.append((moved, ActuatorData(*base, command, x, force, isinstance(station.actuator, VelocityDrive))))
         if force is not None and x is not None:
-            pressed = Specimen(f"specimen:{number}", (station.specimen, *station.specimen_physics, *skew), known=plan.known)
-            current = recording.get("current", number) if recording.has("current", number) else np.ones(len(x))
-            found.append((pressed, SpecimenData(*base, x, force, current)))
+            specimen, current = _commanded(station, recording, number, where)
+            warm = recording.has("temperature", number)
+            temperature = recording.get("temperature", number) if warm else np.full(1, station.temperature)
+            pressed = Specimen(f"specimen:{number}", (specimen, *station.specimen_physics, *skew), known=plan.known)
+            found.append((pressed, SpecimenData(*base, x, force, current, temperature=temperature)))
         if force is not None and x is None and command is not None:
-            planned = (station.actuator, station.specimen, *station.actuator_physics, *station.specimen_physics, *skew)
+            specimen, current = _commanded(station, recording, number, where)
+            planned = (station.actuator, specimen, *station.actuator_physics, *station.specimen_physics, *skew)
             chain = Chain(f"specimen:{number}", planned, known=plan.known)
-            found.append((chain, ChainData(*base, command, command, force)))
+            found.append((chain, ChainData(*base, command, command, force, current=current)))
     return found
+
+
+def _commanded(station: Station, recording: Measured, number: int, where: str) -> tuple[Part, Array]:
+    """The specimen and its current (A): as recorded, from a recorded coil voltage, or as its controller holds it.
+
+    A specimen that follows a current is replaced by the specimen at this current where the current is constant.
+    """
+    least, largest = station.controller.range
+    if recording.has("current", number):
+        current = recording.get("current", number)
+    elif recording.has("voltage", number):
+        current = recording.get("voltage", number) / (station.coil_resistance or 1.0)
+    elif isinstance(station.specimen, Commanded) and least < largest:
+        problem = f"has no current of station {number}, which the force of its specimen '{station.specimen.kind}' follows"
+        fix = "import the column with the role current or voltage, or plan a constant current"
+        raise RecordingError(Issue(where, problem, None, fix))
+    else:
+        current = np.full(recording.samples, station.controller.mean)
+    if isinstance(station.specimen, Commanded) and not np.ptp(current) > 0:
+        return station.specimen.at(float(current[0])), current
+    return station.specimen, current
 
 
 def foreseen(actuator: Actuator, parts: Sequence[Any], pressed: Specimen, recorded: dict[str, Any]) -> None:

@@ -35,7 +35,7 @@ TESTED: dict[str, Any] = {"tests": ["hybrid", *DRIVEN], "one_in": [*DRIVEN]}
 ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}
 ONLY_HYBRID = ["hybrid"]
 MOST_STATIONS = 32
-ROOM = 293.15  # K
+ROOM = 293.15  # K, 20 degrees Celsius
 # fields of a station that earlier plans do not have, with the value under which they leave the digest of a plan unchanged
 ADDED: dict[str, Any] = {"controller": {"kind": "none"}, "coil_resistance": None, "temperature": ROOM}
 

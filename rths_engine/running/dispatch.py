@@ -18,11 +18,16 @@ resist = fold([part.step for part in specimens.KINDS])
 command = fold([part.step for part in controllers.KINDS])
 
 
+def energising(part: Any) -> Any:
+    """How a kind of specimen takes its command; nothing happens where it has no command of its own."""
+    return part.energise if issubclass(part, Commanded) else _without_command
+
+
 def _without_command(p, s, w, dt):
-    """The step of a specimen that has no command of its own."""
+    """The command of a specimen that has none of its own."""
 
 
-energise = fold([part.energise if issubclass(part, Commanded) else _without_command for part in specimens.KINDS])
+energise = fold([energising(part) for part in specimens.KINDS])
 
 
 class Effects(NamedTuple):

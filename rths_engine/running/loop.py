@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rths_engine.foundation.kernel import compiled, entry
-from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR
+from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, HEAT, INPUT, PISTON, SERIES, STOREY, X_SENSOR
 from rths_engine.parts.structures.assembled import Members
 from rths_engine.results.channels import RECORDED
 from rths_engine.running.dispatch import (
@@ -83,6 +83,7 @@ class Setup(NamedTuple):
     parameters: Any  # (4, S, widest)
     limits: Any  # (S, 4), in the order of safety.LIMITS
     noise: Any  # (Q, S, 2)
+    temperatures: Any  # of the specimens, K (S)
     columns: Any  # first and last column + 1 of the stations in a row of signals (S, 2)
 
 
@@ -128,7 +129,9 @@ def _extended_rig(j, setup, state, left_out, x_comp, current, noise, t):
     flexibility = extend_specimen(SERIES, effects, 0.0, x, v, force, t, dt)
     own_state = parts[SPECIMEN, j]
     u, force = resisted(codes[SPECIMEN], parameters[SPECIMEN, j], own_state, flexibility, u, dt, own_state.copy(), force)
-    force = extend_specimen(FORCE, effects, force, u, (u - memory[X_END]) / dt, current, t, dt)
+    rate = (u - memory[X_END]) / dt
+    force = extend_specimen(FORCE, effects, force, u, rate, current, t, dt)
+    force = extend_specimen(HEAT, effects, force, u, rate, setup.temperatures[j], t, dt)
     memory[X_TRUE], memory[V_TRUE], memory[X_SENT], memory[X_END], memory[F_TRUE] = x, v, sent, u, force
     x_meas = extend_sensor(X_SENSOR, effects, x + noise[0], x, v, x, t, dt)
     f_meas = extend_sensor(F_SENSOR, effects, force + noise[1], x, v, force, t, dt)
@@ -151,9 +154,7 @@ def _substep(j, setup, state, left_out, x_cmd, noise, time, row):
     adapted = parts[COMPENSATOR, j]
     x_last, x_meas_last, ti = memory[X_CMD], memory[X_MEAS], memory[TI]
     x_comp = compensate(codes[COMPENSATOR], parameters[COMPENSATOR, j], adapted, x_cmd, x_last, x_meas_last, ti, dt)
-    current = command(
-        codes[CONTROLLER], parameters[CONTROLLER, j], parts[CONTROLLER, j], x_cmd, velocity, memory[F_MEAS], dt
-    )
+    current = command(codes[CONTROLLER], parameters[CONTROLLER, j], parts[CONTROLLER, j], x_cmd, velocity, memory[F_MEAS], dt)
     energise(codes[SPECIMEN], parameters[SPECIMEN, j], parts[SPECIMEN, j], current, dt)
     if left_out is not None:
         x_meas, f_meas = _extended_rig(j, setup, state, left_out, x_comp, current, noise, time)

@@ -15,18 +15,19 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled, entry, fold, named
 from rths_engine.parts import actuators, physics, specimens
-from rths_engine.parts.physics.effect import FORCE, INPUT, SERIES, Effect
-from rths_engine.running.dispatch import behind, effects
+from rths_engine.parts.physics.effect import FORCE, HEAT, INPUT, SERIES, Effect
+from rths_engine.running.dispatch import behind, effects, energising
 
 
-def _resisting(step: Callable[..., Any]) -> Any:
-    inner = compiled(step)
+def _resisting(part: type[Any]) -> Any:
+    inner, energise = compiled(part.step), compiled(energising(part))
 
-    def resisting(p, s, x, dt, force):
+    def resisting(p, s, x, current, dt, force):
         for q in range(x.size):
+            energise(p, s, current[q], dt)
             force[q] = inner(p, s, x[q], dt)
 
-    return named(resisting, [step])
+    return named(resisting, [part.step, energising(part)])
 
 
 def _acting(step: Callable[..., Any]) -> Any:
@@ -51,22 +52,23 @@ def _extending(step: Callable[..., Any]) -> Any:
     return named(extending, [step])
 
 
-def _moving(step: Callable[..., Any]) -> Any:
-    inner = compiled(step)
+def _moving(part: type[Any]) -> Any:
+    inner, energise = compiled(part.step), compiled(energising(part))
 
     def alone(code, p, s, x, dt):
         return inner(p, s, x, dt)
 
-    alone_step = compiled(named(alone, [step]))
+    alone_step = compiled(named(alone, [part.step]))
     resisted = behind(alone_step)
 
-    def moving(p, s, x, current, start, dt, pressed, moves, gives, adds, force):
+    def moving(p, s, x, current, warmth, start, dt, pressed, moves, gives, adds, heats, force):
         f, own, flexibility, last, last_u = pressed, 0.0, 0.0, x[0], 0.0
         before = np.empty(s.size)
         for q in range(x.size):
             t = start + q * dt
             v = (x[q] - last) / dt
             u = last = x[q]
+            energise(p, s, current[q], dt)
             for k in range(moves.codes.shape[0]):
                 u = _move(moves.codes[k, 1], moves.parameters[k], moves.states[k], u, x[q], v, f, t, dt)
             if gives.codes.shape[0]:
@@ -80,10 +82,12 @@ def _moving(step: Callable[..., Any]) -> Any:
             last_u = u if q == 0 else last_u
             for k in range(adds.codes.shape[0]):
                 f = _add(adds.codes[k, 1], adds.parameters[k], adds.states[k], f, u, (u - last_u) / dt, current[q], t, dt)
+            for k in range(heats.codes.shape[0]):
+                f = _heat(heats.codes[k, 1], heats.parameters[k], heats.states[k], f, u, (u - last_u) / dt, warmth[q], t, dt)
             last_u = u
             force[q] = f
 
-    return named(moving, [step])
+    return named(moving, [part.step, energising(part)])
 
 
 def _steps(kinds: Sequence[type[Effect]]) -> list[Any]:
@@ -94,23 +98,23 @@ def _at(hook: int) -> list[Any]:
     return _steps([kind for kind in physics.SPECIMEN if kind.hook == hook])
 
 
-_resist = fold([_resisting(part.step) for part in specimens.KINDS])
+_resist = fold([_resisting(part) for part in specimens.KINDS])
 _act = fold([_acting(part.step) for part in actuators.KINDS])
-_MOVES, _GIVES, _ADDS = _at(INPUT), _at(SERIES), _at(FORCE)
-_move, _give, _add = fold(_MOVES), fold(_GIVES), fold(_ADDS)
-_move_all = fold([_moving(part.step) for part in specimens.KINDS])
+_MOVES, _GIVES, _ADDS, _HEATS = _at(INPUT), _at(SERIES), _at(FORCE), _at(HEAT)
+_move, _give, _add, _heat = fold(_MOVES), fold(_GIVES), fold(_ADDS), fold(_HEATS)
+_move_all = fold([_moving(part) for part in specimens.KINDS])
 _STEPS = _steps((*physics.SPECIMEN, *physics.ACTUATOR, *physics.SENSOR))
 _extend = fold([_extending(step) for step in _STEPS])
 
 
 @entry
-def _resist_all(code, p, s, x, dt, force):
-    _resist(code, p, s, x, dt, force)
+def _resist_all(code, p, s, x, current, dt, force):
+    _resist(code, p, s, x, current, dt, force)
 
 
 @entry
-def _specimen_all(code, p, s, x, current, start, dt, pressed, moves, gives, adds, force):
-    _move_all(code, p, s, x, current, start, dt, pressed, moves, gives, adds, force)
+def _specimen_all(code, p, s, x, current, warmth, start, dt, pressed, moves, gives, adds, heats, force):
+    _move_all(code, p, s, x, current, warmth, start, dt, pressed, moves, gives, adds, heats, force)
 
 
 @entry
@@ -123,24 +127,38 @@ def _extend_all(code, p, s, y, x, v, w, start, dt):
     _extend(code, p, s, y, x, v, w, start, dt)
 
 
-def resist(part: Any, x: Array, dt: float) -> Array:
-    """Force (N) of a specimen without effects, from its displacement (m)."""
+def resist(part: Any, x: Array, current: Array, dt: float) -> Array:
+    """Force (N) of a specimen without effects, from its displacement (m) and current (A)."""
     parameters, state = part.build(dt)
     force: Array = np.empty(len(x))
-    _resist_all(specimens.KINDS.index(type(part)), parameters, state, _plain(x), dt, force)
+    _resist_all(specimens.KINDS.index(type(part)), parameters, state, _plain(x), _plain(current), dt, force)
     return force
 
 
-def moved(part: Any, extended: Sequence[Effect], x: Array, current: Array, dt: float, start: float, pressed: float) -> Array:
-    """Force (N) of a specimen with effects of which some act on its displacement, before the sensor reads it."""
+def moved(
+    part: Any,
+    extended: Sequence[Effect],
+    x: Array,
+    current: Array,
+    warmth: Array,
+    dt: float,
+    start: float,
+    pressed: float,
+) -> Array:
+    """Force (N) of a specimen with effects of which some act on its displacement, before the sensor reads it.
+
+    Displacement x (m), current (A) and temperature `warmth` (K), every dt (s) from `start` (s). `pressed` is the force (N)
+    before the first sample.
+    """
     parameters, state = part.build(dt)
-    moves, gives, adds = (
+    moves, gives, adds, heats = (
         effects([one for one in extended if one.hook == hook], dt, steps)
-        for hook, steps in ((INPUT, _MOVES), (SERIES, _GIVES), (FORCE, _ADDS))
+        for hook, steps in ((INPUT, _MOVES), (SERIES, _GIVES), (FORCE, _ADDS), (HEAT, _HEATS))
     )
     force: Array = np.empty(len(x))
     code = specimens.KINDS.index(type(part))
-    _specimen_all(code, parameters, state, _plain(x), _plain(current), start, dt, pressed, moves, gives, adds, force)
+    driven = _plain(x), _plain(current), _plain(warmth)
+    _specimen_all(code, parameters, state, *driven, start, dt, pressed, moves, gives, adds, heats, force)
     return force
 
 

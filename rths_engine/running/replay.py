@@ -11,9 +11,21 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import entry
 from rths_engine.foundation.part import Part
 from rths_engine.parts import actuators, compensators
-from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PART, PISTON, SERIES, X_SENSOR, Effect, amended
+from rths_engine.parts.physics.effect import (
+    COMMAND,
+    F_SENSOR,
+    FORCE,
+    HEAT,
+    INPUT,
+    PART,
+    PISTON,
+    SERIES,
+    X_SENSOR,
+    Effect,
+    amended,
+)
 from rths_engine.planning.model import Model
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.plan import ROOM, Plan
 from rths_engine.running import loop, passes, small_structure, starting
 from rths_engine.running.dispatch import (
     acts,
@@ -30,7 +42,7 @@ KEPT, KEPT_BYTES = 96, 48_000_000  # most forces that are kept for one displacem
 
 
 class KeptForces:
-    """Forces of specimens without effects under one displacement, the latest ones.
+    """Forces of specimens without effects under one displacement and one current, the latest ones.
 
     Most effects add a force to the force of the specimen and leave its displacement as it is. The specimen's own steps, which
     may be costly, are then the same for all hypotheses and are replayed once. Several threads may share the object.
@@ -40,12 +52,12 @@ class KeptForces:
         self._known: dict[tuple[Part, float], Array] = {}
         self._lock = Lock()
 
-    def of(self, part: Part, x: Array, dt: float) -> Array:
-        """The force (N) of the specimen `part` under the displacement x (m), every dt (s); not to be changed."""
+    def of(self, part: Part, x: Array, current: Array, dt: float) -> Array:
+        """The force (N) of the specimen `part` under displacement x (m) and current (A), every dt (s); not to be changed."""
         with self._lock:
             found = self._known.pop((part, dt), None)
         if found is None:
-            found = passes.resist(part, x, dt)
+            found = passes.resist(part, x, current, dt)
         with self._lock:
             self._known[part, dt] = found
             while len(self._known) > max(2, min(KEPT, KEPT_BYTES // x.nbytes)):
@@ -62,23 +74,28 @@ def specimen(
     start: float = 0.0,
     pressed: float = 0.0,
     kept: KeptForces | None = None,
+    temperature: Array | None = None,
 ) -> Array:
     """Force (N) of a specimen with effects, from displacement (m) and current, every dt (s) from `start` (s).
 
     `pressed` is the force (N) before the first sample. `kept` holds the forces of specimens without effects under this
-    displacement; the result may be one of them, and is not to be changed.
+    displacement and current; the result may be one of them, and is not to be changed. The temperature (K) has one value for
+    each sample or one for all; without it the specimen is at ROOM.
     """
     part = amended(part, extended)
     steps = _stepping(extended)
+    warmth = np.broadcast_to(ROOM if temperature is None else temperature, x.shape)
     if any(effect.hook in (INPUT, SERIES) for effect in steps):
-        force = passes.moved(part, steps, x, current, dt, start, pressed)
+        force = passes.moved(part, steps, x, current, warmth, dt, start, pressed)
     else:
-        force = passes.resist(part, x, dt) if kept is None else kept.of(part, x, dt)
+        force = passes.resist(part, x, current, dt) if kept is None else kept.of(part, x, current, dt)
         if not steps:
             return force
         force, v = force.copy(), passes.velocity(x, dt, x[0])
         for effect in (one for one in steps if one.hook == FORCE):
             passes.extend(effect, force, x, v, current, start, dt)
+        for effect in (one for one in steps if one.hook == HEAT):
+            passes.extend(effect, force, x, v, warmth, start, dt)
     misread = [one for one in steps if one.hook == F_SENSOR]
     if misread:
         true, v = force.copy(), passes.velocity(x, dt, x[0])

@@ -51,6 +51,7 @@ def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop
         parameters=parameters,
         limits=np.array([_limits(station) for station in plan.stations]).reshape(stations, len(LIMITS)),
         noise=noise,
+        temperatures=np.array([station.temperature for station in plan.stations]),
         columns=_columns(plan, len(model.loads) + len(built.floors)),
     )
     return held, parts

@@ -8,7 +8,7 @@ import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import entry
-from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PISTON, SERIES, STOREY, X_SENSOR, Effect
+from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, HEAT, INPUT, PISTON, SERIES, STOREY, X_SENSOR, Effect
 from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.structures.assembled import Assembled
 from rths_engine.parts.structures.shear_building import ShearBuilding
@@ -20,6 +20,7 @@ PATH = 0.05 * np.sin(2 * np.pi * 0.9 * TIME) * np.sin(0.4 * TIME) + 0.004 * np.s
 SPEED = np.diff(PATH, prepend=0.0) / DT
 LOAD = 1e5 * np.tanh(SPEED / 0.02) + 2e6 * PATH
 CURRENT = 1.0 + np.sign(np.sin(2 * np.pi * 0.3 * TIME))
+TEMPERATURE = 290.0 + TIME
 ENERGY = float(np.sum(np.abs(LOAD * SPEED)) * DT)
 SEEN = Seen(
     float(np.abs(PATH).max()), float(np.abs(SPEED).max()), float(np.abs(LOAD).max()), float(TIME[-1]), ENERGY, DT, storey=2
@@ -32,7 +33,7 @@ def _streamed(hook: int, left_out: Any, y: Array, x: Array, v: Array, w: Array, 
         t = q * dt
         if hook <= PISTON:
             out[q] = extend_actuator(hook, left_out, y[q], x[q], v[q], w[q], t, dt)
-        elif hook <= FORCE:
+        elif hook <= HEAT:
             out[q] = extend_specimen(hook, left_out, y[q], x[q], v[q], w[q], t, dt)
         elif hook <= F_SENSOR:
             out[q] = extend_sensor(hook, left_out, y[q], x[q], v[q], w[q], t, dt)
@@ -58,6 +59,7 @@ def signals(hook: int) -> tuple[Array, Array, Array, Array]:
         INPUT: (PATH, PATH, SPEED, last_load),
         SERIES: (still, PATH, SPEED, last_load),
         FORCE: (LOAD, PATH, SPEED, CURRENT),
+        HEAT: (LOAD, PATH, SPEED, TEMPERATURE),
         X_SENSOR: (PATH, PATH, SPEED, PATH),
         F_SENSOR: (LOAD, PATH, SPEED, LOAD),
         STOREY: (still, PATH, SPEED, 2e6 * PATH),

@@ -10,10 +10,23 @@ import pytest
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import actuators, physics, specimens
-from rths_engine.parts.physics.effect import COMMAND, F_SENSOR, FORCE, INPUT, PART, PISTON, SERIES, X_SENSOR, Effect, amended
+from rths_engine.parts.physics.effect import (
+    COMMAND,
+    F_SENSOR,
+    FORCE,
+    HEAT,
+    INPUT,
+    PART,
+    PISTON,
+    SERIES,
+    X_SENSOR,
+    Effect,
+    amended,
+)
 from rths_engine.parts.physics.search import Seen
 from rths_engine.parts.physics.sensor.channel import OfDisplacement, OfForce
 from rths_engine.parts.physics.specimen.backlash import Backlash
+from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.running import passes, replay
 
 DT, START, PRESSED = 1 / 512, 0.5, 10.0
@@ -21,6 +34,7 @@ RANDOM = np.random.default_rng(0)
 X = np.cumsum(RANDOM.standard_normal(300)) * 1e-4
 CURRENT = 1 + 0.1 * RANDOM.standard_normal(300)
 LOAD = 1e4 * RANDOM.standard_normal(300)
+WARMTH = 300.0 + 20.0 * RANDOM.standard_normal(300)
 SEEN = Seen(float(np.abs(X).max()), 0.3, 1e5, 300 * DT, 1e4, DT)
 
 
@@ -53,8 +67,11 @@ def forces(part: Part, extended: Sequence[Effect]) -> Iterator[float]:
         t, v = START + q * DT, (x - last) / DT
         u = effects.at(INPUT, x, x, v, force, t)
         last, last_u = x, u if last_u is None else last_u
+        if isinstance(part, Commanded):
+            part.energise(parameters, state, CURRENT[q], DT)
         force = part.step(parameters, state, u, DT)  # type: ignore[attr-defined]
         force = effects.at(FORCE, force, u, (u - last_u) / DT, CURRENT[q], t)
+        force = effects.at(HEAT, force, u, (u - last_u) / DT, WARMTH[q], t)
         last_u = u
         yield effects.at(F_SENSOR, force, x, v, force, t)
 
@@ -79,10 +96,11 @@ def close(ours: Array, steps: Iterator[float]) -> None:
 
 @pytest.mark.parametrize("kind", specimens.KINDS, ids=lambda kind: kind.__name__)
 def test_a_specimen_and_every_effect_give_the_forces_of_the_loops_steps(kind: type[Part]) -> None:
-    pairs = [(first, Backlash(gap=1e-4)) for first in OF_SPECIMEN if first.hook in (FORCE, F_SENSOR)]
+    pairs = [(first, Backlash(gap=1e-4)) for first in OF_SPECIMEN if first.hook in (FORCE, HEAT, F_SENSOR)]
     for extended in [(), *((effect,) for effect in OF_SPECIMEN), *pairs]:
         if all(effect.hook != SERIES for effect in extended):
-            close(replay.specimen(kind(), extended, X, CURRENT, DT, START, PRESSED), forces(kind(), extended))
+            ours = replay.specimen(kind(), extended, X, CURRENT, DT, START, PRESSED, temperature=WARMTH)
+            close(ours, forces(kind(), extended))
 
 
 @pytest.mark.parametrize("kind", actuators.KINDS, ids=lambda kind: kind.__name__)
@@ -111,12 +129,12 @@ def test_the_oldest_kept_forces_are_dropped(monkeypatch: pytest.MonkeyPatch) -> 
     kept, asked = replay.KeptForces(), []
     resist = passes.resist
 
-    def counted(part: Part, x: Array, dt: float) -> Array:
+    def counted(part: Part, x: Array, current: Array, dt: float) -> Array:
         asked.append(part)
-        return resist(part, x, dt)
+        return resist(part, x, current, dt)
 
     monkeypatch.setattr(passes, "resist", counted)
     parts = [specimens.KINDS[0](damping=float(size)) for size in range(4)]
     for part in (*parts, parts[3], parts[0]):
-        kept.of(part, X, DT)
+        kept.of(part, X, CURRENT, DT)
     assert asked == [*parts, parts[0]]

@@ -24,7 +24,7 @@ from tests.engine.effects import CURRENT, DT, PATH, SEEN, building, signals, str
 REGISTRIES = ("SPECIMEN", "ACTUATOR", "SENSOR", "STRUCTURE", "INPUT")
 SEARCHES = [physics.SEARCHES[kind] for kind in physics.KINDS]
 GUESSES: list[Effect] = [guess for search in SEARCHES for guess in search.guesses(SEEN)]
-UNITS = r"(%|\bm?m\b|kN|\bkg\b|\bm?s\b|Hz|MJ|/s\b|by the exponent)"
+UNITS = r"(%|\d A\b|\bm?m\b|kN|\bkg\b|\bm?s\b|Hz|MJ|/s\b|by the exponent)"
 BEFORE = (PART, MATRICES, GROUND)
 
 

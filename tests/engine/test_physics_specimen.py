@@ -22,7 +22,10 @@ from rths_engine.parts.physics.specimen import (
     CurrentLag,
     ParallelStiffness,
     Pinching,
+    ResidualField,
     SeriesCompliance,
+    StrengthAgainstCurrent,
+    StrengthAgainstTemperature,
     StrengthDrop,
     StribeckFriction,
     VelocityExponent,
@@ -207,3 +210,25 @@ def test_an_effect_acts_on_a_specimen_that_knows_nothing_of_it() -> None:
     part = HyperbolicTangent()
     with_friction = force(part, CoulombFriction(friction=1e4), x) - force(part, CoulombFriction(), x)
     assert np.abs(with_friction).max() == pytest.approx(1e4)
+
+
+def test_strength_against_current_is_a_saturating_law() -> None:
+    """Closed form at 0, i_s and i_r: 1 - kappa (1 - tanh(i / i_s) / tanh(i_r / i_s))."""
+    effect = StrengthAgainstCurrent(share=0.8, saturation_current=1.0, reference_current=2.0)
+    force = stepped(effect, np.full(4, 1e5), w=np.array([0.0, 1.0, 2.0, -2.0]))
+    middle = 1 - 0.8 * (1 - np.tanh(1.0) / np.tanh(2.0))
+    assert force == pytest.approx([2e4, middle * 1e5, 1e5, 1e5], rel=1e-12)
+
+
+def test_a_residual_field_stays_behind_the_current_by_its_residual_current() -> None:
+    """Rising, the field is that of 0.2 A less; falling, of 0.2 A more; at a reversal it stays."""
+    current = np.array([1.0, 1.1, 2.0, 1.9, 1.0, 0.0, 0.3])
+    field = np.array([1.0, 1.0, 1.8, 1.8, 1.2, 0.2, 0.2])
+    force = stepped(ResidualField(residual=0.2, off_current=0.5), np.full(7, 1e5), w=current)
+    assert force == pytest.approx(1e5 * (0.5 + field) / (0.5 + current), rel=1e-12)
+
+
+def test_strength_against_temperature_is_exponential() -> None:
+    effect = StrengthAgainstTemperature(coefficient=0.02, reference=293.15)
+    force = stepped(effect, np.full(3, 1e5), w=np.array([283.15, 293.15, 343.15]))
+    assert force == pytest.approx([1e5 * np.exp(0.2), 1e5, 1e5 * np.exp(-1.0)], rel=1e-12)

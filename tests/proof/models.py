@@ -20,7 +20,7 @@ from rths_engine.parts.physics.structure.damping_error import DampingError
 from rths_engine.parts.physics.structure.stiffness_error import StiffnessError
 from rths_engine.parts.physics.structure.storey import drift
 from rths_engine.planning.model import Model
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.plan import ROOM, Plan
 from rths_engine.planning.reading import plan_from_yaml
 from rths_engine.running import replay
 
@@ -69,14 +69,18 @@ class SpecimenModel:
     def out(self, parts: tuple[Any, ...], which: int) -> list[Array]:
         x, n = self.inputs[which], self.finer
         current = self.case.quiet[which].get("current.1", np.ones(1 + len(x) // n))
-        force = replay.specimen(parts[0], parts[1:], x, np.repeat(current, n)[: len(x)], self.case.dt / n)
+        warmth = self.case.quiet[which].get("temperature.1")
+        warmth = None if warmth is None else np.repeat(warmth, n)[: len(x)]
+        force = replay.specimen(parts[0], parts[1:], x, np.repeat(current, n)[: len(x)], self.case.dt / n, temperature=warmth)
         return [force[::n]]
 
     def seen(self, storey: int = 1) -> Seen:
         x, f = self.inputs[0][:: self.finer], self.case.quiet[0]["f_meas.1"]
         v = np.gradient(x, self.case.dt)
         most_x, most_v, most_f = (float(np.max(np.abs(one))) for one in (x, v, f))
-        return Seen(most_x, most_v, most_f, len(x) * self.case.dt, float(np.sum(np.abs(f * v)) * self.case.dt), self.case.dt)
+        energy, quiet = float(np.sum(np.abs(f * v)) * self.case.dt), self.case.quiet[0]
+        current, warmth = float(np.max(quiet.get("current.1", 1.0))), float(np.mean(quiet.get("temperature.1", ROOM)))
+        return Seen(most_x, most_v, most_f, len(x) * self.case.dt, energy, self.case.dt, current, warmth)
 
 
 class ActuatorModel:

@@ -73,6 +73,10 @@ def library(oracle: Oracle, force: Array) -> dict[str, Array]:
     terms |= {f"strength_drop {k}": force * (time > k * time[-1] / 8) for k in range(2, 8)}
     if np.ptp(current) > 0:
         terms["current_lag"] = force * np.gradient(current, dt)
+        terms["strength_against_current"] = force * current
+        terms["residual_field"] = force * stop(current, 0.3 * float(np.max(current)))
+    if "temperature.1" in quiet:
+        terms["strength_against_temperature"] = force * (quiet["temperature.1"] - np.mean(quiet["temperature.1"]))
     return terms
 
 

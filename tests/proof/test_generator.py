@@ -13,7 +13,7 @@ from tests.proof.generator.motion import STEP, Motion, random_motion
 from tests.proof.generator.noise import Colour
 from tests.proof.generator.readings import Reading
 from tests.proof.generator.sizing import Absorbed
-from tests.proof.generator.specimen_effects import IDS, effect
+from tests.proof.generator.specimen_effects import CURRENT, IDS, effect
 
 TIME = np.arange(0, 4.0, 1 / 256)
 KNOTS = np.arange(0, 4.0 + STEP / 2, STEP)
@@ -99,7 +99,7 @@ def test_lambda_is_what_the_baseline_can_not_take_up() -> None:
 
 
 LAW = HyperbolicTangent(1e5, 0.02, 0.05, 2e5, 8e4)
-SCALE = scales(WAVE, specimen.force(LAW, [], WAVE, TIME), TIME)
+SCALE = scales(WAVE, specimen.force(LAW, [], WAVE, TIME), TIME) | {"current": 2.0, "temperature": 293.15}
 
 
 @pytest.mark.parametrize("name", [*IDS, "sensor_offset", "sensor_clipping"])
@@ -110,11 +110,12 @@ def test_every_effect_vanishes_with_its_size(name: str) -> None:
         return  # a connection of no length is stiff beyond solving; sensors have tests of their own
     assert not isinstance(small.acts, Reading) and not isinstance(large.acts, Reading)
     plain = specimen.force(LAW, [], WAVE, TIME[:300])
-    current = (lambda t: 1.0 + float(t > 0.5)) if name == "current_lag" else specimen.steady
-    without = specimen.force(LAW, [small.acts], WAVE, TIME[:300], current)
+    current = (lambda t: 1.0 + float(t > 0.5) - 1.5 * float(t > 0.8)) if name in CURRENT else specimen.steady
+    temperature = (lambda t: 283.15 + 20 * t) if name == "strength_against_temperature" else specimen.mild
+    without = specimen.force(LAW, [small.acts], WAVE, TIME[:300], current, temperature)
     assert without == pytest.approx(plain, abs=2e-6 * SCALE["f"])
     if name != "strength_drop":  # it drops after these
-        shown = specimen.force(LAW, [large.acts], WAVE, TIME[:300], current)
+        shown = specimen.force(LAW, [large.acts], WAVE, TIME[:300], current, temperature)
         assert np.max(np.abs(shown - plain)) > 1e-3 * SCALE["f"]
 
 

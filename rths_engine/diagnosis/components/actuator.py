@@ -95,7 +95,7 @@ class Actuator(Component):
         return replay.actuator(parts[0], parts[1:], data.command, data.load, data.dt, data.start)
 
     def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
-        yield from guessed((*physics.ACTUATOR, *SENSORS), data.seen(), lacking="f_meas" if data.force is None else "")
+        yield from guessed((*physics.ACTUATOR, *SENSORS), data.seen(), lacking=("f_meas",) if data.force is None else ())
 
     def features(self, parts: Sequence[Any], data: ActuatorData) -> list[Feature]:
         return data.features

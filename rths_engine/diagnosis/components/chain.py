@@ -21,7 +21,12 @@ from rths_engine.running import replay
 
 @dataclass(frozen=True)
 class ChainData(ActuatorData):
-    """Signals of a chain: command (m) and force (N). `x` is also the command, because the displacement was not measured."""
+    """Signals of a chain: command (m) and force (N). `x` is also the command, because the displacement was not measured.
+
+    `current` (A) is the current of the specimen, one value for each sample.
+    """
+
+    current: Array | None = None
 
     @property
     def raw(self) -> Any:
@@ -50,7 +55,7 @@ class Chain(Component):
             settled(*_between(parts, one), one)
 
     def hypotheses(self, data: ChainData) -> Iterator[Effect]:
-        yield from guessed((*physics.ACTUATOR, *physics.SPECIMEN, *SENSORS), data.seen(), lacking="current")
+        yield from guessed((*physics.ACTUATOR, *physics.SPECIMEN, *SENSORS), data.seen(), lacking=("current", "temperature"))
 
     def features(self, parts: Sequence[Any], data: ChainData) -> list[Feature]:
         terms = of_motion(data.command, data.velocity, data.dt, data.load)
@@ -72,4 +77,4 @@ def _between(parts: Sequence[Any], data: ChainData) -> tuple[list[Any], Array, A
     moving = [effect for effect in effects if isinstance(effect, physics.ACTUATOR)]
     resisting = [parts[1], *(effect for effect in effects if not isinstance(effect, physics.ACTUATOR))]
     x = replay.actuator(parts[0], moving, data.command, data.load, data.dt, data.start)
-    return resisting, x, np.ones(len(x))
+    return resisting, x, np.ones(len(x)) if data.current is None else data.current

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
@@ -67,6 +67,11 @@ class Data(ABC):
     def pressed(self) -> float:
         """Force on a specimen before the start; 0 where it is not known."""
         return 0.0
+
+    @property
+    def warmth(self) -> Array | None:
+        """Temperature (K) of a specimen, one value for each sample or one for all; None where it is not known."""
+        return None
 
     @property
     def band(self) -> Band:
@@ -197,10 +202,10 @@ class Component(ABC):
         return self.name
 
 
-def guessed(kinds: Iterable[type[Effect]], seen: Seen, lacking: str = "") -> Iterator[Effect]:
-    """The effects of the kinds at their starting sizes, without effects that need the role `lacking`."""
+def guessed(kinds: Iterable[type[Effect]], seen: Seen, lacking: Collection[str] = ()) -> Iterator[Effect]:
+    """The effects of the kinds at their starting sizes, without effects that need one of the roles `lacking`."""
     for search in (physics.SEARCHES[kind] for kind in kinds):
-        if lacking not in search.needs:
+        if not set(lacking) & set(search.needs):
             yield from search.guesses(seen)
 
 

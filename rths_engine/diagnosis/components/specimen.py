@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -18,6 +18,7 @@ from rths_engine.parts import physics
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen, trend
 from rths_engine.parts.physics.sensor.channel import OfForce
+from rths_engine.planning.plan import ROOM
 from rths_engine.recordings.excitation.smoother import Smoother
 from rths_engine.running import replay
 
@@ -30,7 +31,7 @@ SENSORS = tuple(kind for kind in physics.SENSOR if issubclass(kind, OfForce))
 
 @dataclass(frozen=True)
 class SpecimenData(Data):
-    """Signals of a specimen: measured displacement (m), force (N) and current.
+    """Signals of a specimen: measured displacement (m), force (N), current (A) and temperature (K).
 
     `expected` (m) is the displacement that the fitted actuator makes of its command, or None where it is not known. It supplies
     the motion that noise hides in the reading, such as ripples of a command.
@@ -40,10 +41,15 @@ class SpecimenData(Data):
     force: Array
     current: Array
     expected: Array | None = None
+    temperature: Array = field(default_factory=lambda: np.full(1, ROOM))
 
     @property
     def raw(self) -> Array:
         return self.force[None]
+
+    @property
+    def warmth(self) -> Array:
+        return self.temperature
 
     @cached_property
     def smoother(self) -> Smoother:
@@ -120,7 +126,9 @@ class SpecimenData(Data):
     def seen(self) -> Seen:
         energy = float(np.sum(np.abs(self.force * self.velocity)) * self.dt)
         x, v, f = (float(np.max(np.abs(one))) for one in (self.smooth, self.velocity, self.force))
-        return Seen(x, v, f, len(self.x) * self.dt, energy, self.dt, trend=trend(self.smooth))
+        current, temperature = float(np.max(np.abs(self.current))), float(np.mean(self.temperature))
+        time, shape = len(self.x) * self.dt, trend(self.smooth)
+        return Seen(x, v, f, time, energy, self.dt, trend=shape, current=current, temperature=temperature)
 
 
 class ClockSkew(Loose):
@@ -174,8 +182,9 @@ class Specimen(Component):
             settled(parts, one.smooth, one.current, one)
 
     def hypotheses(self, data: SpecimenData) -> Iterator[Effect]:
-        varies = np.ptp(data.current) > 0
-        yield from guessed((*physics.SPECIMEN, *SENSORS), data.seen(), lacking="" if varies else "current")
+        given = {"current": data.current, "temperature": data.temperature}
+        steady = [role for role, values in given.items() if not np.ptp(values) > 0]
+        yield from guessed((*physics.SPECIMEN, *SENSORS), data.seen(), lacking=steady)
 
     def features(self, parts: Sequence[Any], data: SpecimenData) -> list[Feature]:
         return data.features + modulated(self.predicted(parts, data), "f", "a strength")
@@ -229,4 +238,7 @@ def settled(parts: Sequence[Any], x: Array, current: Array, data: Data) -> None:
 def _force(parts: Sequence[Any], x: Array, current: Array, dt: float, data: Data) -> Array:
     effects = [part for part in parts[1:] if isinstance(part, Effect)]
     kept = data.kept if isinstance(data, SpecimenData) and x is data.fine else None
-    return replay.specimen(parts[0], effects, x, current, dt, data.start, data.pressed, kept)
+    warmth = data.warmth
+    if warmth is not None and len(warmth) > 1:
+        warmth = np.repeat(warmth, len(x) // len(warmth))
+    return replay.specimen(parts[0], effects, x, current, dt, data.start, data.pressed, kept, warmth)

@@ -7,10 +7,10 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part
+from rths_engine.parts.controllers.controller import Commanding
 
 
-class NoControl(Part):
+class NoControl(Commanding):
     """No controller: the specimen has no current of its own, and i = 1 A stands for it in the laws of left-out effects."""
 
     kind: Literal["none"] = "none"
@@ -18,6 +18,10 @@ class NoControl(Part):
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.zeros(1), np.zeros(1)
+
+    @property
+    def range(self) -> tuple[float, float]:
+        return 1.0, 1.0
 
     @staticmethod
     def step(p, s, d, v, f, dt):

@@ -17,8 +17,8 @@ class OnOff(Commanding):
 
     i = i_on while d v < 0, else i_off
 
-    d (m) and v (m/s) are the command displacement of the damper and its velocity. While the structure returns to rest, its spring
-    force and the damper force oppose each other, so the damper force does not add to the acceleration.
+    d (m) and v (m/s) are the command displacement of the damper and its velocity. While the structure returns to rest, its
+    spring force and the damper force oppose each other, so the damper force does not add to the acceleration.
     Not valid under long one-sided motion: around a residual displacement the sign of d does not change.
     Source: Rakheja and Sankar (1985), "Vibration and shock isolation performance of a semi-active on-off damper", J. Vib.
     Acoust. Stress Reliab. Des. 107, 398-403.

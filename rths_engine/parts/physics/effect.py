@@ -10,7 +10,7 @@ from rths_engine.foundation.part import Part
 from rths_engine.parts.structures.assembled import Assembled
 
 # where an effect acts: in the loop, or before it on a part, on the structure's matrices or on the ground motion
-COMMAND, PISTON, INPUT, SERIES, FORCE, X_SENSOR, F_SENSOR, STOREY, PART, MATRICES, GROUND = range(11)
+COMMAND, PISTON, INPUT, SERIES, FORCE, HEAT, X_SENSOR, F_SENSOR, STOREY, PART, MATRICES, GROUND = range(12)
 
 
 class Effect(Part):
@@ -23,6 +23,7 @@ class Effect(Part):
     INPUT     y displacement that reaches the specimen, x and v of the piston, w force of the specimen at the last substep
     SERIES    y flexibility (m/N) before the specimen, which the loop solves with it
     FORCE     y force of the specimen, x and v of the specimen's end after INPUT, w current (1 where the current is not known)
+    HEAT      y, x and v as for FORCE, whose effects act before; w temperature (K) of the specimen
     X_SENSOR  y displacement reading; F_SENSOR  y force reading; x and v of the piston, w the true value
     STOREY    y force against the drift of a storey, 0 on entry; x and v of the drift, w elastic force of the storey
 

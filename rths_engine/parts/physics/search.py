@@ -32,6 +32,8 @@ class Seen(NamedTuple):
     dt: float
     storey: int = 1  # storey of a structure, from 1; x and v are those of its drift
     trend: float = 0.0  # logarithm of the RMS displacement in the last third over that in the first third
+    current: float = 1.0  # largest current
+    temperature: float = 293.15  # mean temperature (K)
 
     @property
     def stiffness(self) -> float:

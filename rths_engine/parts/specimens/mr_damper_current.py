@@ -18,13 +18,13 @@ class MrDamperCurrent(Commanded):
 
     a = a_s (r_a + (1 - r_a) g),  b = b_s (r_b + (1 - r_b) g),  g = tanh(i_c / i_s),  tau i_c' = |i| - i_c
 
-    i (A) is the commanded current and i_c (A) the current in the coil, which follows with the time constant tau = L / R of coil
-    and amplifier. a_s and b_s are the values at magnetic saturation, r_a and r_b the shares of them that remain without current.
+    i (A) is the commanded current and i_c (A) the current in the coil, which follows with the time constant tau = L / R of
+    coil and amplifier. a_s and b_s are the values at magnetic saturation, r_a and r_b their shares that remain without current.
     i_s sets how soon the fluid saturates: g = 0.76 at i_s and 0.96 at 2 i_s. The lag is exact for a current that is constant
     over a substep; at the start i_c = |i|. x (m), f (N).
     State: s[0] last displacement (m), s[1] force (N), s[2] i_c (A), s[3] 1 after the first substep, s[4] a (N), s[5] b.
-    Not valid for the residual field of the steel after a large current, when the fluid heats up, or for eddy currents, which make
-    the lag depend on the size of the change.
+    Not valid for the residual field of the steel after a large current, when the fluid heats up, or for eddy currents, which
+    make the lag depend on the size of the change.
     Sources: the law of saturation after Carlson (2005), Int. J. Mod. Phys. B 19, 1463-1470, yield stress over field strength.
     i_s and r_a after Yang, Spencer, Jung and Carlson (2004), J. Eng. Mech. 130, 1107-1114, force over current of a 200 kN
     damper; a and b at 2.5 A after Chae, Ricles and Sause (2013), EESD 42, 669-685; r_b and tau are chosen.

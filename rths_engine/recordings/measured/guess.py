@@ -21,6 +21,7 @@ from rths_engine.recordings.measured.mapping import LARGEST_NUMBER, MOST_CHANNEL
 from rths_engine.recordings.measured.roles import RAW, ROLES, dimension, key
 
 EXCERPT = 1 << 18  # samples by which a large file is guessed; chosen, see docs/decisions/0023
+_VOLTS = ("drive", "voltage")  # roles that are volts as they are, without a gain
 _WEIGHT = {"kg": "kgf", "t": "tf"}  # the force that a unit of mass stands for on a load cell
 
 
@@ -121,7 +122,7 @@ def _unit(progress: Progress, column: Column, one: Taken) -> str:
     """Complete the unit of a column from the file's other statements, and say what is missing."""
     kind = ROLES[one.role].dimensions[0]
     if one.unit:
-        raw = dimension(one.unit) in RAW and one.role != "drive"
+        raw = dimension(one.unit) in RAW and one.role not in _VOLTS
         return f"in {one.unit}: give the gain of the transducer, with its units" if raw else ""
     if one.written.problem:
         return f"{one.written.problem}: choose the unit"
@@ -129,7 +130,7 @@ def _unit(progress: Progress, column: Column, one: Taken) -> str:
         return f"{one.written.unit} is a unit of mass: choose the unit of force, such as {_WEIGHT[one.written.unit]}"
     if one.role == "t":
         return ""  # guess_time has said it
-    one.unit, why = by_hint("voltage" if one.role == "drive" else kind, progress.table.hints)
+    one.unit, why = by_hint("voltage" if one.role in _VOLTS else kind, progress.table.hints)
     if not one.unit:
         fits = "V would fit, as for most drives" if one.role == "drive" else _derived(progress, column, one)
         fits = fits or fitting(kind, column.values)

@@ -26,8 +26,8 @@ _RAW_UNITS = tuple(unit for unit in UNITS if dimension(unit) in RAW)
 _GAIN = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 
 RoleName = Literal[
-    "t", "ag", "drive", "x_cmd", "x_comp", "x_meas", "v_meas", "f_meas", "current", "temperature",
-    "x_floor", "v_floor", "a_floor", "force_ext",
+    "t", "ag", "drive", "x_cmd", "x_comp", "x_meas", "v_meas", "f_meas", "current", "voltage",
+    "temperature",    "x_floor", "v_floor", "a_floor", "force_ext",
 ]  # fmt: skip
 
 

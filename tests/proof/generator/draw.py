@@ -18,7 +18,7 @@ from tests.proof.generator.draw_rig import actuator_case, chain_case
 from tests.proof.generator.draw_specimen import specimen_case
 from tests.proof.generator.draw_structure import structure_case
 from tests.proof.generator.rig_bench import OWN as OWN_OF_RIG
-from tests.proof.generator.specimen_effects import FACTORS, IDS, OWN, PAIRED, PLACED
+from tests.proof.generator.specimen_effects import COMMANDED, FACTORS, IDS, OWN, PAIRED, PLACED
 
 CLEAN = 0.3  # of the cases
 STRENGTHS = (3.0, 3000.0)  # lambda, drawn evenly over its logarithm
@@ -111,7 +111,7 @@ def _pairs() -> tuple[tuple[str, str], ...]:
         for other in PAIRED[place + 1 :]
         if not ({one, other} & PLACED and not {one, other} & FACTORS)
         and {one, other} != {"coulomb_friction", "stribeck_friction"}
-        and "current_lag" not in (one, other)
+        and not COMMANDED & {one, other}
     )
 
 

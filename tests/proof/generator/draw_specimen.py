@@ -16,7 +16,7 @@ from tests.proof.generator.motion import STEP, Array, Motion, random_motion
 from tests.proof.generator.noise import SMOOTHED, Colour
 from tests.proof.generator.readings import Reading
 from tests.proof.generator.sizing import Absorbed, sized
-from tests.proof.generator.specimen_effects import FIRST, IDS, Left, effect, most
+from tests.proof.generator.specimen_effects import CURRENT, FIRST, IDS, Left, effect, most
 
 
 def baseline(random: np.random.Generator, kind: str) -> dict[str, float]:
@@ -71,6 +71,13 @@ def switched(random: np.random.Generator, duration: float) -> Callable[[float], 
     return lambda t: float(np.interp(t, time, values))
 
 
+def warming(random: np.random.Generator, duration: float) -> Callable[[float], float]:
+    """A temperature (K) that rises and falls between 10 and 45 degrees Celsius over some seconds, as in a climate chamber."""
+    moments = np.cumsum(random.uniform(3.0, 6.0, int(duration / 3) + 2))
+    values = 273.15 + random.uniform(10.0, 45.0, len(moments))
+    return lambda t: float(np.interp(t, moments - moments[0], values))
+
+
 class Bench:
     """The rig of one case, which both recordings share."""
 
@@ -81,7 +88,9 @@ class Bench:
         self.numbers = baseline(random, law)
         self.peak = float(np.exp(random.uniform(np.log(0.015), np.log(0.08)))) * (0.2 if level == "small" else 1.0)
         self.motion = self.moved(1.0)
-        self.current = switched(random, 45.0) if "current_lag" in names else specimen.steady
+        self.current = switched(random, 45.0) if CURRENT & set(names) else specimen.steady
+        warms = "strength_against_temperature" in names
+        self.temperature = warming(random, 45.0) if warms else specimen.mild
 
     def moved(self, factor: float) -> Motion:
         kind = str(self.random.choice(["earthquake", "noise", "sweep", "cycles"], p=[0.4, 0.3, 0.15, 0.15]))
@@ -97,7 +106,7 @@ class Bench:
     def force(self, lefts: list[Left], motion: Motion, numbers: dict[str, float] | None = None) -> Array:
         acting = [one.acts for one in lefts if not isinstance(one.acts, Reading)]
         time = self.time(motion)
-        found = specimen.force(self.law(numbers or self.numbers), acting, motion, time, self.current)
+        found = specimen.force(self.law(numbers or self.numbers), acting, motion, time, self.current, self.temperature)
         for one in lefts:
             if isinstance(one.acts, Reading):
                 found = one.acts.read(found, time)
@@ -110,6 +119,9 @@ def specimen_case(seed: int, level: str, law: str, names: list[str], wanted: flo
     random = bench.random
     plain = bench.force([], bench.motion)
     scale = scales(bench.motion, plain, bench.time(bench.motion))
+    moments = bench.time(bench.motion).tolist()
+    scale["current"] = max(bench.current(t) for t in moments)
+    scale["temperature"] = float(np.mean([bench.temperature(t) for t in moments]))
     share = np.exp(random.uniform(np.log(0.02), np.log(0.06))) if level == "noise" else random.uniform(0.004, 0.02)
     corner, flicker = float(np.exp(random.uniform(np.log(5.0), np.log(60.0)))), float(random.uniform(0, 0.25))
     displacement_noise = float(random.uniform(3e-6, 2e-5))
@@ -163,6 +175,8 @@ def recorded(bench: Bench, lefts: list[Left], motion: Motion, noise: Colour, dis
     quiet: dict[str, Array] = {"x_meas.1": x, "f_meas.1": f}
     if bench.current is not specimen.steady:
         shown["current.1"] = quiet["current.1"] = np.array([bench.current(t) for t in time.tolist()])
+    if bench.temperature is not specimen.mild:
+        shown["temperature.1"] = quiet["temperature.1"] = np.array([bench.temperature(t) for t in time.tolist()])
     return Recorded(1 / bench.rate, shown, quiet)
 
 

@@ -11,7 +11,17 @@ from ruamel.yaml import YAML
 
 from tests.proof.generator.motion import Array
 
-UNITS = {"x": "m", "v": "m/s", "f": "N", "current": "A", "ag": "m/s^2", "a": "m/s^2", "drive": "m", "force": "N"}
+UNITS = {
+    "x": "m",
+    "v": "m/s",
+    "f": "N",
+    "current": "A",
+    "temperature": "K",
+    "ag": "m/s^2",
+    "a": "m/s^2",
+    "drive": "m",
+    "force": "N",
+}
 
 
 def write_plan(path: Path, plan: dict[str, Any]) -> None:

@@ -11,16 +11,19 @@ from dataclasses import dataclass
 
 from tests.proof.generator.laws import Numbers
 
+LEVELLED = 2e-3  # s
+
 
 @dataclass
 class At:
-    """The state of the motion of a specimen: time, displacement, velocity, acceleration, current."""
+    """The state of the motion of a specimen: time, displacement, velocity, acceleration, current (A), temperature (K)."""
 
     t: float
     x: float
     v: float
     a: float
     current: float
+    temperature: float = 293.15
 
 
 class Effect:
@@ -177,6 +180,53 @@ class CurrentLag(Effect):
 
     def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
         return [(at.current - s[0]) / self.time_constant]
+
+
+@dataclass
+class CurrentStrength(Effect):
+    """f (1 - kappa (1 - g(i) / g(i_r))),  g(i) = tanh(i / i_s)"""
+
+    share: float
+    saturation: float
+    reference: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        full = math.tanh(self.reference / self.saturation)
+        return f * (1.0 - self.share * (1.0 - math.tanh(at.current / self.saturation) / full))
+
+
+@dataclass
+class Remanence(Effect):
+    """f (i_0 + h) / (i_0 + i): the field h follows within i_r of the current, softened over the time LEVELLED (s)
+
+    h' = (min(max(h, i - i_r), i + i_r) - h) / LEVELLED
+    """
+
+    residual: float
+    zero_current: float
+    states = 1
+
+    def start(self, current: float) -> list[float]:
+        return [current]
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        return f * (self.zero_current + s[0]) / (self.zero_current + at.current)
+
+    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
+        held = min(max(s[0], at.current - self.residual), at.current + self.residual)
+        return [(held - s[0]) / LEVELLED]
+
+
+@dataclass
+class Warmth(Effect):
+    """f exp(B (1 / T - 1 / T_0)): viscosity over temperature (K) after Andrade (1930). B = beta T_0^2, with beta as at T_0"""
+
+    coefficient: float
+    reference: float
+
+    def force(self, at: At, s: Numbers, f: float) -> float:
+        reached = self.coefficient * self.reference**2 * (1.0 / at.temperature - 1.0 / self.reference)
+        return f * math.exp(reached)
 
 
 @dataclass

@@ -20,16 +20,27 @@ def steady(time: float) -> float:
     return 1.0
 
 
-def force(law: Law, effects: Sequence[Effect | Series], motion: Motion, time: Array, current: Current = steady) -> Array:
-    """Force (N) at `time`, from rest."""
+def mild(time: float) -> float:
+    return 293.15
+
+
+def force(
+    law: Law,
+    effects: Sequence[Effect | Series],
+    motion: Motion,
+    time: Array,
+    current: Current = steady,
+    temperature: Current = mild,
+) -> Array:
+    """Force (N) at `time`, from rest, under a current (A) and a temperature (K)."""
     connection = next((one for one in effects if isinstance(one, Series)), None)
     others = [one for one in effects if isinstance(one, Effect)]
     if connection:
         return _through(connection, law, others, motion, time, current)
-    return _direct(law.prepared(motion), others, motion, time, current)
+    return _direct(law.prepared(motion), others, motion, time, current, temperature)
 
 
-def _direct(law: Law, effects: Sequence[Effect], motion: Motion, time: Array, current: Current) -> Array:
+def _direct(law: Law, effects: Sequence[Effect], motion: Motion, time: Array, current: Current, temperature: Current) -> Array:
     places = np.cumsum([law.states, *(one.states for one in effects)]).tolist()
     start = [0.0] * law.states + [value for one in effects for value in one.start(current(0.0))]
 
@@ -45,7 +56,7 @@ def _direct(law: Law, effects: Sequence[Effect], motion: Motion, time: Array, cu
 
     def through(t: float, s: Sequence[float]) -> tuple[float, list[float]]:
         x, v, a = motion(t)
-        at = At(t, x, v, a, current(t))
+        at = At(t, x, v, a, current(t), temperature(t))
         u, rate = felt(at, s)
         f, slopes = law.force(t, u, rate, s), law.slopes(t, u, rate, s)
         for one, place in zip(effects, places, strict=False):

@@ -12,6 +12,7 @@ from tests.proof.generator.left_out import (
     BoucWen,
     Compliance,
     CurrentLag,
+    CurrentStrength,
     Drop,
     Effect,
     Heating,
@@ -20,8 +21,10 @@ from tests.proof.generator.left_out import (
     Pinch,
     Play,
     Power,
+    Remanence,
     Series,
     Spring,
+    Warmth,
 )
 from tests.proof.generator.readings import Reading, reading
 from tests.proof.generator.wearing import (
@@ -58,8 +61,13 @@ IDS = (
     "gap_contact",
     "asymmetric_viscosity",
     "stick_slip",
+    "strength_against_current",
+    "residual_field",
+    "strength_against_temperature",
 )
 PAIRED = IDS[:14]  # of which pairs are drawn: the others are sums or near relatives of some of these
+CURRENT = {"current_lag", "strength_against_current", "residual_field"}  # seen only where the current changes
+COMMANDED = CURRENT | {"strength_against_temperature"}
 # effects that are numbers of the law itself, and so no effect of that law
 OWN = {
     "linear": {"parallel_stiffness", "stiffness_degradation", "pendulum_friction"},
@@ -157,6 +165,16 @@ def effect(seed: int, name: str, size: float, scale: dict[str, float]) -> Left:
         case "stick_slip":
             release = x * random.uniform(0.03, 0.2)
             return left(Sticking(size * f, release), "bristles as states", force=size * f, release=release)
+        case "strength_against_current":
+            saturation, full = random.uniform(0.5, 1.5), scale["current"]
+            law = CurrentStrength(sign * size, saturation, full)
+            return left(law, share=sign * size, saturation_current=saturation, reference_current=full)
+        case "residual_field":
+            zero = random.uniform(0.5, 2.0)
+            return left(Remanence(size, zero), "softened", residual=size, off_current=zero)
+        case "strength_against_temperature":
+            coefficient, reference = 0.1 * sign * size, scale["temperature"]
+            return left(Warmth(coefficient, reference), "Andrade", coefficient=coefficient, reference=reference)
         case _:
             error, parameters = reading(random, name.removeprefix("sensor_"), size, f, scale["time"])
             return Left(name.removeprefix("sensor_"), "sensor:f_meas.1", error, parameters)

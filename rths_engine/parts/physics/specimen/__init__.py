@@ -23,6 +23,16 @@ from rths_engine.parts.physics.specimen.series_compliance import SeriesComplianc
 from rths_engine.parts.physics.specimen.stick_slip import StickSlip, StickSlipSearch
 from rths_engine.parts.physics.specimen.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
 from rths_engine.parts.physics.specimen.strength_degradation import StrengthDegradation, StrengthDegradationSearch
+from rths_engine.parts.physics.specimen.residual_field import ResidualField, ResidualFieldSearch
+from rths_engine.parts.physics.specimen.series_compliance import SeriesCompliance, SeriesComplianceSearch
+from rths_engine.parts.physics.specimen.strength_against_current import (
+    StrengthAgainstCurrent,
+    StrengthAgainstCurrentSearch,
+)
+from rths_engine.parts.physics.specimen.strength_against_temperature import (
+    StrengthAgainstTemperature,
+    StrengthAgainstTemperatureSearch,
+)
 from rths_engine.parts.physics.specimen.strength_drop import StrengthDrop, StrengthDropSearch
 from rths_engine.parts.physics.specimen.stribeck_friction import StribeckFriction, StribeckFrictionSearch
 from rths_engine.parts.physics.specimen.velocity_exponent import VelocityExponent, VelocityExponentSearch
@@ -51,6 +61,9 @@ SEARCHES: tuple[Search[Any], ...] = (
     GapContactSearch(GapContact),
     AsymmetricViscositySearch(AsymmetricViscosity),
     StickSlipSearch(StickSlip),
+    StrengthAgainstCurrentSearch(StrengthAgainstCurrent),
+    ResidualFieldSearch(ResidualField),
+    StrengthAgainstTemperatureSearch(StrengthAgainstTemperature),
 )
 KINDS = laws(SEARCHES)
 if TYPE_CHECKING:

@@ -51,7 +51,7 @@ class CurrentLag(Effect):
 
 class CurrentLagSearch(Search[CurrentLag]):
     needs = ("x_meas", "f_meas", "current")
-    relatives = ("strength_drop",)
+    relatives = ("strength_drop", "residual_field", "strength_against_current")
     noun = "current lag"
 
     def guesses(self, seen: Seen) -> Iterator[CurrentLag]:

@@ -51,7 +51,7 @@ class ViscousHeating(Effect):
 
 class ViscousHeatingSearch(Search[ViscousHeating]):
     needs = ("x_meas", "f_meas")
-    relatives = ("strength_degradation", "strength_drop")
+    relatives = ("strength_degradation", "strength_drop", "strength_against_temperature")
     noun = "viscous heating"
 
     def guesses(self, seen: Seen) -> Iterator[ViscousHeating]:
