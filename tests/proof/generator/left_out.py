@@ -7,11 +7,16 @@ Where an effect has two common forms, this is the form that the library does not
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from tests.proof.generator.laws import Numbers
+from tests.proof.generator.motion import Array
 
-LEVELLED = 2e-3  # s
+GRID = 1e-3  # s, a twentieth of the time in which a current changes
+WIDTHS = (0.9, 1.0, 1.1)  # of the residual current
 
 
 @dataclass
@@ -31,6 +36,10 @@ class Effect:
 
     def start(self, current: float) -> list[float]:
         return [0.0] * self.states
+
+    def prepared(self, current: Callable[[float], float], end: float) -> Effect:
+        """The effect with what follows from the current alone until the time `end` (s)."""
+        return self
 
     def force(self, at: At, s: Numbers, f: float) -> float:
         return f
@@ -197,24 +206,31 @@ class CurrentStrength(Effect):
 
 @dataclass
 class Remanence(Effect):
-    """f (i_0 + h) / (i_0 + i): the field h follows within i_r of the current, softened over the time LEVELLED (s)
+    """f (i_0 + h) / (i_0 + i): the field h is the mean of three plays of the current, of widths around i_r (Prandtl-Ishlinskii)
 
-    h' = (min(max(h, i - i_r), i + i_r) - h) / LEVELLED
+    The current is given beforehand, so h is computed every GRID (s) before the solution of the specimen.
     """
 
     residual: float
     zero_current: float
-    states = 1
+    field: Array | None = None
 
-    def start(self, current: float) -> list[float]:
-        return [current]
+    def prepared(self, current: Callable[[float], float], end: float) -> Remanence:
+        currents = [current(GRID * k) for k in range(int(end / GRID) + 2)]
+        held = [currents[0]] * len(WIDTHS)
+        fields = []
+        for one in currents:
+            for place, width in enumerate(WIDTHS):
+                held[place] = min(max(held[place], one - width * self.residual), one + width * self.residual)
+            fields.append(sum(held) / len(WIDTHS))
+        return replace(self, field=np.array(fields))
 
     def force(self, at: At, s: Numbers, f: float) -> float:
-        return f * (self.zero_current + s[0]) / (self.zero_current + at.current)
-
-    def slopes(self, at: At, s: Numbers, before: float, after: float) -> list[float]:
-        held = min(max(s[0], at.current - self.residual), at.current + self.residual)
-        return [(held - s[0]) / LEVELLED]
+        assert self.field is not None
+        place = at.t / GRID
+        first = int(place)
+        h = self.field[first] + (place - first) * (self.field[first + 1] - self.field[first])
+        return f * (self.zero_current + float(h)) / (self.zero_current + at.current)
 
 
 @dataclass

@@ -34,7 +34,7 @@ def force(
 ) -> Array:
     """Force (N) at `time`, from rest, under a current (A) and a temperature (K)."""
     connection = next((one for one in effects if isinstance(one, Series)), None)
-    others = [one for one in effects if isinstance(one, Effect)]
+    others = [one.prepared(current, float(time[-1])) for one in effects if isinstance(one, Effect)]
     if connection:
         return _through(connection, law, others, motion, time, current)
     return _direct(law.prepared(motion), others, motion, time, current, temperature)

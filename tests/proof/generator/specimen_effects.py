@@ -171,7 +171,7 @@ def effect(seed: int, name: str, size: float, scale: dict[str, float]) -> Left:
             return left(law, share=sign * size, saturation_current=saturation, reference_current=full)
         case "residual_field":
             zero = random.uniform(0.5, 2.0)
-            return left(Remanence(size, zero), "softened", residual=size, off_current=zero)
+            return left(Remanence(size, zero), "Prandtl-Ishlinskii", residual=size, off_current=zero)
         case "strength_against_temperature":
             coefficient, reference = 0.1 * sign * size, scale["temperature"]
             return left(Warmth(coefficient, reference), "Andrade", coefficient=coefficient, reference=reference)
