@@ -122,11 +122,11 @@ def _commanded(station: Station, recording: Measured, number: int, where: str) -
     least, largest = station.controller.range
     if recording.has("current", number):
         current = recording.get("current", number)
-    elif recording.has("voltage", number):
-        current = recording.get("voltage", number) / (station.coil_resistance or 1.0)
+    elif recording.has("coil_voltage", number):
+        current = recording.get("coil_voltage", number) / (station.coil_resistance or 1.0)
     elif isinstance(station.specimen, Commanded) and least < largest:
         problem = f"has no current of station {number}, which the force of its specimen '{station.specimen.kind}' follows"
-        fix = "import the column with the role current or voltage, or plan a constant current"
+        fix = "import the column with the role current or coil_voltage, or plan a constant current"
         raise RecordingError(Issue(where, problem, None, fix))
     else:
         current = np.full(recording.samples, station.controller.mean)

@@ -61,7 +61,7 @@ CHANNELS: dict[str, Role] = {
     "v_meas": Role("Measured velocity", "v_m", "m/s", "mm/s", "station", "velocity that the sensor reads"),
     "f_meas": Role("Measured force", "r", "N", "kN", "station", "force of one specimen that the load cell reads"),
     "current": Role("Current", "I", "A", "A", "station", "electric current of the specimen, as commanded or measured"),
-    "voltage": Role("Coil voltage", "U", "V", "V", "station", "voltage on the coil of the specimen"),
+    "coil_voltage": Role("Coil voltage", "U", "V", "V", "station", "voltage on the coil of the specimen"),
     "temperature": Role("Temperature", "T", "K", "degC", "station", "temperature of the specimen"),
     "x_floor": Role("Floor displacement", "x", "m", "mm", "floor", "displacement of a floor relative to the ground"),
     "v_floor": Role("Floor velocity", "v", "m/s", "mm/s", "floor", "velocity of a floor relative to the ground"),

@@ -25,7 +25,7 @@ SYMBOLS: dict[str, float] = dict.fromkeys(ONES, 1.0) | {
     "g": known.g, "mg": known.g * known.milli, "t": known.metric_ton, "%": known.centi, "kNm": known.kilo,
     "lb": known.pound_force, "lbf": known.pound_force, "kip": known.kilo * known.pound_force,
     "kgf": known.kilogram_force, "tf": known.metric_ton * known.g, "tonf": known.short_ton * known.g, "bar": known.bar,
-    "psi": known.psi, "ksi": known.kilo * known.psi, "deg": known.degree, "degF": known.degree_Fahrenheit,
+    "psi": known.psi, "ksi": known.kilo * known.psi, "deg": known.degree, "degF": known.degree_Fahrenheit, "ohm": 1.0,
 }  # fmt: skip
 PREFIXES: dict[str, float] = {
     "k": known.kilo,

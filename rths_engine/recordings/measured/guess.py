@@ -21,7 +21,7 @@ from rths_engine.recordings.measured.mapping import LARGEST_NUMBER, MOST_CHANNEL
 from rths_engine.recordings.measured.roles import RAW, ROLES, dimension, key
 
 EXCERPT = 1 << 18  # samples by which a large file is guessed; chosen, see docs/decisions/0023
-_VOLTS = ("drive", "voltage")  # roles that are volts as they are, without a gain
+_VOLTS = ("drive", "coil_voltage")  # roles that are volts as they are, without a gain
 _WEIGHT = {"kg": "kgf", "t": "tf"}  # the force that a unit of mass stands for on a load cell
 
 

@@ -26,7 +26,7 @@ _RAW_UNITS = tuple(unit for unit in UNITS if dimension(unit) in RAW)
 _GAIN = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 
 RoleName = Literal[
-    "t", "ag", "drive", "x_cmd", "x_comp", "x_meas", "v_meas", "f_meas", "current", "voltage",
+    "t", "ag", "drive", "x_cmd", "x_comp", "x_meas", "v_meas", "f_meas", "current", "coil_voltage",
     "temperature",    "x_floor", "v_floor", "a_floor", "force_ext",
 ]  # fmt: skip
 

@@ -49,7 +49,7 @@ ROLES: tuple[tuple[str, re.Pattern[str]], ...] = tuple(
         ("v_meas", rf"\bv meas\b|\b{_VELOCITY}\b|\b(v|xdot|udot|dx|qdot)\b"),
         ("current", r"\bcurrent\w*|\bcurr\b|\bamp(s|ere\w*)?\b|\bi\b|\b(strom|courant|corriente|corrente)\b"),
         (
-            "voltage",
+            "coil_voltage",
             r"\b(coil|spule\w*|magnet|mr)\b.*\b(voltage|volts?|spannung|tension)\b|\b(voltage|spannung)\b.*\b(coil|spule\w*)\b",
         ),
         (

@@ -24,7 +24,7 @@ X = 0.02 * np.sin(2 * np.pi * TIME)
 CURRENT = 1.25 + 1.25 * np.sign(np.sin(2 * np.pi * 0.4 * TIME))
 CONSTANT = {"kind": "constant", "current": 1.2}
 CLIPPED = {"kind": "clipped_optimal"}
-UNITS = {"x_meas": "m", "f_meas": "N", "current": "A", "voltage": "V", "temperature": "K"}
+UNITS = {"x_meas": "m", "f_meas": "N", "current": "A", "coil_voltage": "V", "temperature": "K"}
 
 
 def specimen(controller: dict[str, Any], more: dict[str, Array], **station: Any) -> tuple[Specimen, SpecimenData]:
@@ -46,7 +46,7 @@ def test_a_recorded_current_drives_the_specimen() -> None:
 
 @pytest.mark.parametrize(("resistance", "ohms"), [(4.0, 4.0), (None, 1.0)])
 def test_a_coil_voltage_is_a_current_over_the_resistance(resistance: float | None, ohms: float) -> None:
-    _, data = specimen(CLIPPED, {"voltage": CURRENT}, coil_resistance=resistance)
+    _, data = specimen(CLIPPED, {"coil_voltage": CURRENT}, coil_resistance=resistance)
     np.testing.assert_allclose(data.current, CURRENT / ohms, rtol=1e-15)
 
 
@@ -57,7 +57,7 @@ def test_without_a_recorded_current_a_constant_controller_gives_it_and_the_passi
 
 
 def test_a_varying_current_that_was_not_recorded_is_asked_for() -> None:
-    with pytest.raises(RecordingError, match=r"no current of station 1.*role current or voltage"):
+    with pytest.raises(RecordingError, match=r"no current of station 1.*role current or coil_voltage"):
         specimen(CLIPPED, {})
 
 
