@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.parts import actuators, compensators, controllers, specimens
 from rths_engine.running.run import simulate
 from tests.engine.plans import LIBRARY, NO_LIMITS, building, completed, make, shaking
 
@@ -26,9 +26,9 @@ def station(name: str, **parts: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_every_part_runs_in_the_loop_beside_every_other() -> None:
-    registries = {"compensator": compensators, "actuator": actuators, "specimen": specimens}
+    registries = {"compensator": compensators, "actuator": actuators, "specimen": specimens, "controller": controllers}
     stations = [
-        station(f"{slot} {part.title}", **{slot: kind(part)})
+        station(f"{slot} {part.title}", **{"controller": {"kind": "constant"}, slot: kind(part)})
         for slot, registry in registries.items()
         for part in registry.KINDS
     ]
