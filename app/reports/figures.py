@@ -120,11 +120,12 @@ def station_panels(figures: Figures, number: int, station: Station, test: str) -
     subspace = figures.against("Synchronisation subspace", axis("x_cmd"), axis("x_meas"), name, equal=True)
     error, indicator, force = alone("error"), alone("ti"), alone("f_meas")
     adapted = [alone("d_alpha")] if station.compensator.kind != "none" else []
+    driven = [alone("current")] if station.controller.kind != "none" else []
     if test == "specimen":
-        return [loop, moved, force, figures.work("Energy dissipated", number, name), error]
+        return [loop, moved, force, *driven, figures.work("Energy dissipated", number, name), error]
     if test == "actuator":
-        return [moved, detail, subspace, error, indicator, force, *adapted]
-    return [moved, detail, loop, subspace, error, indicator, alone("energy_error"), *adapted]
+        return [moved, detail, subspace, error, indicator, force, *driven, *adapted]
+    return [moved, detail, loop, *driven, subspace, error, indicator, alone("energy_error"), *adapted]
 
 
 def spectrum_panel(periods: Samples, sa_g: Samples, t1: float, sa_t1_g: float, damping: float) -> Panel:

@@ -125,7 +125,7 @@ def _commanded(station: Station, recording: Measured, number: int, where: str) -
     elif recording.has("coil_voltage", number):
         current = recording.get("coil_voltage", number) / (station.coil_resistance or 1.0)
     elif isinstance(station.specimen, Commanded) and least < largest:
-        problem = f"has no current of station {number}, which the force of its specimen '{station.specimen.kind}' follows"
+        problem = f"has no current of station {number}, which the force of its specimen '{station.specimen.title}' follows"
         fix = "import the column with the role current or coil_voltage, or plan a constant current"
         raise RecordingError(Issue(where, problem, None, fix))
     else:

@@ -194,5 +194,5 @@ def _commands(plan: Plan) -> Iterator[Issue]:
     """Issues of specimens that follow a current which no controller commands."""
     for index, station in enumerate(plan.stations):
         if isinstance(station.specimen, Commanded) and station.controller.kind == "none":
-            problem = f"is none, but the specimen '{station.specimen.kind}' follows a current"
+            problem = f"is none, but the specimen '{station.specimen.title}' follows a current"
             yield Issue(f"stations.{index}.controller", problem, "none", "choose a controller, for example a constant current")

@@ -9,11 +9,13 @@ from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
 from rths_engine.parts.compensators.inverse import InverseCompensation
 from rths_engine.parts.compensators.none import NoCompensation
+from rths_engine.parts.controllers.clipped_optimal import ClippedOptimal
 from rths_engine.parts.ground_motions.scaling import ToPga
 from rths_engine.parts.integrators.kr_alpha import KrAlphaIntegrator
 from rths_engine.parts.integrators.newmark import ExplicitNewmark
 from rths_engine.parts.specimens.linear import LinearSpecimen
 from rths_engine.parts.specimens.mr_damper import MrDamper
+from rths_engine.parts.specimens.mr_damper_current import MrDamperCurrent
 from rths_engine.parts.structures.matrices import MatricesStructure
 from rths_engine.parts.structures.moment_frame import FrameStorey, MomentFrame
 from rths_engine.parts.structures.shear_building import ShearBuilding, Storey
@@ -47,6 +49,30 @@ def linear_damper(name: str) -> Plan:
             ),
         ),
         pace=RealTime(factor=4.0),
+    )
+
+
+def semi_active(name: str) -> Plan:
+    """A one-storey building with an MR damper whose current a controller switches."""
+    damper = Station(
+        name="MR damper",
+        storey=1,
+        compensator=InverseCompensation(alpha_es=20.0),
+        actuator=FirstOrderDelay(alpha=20.0),
+        specimen=MrDamperCurrent(),
+        controller=ClippedOptimal(velocity_gain=1.0e6, largest_current=2.5),
+        equivalent_damping=3.0e5,
+        noise=SENSORS,
+    )
+    return linear_damper(name).model_copy(
+        update={
+            "name": "Semi-active MR damper in a one-storey building",
+            "notes": "The controller applies 2.5 A while the damper force is smaller than 1000 kN·s/m times the damper "
+            "velocity, else no current. Compare with a constant current of 0 A and of 2.5 A: the storey drift lies between "
+            "theirs, and the absolute acceleration of the floor is below both.",
+            "stations": (damper,),
+            "seed": 1,
+        }
     )
 
 
@@ -148,6 +174,7 @@ def _pulled_at_the_top(storeys: tuple[Storey, ...], top: float) -> tuple[float, 
 
 EXAMPLES: dict[str, Callable[[str], Plan]] = {
     "linear-damper": linear_damper,
+    "semi-active": semi_active,
     "specimen-mr-damper": specimen_mr_damper,
     "actuator-sweep": actuator_sweep,
     "structure-earthquake": structure_earthquake,

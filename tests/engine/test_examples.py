@@ -29,6 +29,26 @@ def test_every_kind_of_test_has_a_template_under_a_heading_of_its_own() -> None:
     assert {templates.group(name) for name in templates.PAPER} == {templates.TABLE3}
 
 
+def test_semi_active_control_lies_between_constant_currents_in_drift_and_below_both_in_acceleration(
+    results: dict[str, Result],
+) -> None:
+    plan = templates.template("semi-active").as_dict()
+    drift, acceleration = _drift_and_acceleration(results["semi-active"])
+    constant = []
+    for current in (0.0, 2.5):
+        plan["stations"][0]["controller"] = {"kind": "constant", "current": current}
+        constant.append(_drift_and_acceleration(simulate(read_plan(plan))))
+    off, on = constant
+    assert on[0] < drift < 0.6 * off[0] and acceleration < 0.9 * min(off[1], on[1])
+
+
+def _drift_and_acceleration(result: Result) -> tuple[float, float]:
+    """Peak drift (m) and peak absolute acceleration (m/s^2) of the one storey; its 2 % of damping counts for little in it."""
+    (storey,) = result.plan.as_dict()["structure"]["storeys"]
+    x, force = result.signal("x_floor.1"), result.signal("f_meas.1")
+    return float(np.abs(x).max()), float(np.abs(storey["stiffness"] * x + force).max() / storey["mass"])
+
+
 def test_the_mr_damper_dissipates_more_in_larger_cycles(results: dict[str, Result]) -> None:
     result = results["specimen-mr-damper"]
     x, force = result.signal("x_meas.1"), result.signal("f_meas.1")

@@ -14,6 +14,7 @@ const MOST_FLOORS = 8;
 const CHARTS = {
   displacement: { title: "Displacement", keys: ["x_cmd", "x_meas"], labels: ["command", "measured"] },
   force: { keys: ["f_meas"], labels: [""] },
+  current: { keys: ["current"], labels: [""] },
   error: { keys: ["error"], labels: [""] },
   ti: { keys: ["ti"], labels: [""] },
   d_alpha: { keys: ["d_alpha"], labels: [""] },
@@ -24,9 +25,9 @@ const CHARTS = {
 
 /** The charts of a station in each kind of test, and the charts that are large. @type {Record<string, {head: string, charts: (keyof typeof CHARTS)[], large: Record<string, string>}>} */
 const SHOWN = {
-  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "error", "subspace", "ti", "d_alpha", "energy_error"], large: { displacement: "double" } },
-  specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "error"], large: { hysteresis: "square", displacement: "double" } },
-  actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "ti", "d_alpha"], large: { displacement: "wide" } },
+  hybrid: { head: "Station", charts: ["displacement", "hysteresis", "current", "error", "subspace", "ti", "d_alpha", "energy_error"], large: { displacement: "double" } },
+  specimen: { head: "Specimen", charts: ["hysteresis", "displacement", "force", "current", "error"], large: { hysteresis: "square", displacement: "double" } },
+  actuator: { head: "Actuator", charts: ["displacement", "subspace", "error", "force", "current", "ti", "d_alpha"], large: { displacement: "wide" } },
 };
 
 /** Build the charts of a test in `host`. The view draws the charts, the tiles show the measures. @param {HTMLElement} host @param {Store} store @param {any} plan @param {{measures: import("./measures.js").Measure[], channels: Record<string, any>}} declared */
@@ -39,7 +40,8 @@ export function buildCharts(host, store, plan, declared) {
   };
   const shown = SHOWN[plan.test] ?? SHOWN.hybrid;
   const sections = plan.stations.map((/** @type {any} */ station, /** @type {number} */ i) => {
-    const wanted = shown.charts.filter((name) => name !== "d_alpha" || station.compensator.kind !== "none");
+    const without = [station.compensator.kind === "none" ? "d_alpha" : "", (station.controller?.kind ?? "none") === "none" ? "current" : ""];
+    const wanted = shown.charts.filter((name) => !without.includes(name));
     const charts = wanted.map((name) => {
       const given = /** @type {any} */ (CHARTS[name]);
       const chart = stationChart(view, { title: declared.channels[given.keys?.[0]]?.label, ...given }, i + 1, series);
