@@ -80,7 +80,7 @@ class SpecimenModel:
         most_x, most_v, most_f = (float(np.max(np.abs(one))) for one in (x, v, f))
         energy, quiet = float(np.sum(np.abs(f * v)) * self.case.dt), self.case.quiet[0]
         current, warmth = float(np.max(quiet.get("current.1", 1.0))), float(np.mean(quiet.get("temperature.1", ROOM)))
-        return Seen(most_x, most_v, most_f, len(x) * self.case.dt, energy, self.case.dt, current, warmth)
+        return Seen(most_x, most_v, most_f, len(x) * self.case.dt, energy, self.case.dt, current=current, temperature=warmth)
 
 
 class ActuatorModel:

@@ -39,7 +39,9 @@ class MrDamperCurrent(Commanded):
     rate_share: float = quantity("Share of the rate coefficient without current r_b", ge=0, le=1, default=0.37)
     rate_exponent: float = quantity("Slider rate exponent n", gt=0.05, le=1, default=0.46)
     saturation_current: float = quantity("Saturation current i_s", "A", gt=0, le=1000, default=1.0)
-    coil_lag: float = quantity("Time constant of the coil τ", "s", "ms", ge=0, le=10, default=0.02)
+    coil_lag: float = quantity(
+        "Time constant of the coil τ", "s", "ms", ge=0, le=10, default=0.02, help="0 where the current is measured in the coil"
+    )
     stiffness: float = quantity("Maxwell spring stiffness", "N/m", "kN/m", gt=0, le=1e12, default=1.0e8)
     damping: float = quantity("Maxwell dashpot coefficient", "N*s/m", "kN*s/m", gt=0, le=1e12, default=1.0e7)
     title: ClassVar[str] = "MR damper with current"

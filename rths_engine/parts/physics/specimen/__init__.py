@@ -18,13 +18,11 @@ from rths_engine.parts.physics.specimen.parallel_stiffness import ParallelStiffn
 from rths_engine.parts.physics.specimen.peak_degradation import PeakDegradation, PeakDegradationSearch
 from rths_engine.parts.physics.specimen.pendulum_friction import PendulumFriction, PendulumFrictionSearch
 from rths_engine.parts.physics.specimen.pinching import Pinching, PinchingSearch
+from rths_engine.parts.physics.specimen.residual_field import ResidualField, ResidualFieldSearch
 from rths_engine.parts.physics.specimen.self_centring import SelfCentring, SelfCentringSearch
 from rths_engine.parts.physics.specimen.series_compliance import SeriesCompliance, SeriesComplianceSearch
 from rths_engine.parts.physics.specimen.stick_slip import StickSlip, StickSlipSearch
 from rths_engine.parts.physics.specimen.stiffness_degradation import StiffnessDegradation, StiffnessDegradationSearch
-from rths_engine.parts.physics.specimen.strength_degradation import StrengthDegradation, StrengthDegradationSearch
-from rths_engine.parts.physics.specimen.residual_field import ResidualField, ResidualFieldSearch
-from rths_engine.parts.physics.specimen.series_compliance import SeriesCompliance, SeriesComplianceSearch
 from rths_engine.parts.physics.specimen.strength_against_current import (
     StrengthAgainstCurrent,
     StrengthAgainstCurrentSearch,
@@ -33,6 +31,7 @@ from rths_engine.parts.physics.specimen.strength_against_temperature import (
     StrengthAgainstTemperature,
     StrengthAgainstTemperatureSearch,
 )
+from rths_engine.parts.physics.specimen.strength_degradation import StrengthDegradation, StrengthDegradationSearch
 from rths_engine.parts.physics.specimen.strength_drop import StrengthDrop, StrengthDropSearch
 from rths_engine.parts.physics.specimen.stribeck_friction import StribeckFriction, StribeckFrictionSearch
 from rths_engine.parts.physics.specimen.velocity_exponent import VelocityExponent, VelocityExponentSearch

@@ -25,7 +25,8 @@ class ResidualField(Effect):
     State: s[0] h, s[1] 1 after the first substep. At the start h = |i|.
     Sources: Brokate and Sprekels (1996), "Hysteresis and Phase Transitions", section 2.1, the play operator; An and Kwon
     (2003), J. Intell. Mater. Syst. Struct. 14, 541-550, hysteresis of the magnetic circuit of an MR device.
-    Not valid where the current changes its sign to demagnetise the steel, or where the magnetic circuit saturates.
+    Not valid where the current changes its sign to demagnetise the steel, where the magnetic circuit saturates, or within the
+    coil lag of the plan's damper after a jump, because h follows the commanded current.
     """
 
     kind: Literal["residual_field"] = "residual_field"
