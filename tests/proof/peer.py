@@ -51,10 +51,13 @@ def library(oracle: Oracle, force: Array) -> dict[str, Array]:
     v = np.gradient(x, dt)
     a, time = np.gradient(v, dt), np.arange(len(x)) * dt
     u, w = x / np.max(np.abs(x)), v / np.max(np.abs(v))
+    energy = np.cumsum(force * v) * dt
+    worn = -np.expm1(-np.maximum(energy, 0.0) / (0.3 * max(float(energy.max()), 1e-12)))
+    slides, beyond = np.tanh(w / 0.01), np.maximum(np.abs(u) - 0.6, 0.0)
     terms = {
-        "coulomb_friction": np.tanh(w / 0.01),
-        "stribeck_friction": np.tanh(w / 0.01) * np.exp(-((w / 0.08) ** 2)),
-        "viscous_heating": force * np.cumsum(force * v) * dt,
+        "coulomb_friction": slides,
+        "stribeck_friction": slides * np.exp(-((w / 0.08) ** 2)),
+        "viscous_heating": force * energy,
         "series_compliance": np.gradient(force, dt) * np.sign(v) * w,
         "parallel_stiffness": u,
         "cubic_stiffness": u**3,
@@ -64,6 +67,14 @@ def library(oracle: Oracle, force: Array) -> dict[str, Array]:
         "bouc_wen_hysteresis": stop(u, 0.1),
         "bouc_wen_hysteresis 2": stop(u, 0.03),
         "pinching": force * np.exp(-((u / 0.2) ** 2)),
+        "strength_degradation": force * worn,
+        "peak_degradation": force * np.maximum.accumulate(np.abs(u)),
+        "stiffness_degradation": u * worn,
+        "self_centring": np.clip(u / 0.12, -1.0, 1.0),
+        "pendulum_friction": u + slides * (1.0 - 0.5 * np.exp(-np.abs(w) / 0.15)),
+        "gap_contact": np.sign(u) * beyond * (1.0 + beyond),
+        "asymmetric_viscosity": np.abs(w),
+        "stick_slip": stop(u, 0.01) / 0.01 - stop(u, 0.1) / 0.1,
         "offset": np.ones(len(x)),
         "drift": time,
         "time_skew": np.gradient(force, dt),
