@@ -55,10 +55,9 @@ def linear_plan(recording: Measured, name: str = "") -> Plan:
         station, words = _station(recording, test)
         drive = Drive(amplitude=GENTLE, shape=Sine())  # replaced by the recorded command
         plan = Plan(**about, notes=words, stations=(station,), drive=drive, controller_rate=1 / recording.dt)
-    under_recorded = Excitation(plan, recording).planned()
     try:
-        return read_plan(under_recorded.as_dict())
-    except PlanError:  # the recorded command exceeds what a plan allows; a diagnosis does not use the drive
+        return read_plan(Excitation(plan, recording).planned().as_dict())
+    except (PlanError, RecordingError):  # the recorded command exceeds what a plan allows; a diagnosis does not use the drive
         if plan.driven:
             return read_plan(plan.as_dict())
         raise

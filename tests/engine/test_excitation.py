@@ -95,5 +95,7 @@ def test_a_recording_without_its_excitation_is_refused() -> None:
     still = measured("structure", x_floor=0 * TIME)
     with pytest.raises(RecordingError, match="does not contain the excitation of its test"):
         Excitation(read_plan({"test": "structure", "structure": building([1e5], [1e7]), "duration": 1.0}), still).planned()
+    with pytest.raises(RecordingError, match="a plan holds at most"):
+        Excitation(plan(), measured("specimen", x_meas=np.zeros(1_000_001))).planned()
     with pytest.raises(RecordingError, match="no command and no displacement"):
         _ = Excitation(plan("actuator"), measured("actuator", x_meas=np.sin(TIME))).command

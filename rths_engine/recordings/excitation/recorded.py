@@ -27,7 +27,7 @@ LEAD, STARTED = 1.0, 1e-3  # s before a recording whose command starts away from
 ROOM, ROOM_FORCE = 1.05, 3.0  # limits over the largest recorded value: of motion; of force, which effects may raise
 FASTEST, STRONGEST = 10.0, 1e8  # m/s and N: bounds of an actuator that follows its command without delay
 DIGITS = 9  # digits of a recorded value that a plan keeps
-MOST = 1_000_000  # samples that a plan can hold
+MOST = 990_000  # samples; a plan holds a million, and a ramp of a second may precede them
 
 
 @dataclass(frozen=True)
@@ -65,10 +65,15 @@ class Excitation:
             raise RecordingError(Issue("recording", "has no command and no displacement that a test could follow"))
         return found
 
-    @cached_property
+    @property
     def command(self) -> Array:
-        """The recorded command of a test of one station (m or V); a measured displacement is smoothed."""
-        values = self.recording.get(self.source)
+        """The recorded command of a test of one station (m or V)."""
+        return self.recording.get(self.source)
+
+    @property
+    def smooth(self) -> Array:
+        """The recorded command; a measured displacement is smoothed, because a dashpot would answer its noise."""
+        values = self.command
         if self.source != "x_meas" or self.recording.of_run:
             return values
         return Smoother.of(values, self.recording.dt).smoothed(values)
@@ -103,12 +108,15 @@ class Excitation:
     def planned(self) -> Plan:
         """The plan under the recorded excitation. The limits of a station are raised to the recorded motion.
 
-        Raises RecordingError where the recording has no excitation for this kind of test.
+        Raises RecordingError where the recording has no excitation for this kind of test, or more samples than a plan can hold.
         """
+        if self.recording.samples > MOST:
+            problem = f"has {self.recording.samples} samples; a plan holds at most {MOST} of an excitation"
+            raise RecordingError(Issue("recording", problem, None, "import a shorter part of the recording"))
         return self.plan.model_copy(update=self._driven() if self.plan.driven else self._computed())
 
     def _driven(self) -> dict[str, Any]:
-        values, peak = self.command, float(np.max(np.abs(self.command)))
+        values, peak = self.smooth, float(np.max(np.abs(self.command)))
         if self.lead:
             ramp = np.arange(round(self.lead / self.recording.dt)) * self.recording.dt / self.lead
             values = np.concatenate([values[0] * (0.5 - 0.5 * np.cos(np.pi * ramp)), values])
@@ -156,7 +164,7 @@ class Excitation:
 
     def _thin(self, values: Array) -> tuple[float, Array]:
         """Time step and values from the start of the test on, at no more than the controller's rate."""
-        every = max(1, int(self.plan.substep / self.recording.dt + 1e-9), math.ceil(len(values) / MOST))
+        every = max(1, int(self.plan.substep / self.recording.dt + 1e-9))
         if self.recording.of_run:  # the sample at the start, by the slope of the first two
             values = np.concatenate([[2 * values[0] - values[1]], values])
         return every * self.recording.dt, values[::every]
