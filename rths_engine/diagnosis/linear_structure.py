@@ -26,6 +26,7 @@ MOST = 12  # storeys
 DAMPINGS = (0.01, 0.05)  # damping ratios tried first
 AROUND = (0.8, 0.9, 1.0, 1.1, 1.25)  # first frequencies tried first, over that of the spectrum
 LEAST_DAMPING, MOST_DAMPING = 1e-4, 0.5
+STEP_OF_FIT = 1e-5  # of a logarithm, for slopes
 USELESS = 0.9  # relative error: a larger one says that the building does not move as recorded
 TOP_SHARE = 0.05  # of the largest power: the lowest peak above it is that of the first mode
 
@@ -33,8 +34,9 @@ TOP_SHARE = 0.05  # of the largest power: the lowest peak above it is that of th
 def fitted_building(recording: Measured) -> tuple[ShearBuilding, str]:
     """The shear building with the smallest error of the simulated floor motions, and the fit in words.
 
-    The floors have equal masses. Storey stiffnesses are fitted one by one where all floors were measured, else together; with
-    them the damping ratio and, where forces were recorded, the mass. Raises RecordingError where no floor was measured.
+    Stiffness and mass of each storey are fitted where all floors were measured, else one stiffness and equal masses; with them
+    the damping ratio. Without recorded forces, the mass of the first floor is MASS. Raises RecordingError where no floor was
+    measured, or where the building moves otherwise than recorded.
     """
     return _Fit.of(recording).building()
 
@@ -80,7 +82,7 @@ class _Fit:
 
         tried = [self.at(share * self.first, damping) for share in AROUND for damping in DAMPINGS]
         start = min(tried, key=lambda z: float(np.mean(left(z) ** 2)))
-        found = least_squares(left, start, diff_step=1e-4, max_nfev=20, xtol=1e-6, ftol=1e-6)
+        found = least_squares(left, start, method="lm", diff_step=STEP_OF_FIT, xtol=1e-7, ftol=1e-9)
         error = float(np.sqrt(np.mean(found.fun**2)))
         if not error <= USELESS:
             problem = f"does not move like a linear structure: the best fit has a relative error of {100 * error:.3g} %"
@@ -95,15 +97,23 @@ class _Fit:
         shape = 2 * math.sin(math.pi / (2 * (2 * self.floors + 1)))
         stiffness = MASS * (2 * math.pi * frequency / shape) ** 2
         count = self.floors if self.each else 1
-        return np.log([*[stiffness] * count, damping, *([MASS] if self.forced else [])])
+        return np.log([*[stiffness] * count, damping, *[MASS] * self.masses])
+
+    @property
+    def masses(self) -> int:
+        """Number of masses that are fitted, counted from the highest floor."""
+        return (self.floors if self.each else 1) - (0 if self.forced else 1)
 
     def plan(self, z: Array) -> Plan:
         """The plan of the building of these numbers. The recorded excitation is no part of it."""
         values = np.exp(np.clip(z, -30, 40))
         count = self.floors if self.each else 1
         stiffnesses = np.broadcast_to(values[:count], (self.floors,))
-        mass = float(np.clip(values[-1], 1e-3, 1e9)) if self.forced else MASS
-        storeys = tuple(Storey(mass=mass, stiffness=float(np.clip(one, 1e-3, 1e13))) for one in stiffnesses)
+        fitted = np.clip(values[count + 1 :], 1e-3, 1e9)
+        masses = np.concatenate([np.full(self.floors - len(fitted), MASS), fitted]) if self.each or not self.forced else fitted
+        masses = np.broadcast_to(masses, (self.floors,))
+        pairs = zip(masses, stiffnesses, strict=True)
+        storeys = tuple(Storey(mass=float(m), stiffness=float(np.clip(k, 1e-3, 1e13))) for m, k in pairs)
         damping = float(np.clip(values[count], LEAST_DAMPING, MOST_DAMPING))
         building = ShearBuilding(storeys=storeys, damping_ratio=damping)
         return Plan(test="structure", structure=building, duration=1.0, **steps(self.recording))
@@ -133,9 +143,10 @@ class _Fit:
 
     def words(self, building: ShearBuilding, error: float) -> str:
         stiffness = ", ".join(f"{one.stiffness:.4g}" for one in building.storeys)
-        mass = "the fitted mass" if self.forced else f"{MASS:g} kg, a scale that the recording does not give"
+        scale = "" if self.forced else f"; {MASS:g} kg is a scale, because the recording gives only ratios"
+        mass = ", ".join(f"{one.mass:.4g}" for one in building.storeys)
         return (
             f"Shear building fitted to the recorded floors: k = {stiffness} N/m from storey 1 on, damping ratio "
-            f"{100 * building.damping_ratio:.3g} %, mass of each floor {building.storeys[0].mass:.4g} kg ({mass}). "
+            f"{100 * building.damping_ratio:.3g} %, masses {mass} kg{scale}. "
             f"The relative error of the fit is {100 * error:.3g} %."
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,11 @@ from rths_engine.diagnosis.linear import linear_plan
 from rths_engine.diagnosis.linear_structure import fitted_building
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import RecordingError
+from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.reading import read_plan
 from rths_engine.recordings.measured import Measured, MeasuredChannel
+from rths_engine.running.run import simulate
+from tests.engine.plans import building
 
 RATE = 100.0
 TIME = np.arange(800) / RATE
@@ -34,7 +40,21 @@ def test_the_period_and_the_damping_of_a_decay_are_fitted_beside_the_zero_of_its
     (storey,) = building.storeys
     assert np.sqrt(storey.stiffness / storey.mass) / 2 / np.pi == pytest.approx(1.7, rel=0.005)
     assert building.damping_ratio == pytest.approx(0.03, rel=0.1)
-    assert "a scale that the recording does not give" in words
+    assert "1000 kg is a scale" in words
+
+
+def test_the_ratios_of_stiffnesses_and_masses_are_fitted_where_all_floors_were_measured() -> None:
+    shape = {"kind": "band_noise", "high_frequency": 8.0, "duration": 8.0}
+    true = {"structure": building([2e5, 1e5], [1.2e8, 0.8e8], 0.03), "forces": [{"floor": 2, "amplitude": 1e5, "shape": shape}]}
+    rates = {"controller_rate": 200, "integrator": {"kind": "cr", "dt": 0.005, "substeps": 1}}
+    ran = simulate(read_plan({"test": "structure", **true, **rates}), MotionLibrary(None))
+    floors = {f"x_floor_{number}": ran.signal(f"x_floor.{number}") for number in (1, 2)}
+    push = MeasuredChannel("force_ext", 2, ran.signal("force_ext.2"), "N")
+    read = measured(**floors)
+    found, words = fitted_building(replace(read, dt=ran.dt, start=ran.dt, of_run=True, channels=(*read.channels, push)))
+    assert [one.mass for one in found.storeys] == pytest.approx([2e5, 1e5], rel=0.01)
+    assert [one.stiffness for one in found.storeys] == pytest.approx([1.2e8, 0.8e8], rel=0.01)
+    assert found.damping_ratio == pytest.approx(0.03, rel=0.03) and "a scale" not in words
 
 
 def test_the_plan_of_a_decay_starts_as_the_recording() -> None:
