@@ -27,6 +27,8 @@ DAMPINGS = (0.01, 0.05)  # damping ratios tried first
 AROUND = (0.8, 0.9, 1.0, 1.1, 1.25)  # first frequencies tried first, over that of the spectrum
 LEAST_DAMPING, MOST_DAMPING = 1e-4, 0.5
 STEP_OF_FIT = 1e-5  # of a logarithm, for slopes
+TAPERS = (1.0, 0.5, 2.0)  # stiffness and mass of the top over those of the first storey, tried one after the other
+GOOD = 0.05  # relative error of a fit after which no other start is tried
 USELESS = 0.9  # relative error: a larger one says that the building does not move as recorded
 TOP_SHARE = 0.05  # of the largest power: the lowest peak above it is that of the first mode
 
@@ -80,24 +82,45 @@ class _Fit:
             found: Array = np.nan_to_num(difference / np.maximum(spread, 1e-300), nan=1e3, posinf=1e3, neginf=-1e3).ravel()
             return found
 
-        tried = [self.at(share * self.first, damping) for share in AROUND for damping in DAMPINGS]
-        start = min(tried, key=lambda z: float(np.mean(left(z) ** 2)))
-        found = least_squares(left, start, method="lm", diff_step=STEP_OF_FIT, xtol=1e-7, ftol=1e-9)
-        error = float(np.sqrt(np.mean(found.fun**2)))
+        def scaled(z: Array) -> Array:
+            """The numbers with masses and stiffnesses that give the recorded size of a motion by forces alone."""
+            if not self.forced or data.ground.any():
+                return z
+            ours = replace(component, plan=self.plan(z)).predicted(component.base, data)
+            size = float(np.vdot(ours, measured)) / max(float(np.vdot(ours, ours)), 1e-300)
+            shares = np.log(np.exp(z) / size) if size > 0 else z
+            shares[-1 - self.masses] = z[-1 - self.masses]  # the damping ratio
+            return shares
+
+        tapers = TAPERS if self.each and self.floors > 1 else TAPERS[:1]
+        error, best = math.inf, np.zeros(0)
+        for taper in tapers:  # two different buildings can have the same frequencies
+            tried = [scaled(self.at(share * self.first, damping, taper)) for share in AROUND for damping in DAMPINGS]
+            start = min(tried, key=lambda z: float(np.mean(left(z) ** 2)))
+            found = least_squares(left, start, method="lm", diff_step=STEP_OF_FIT, xtol=1e-7, ftol=1e-9)
+            size = float(np.sqrt(np.mean(found.fun**2)))
+            if size < error:
+                error, best = size, found.x
+            if error < GOOD:
+                break
         if not error <= USELESS:
             problem = f"does not move like a linear structure: the best fit has a relative error of {100 * error:.3g} %"
             fix = "import the part of the recording that begins at the release or with the excitation"
             raise RecordingError(Issue("recording", problem, None, fix))
-        building = self.plan(found.x).structure
+        building = self.plan(best).structure
         assert isinstance(building, ShearBuilding)
         return building, self.words(building, error)
 
-    def at(self, frequency: float, damping: float) -> Array:
-        """The numbers of a uniform building with this first frequency (Hz): logarithms of k (N/m), damping ratio and m (kg)."""
+    def at(self, frequency: float, damping: float, taper: float = 1.0) -> Array:
+        """The numbers of a building with about this first frequency (Hz): logarithms of k (N/m), damping ratio and m (kg).
+
+        Stiffnesses and masses change towards the top, to `taper` times those of the first storey.
+        """
         shape = 2 * math.sin(math.pi / (2 * (2 * self.floors + 1)))
         stiffness = MASS * (2 * math.pi * frequency / shape) ** 2
-        count = self.floors if self.each else 1
-        return np.log([*[stiffness] * count, damping, *[MASS] * self.masses])
+        shares = np.linspace(1.0, taper, self.floors)
+        stiffnesses = stiffness * (shares if self.each else np.ones(1))
+        return np.log([*stiffnesses, damping, *MASS * shares[len(shares) - self.masses :]])
 
     @property
     def masses(self) -> int:
