@@ -80,6 +80,18 @@ def test_the_recorded_ground_motion_and_forces_replace_those_of_a_structure() ->
     assert "the ground motion differs by" in str(differences(planned, recording, LIBRARY)[0])
 
 
+def test_a_constant_current_is_held_and_a_varying_one_differs() -> None:
+    x = 0.01 * np.sin(2 * np.pi * TIME)
+    commanded: dict[str, Any] = {"specimen": {"kind": "mr_damper_current"}, "controller": {"kind": "constant", "current": 1.0}}
+    held = measured("specimen", x_meas=x, f_meas=x, current=2.0 + 0.01 * np.sin(TIME))
+    found = under_recorded(plan(**commanded), held, LIBRARY)
+    assert found.stations[0].controller.model_dump()["current"] == pytest.approx(2.0, abs=0.01)
+    assert differences(found, held, LIBRARY) == []
+    varying = measured("specimen", x_meas=x, f_meas=x, current=1.0 + np.sin(TIME))
+    left = differences(under_recorded(plan(**commanded), varying, LIBRARY), varying, LIBRARY)
+    assert [one.what for one in left] == ["current"]
+
+
 def test_the_plan_of_a_run_is_left_as_it_is() -> None:
     own = plan()
     ran = simulate(own, LIBRARY)

@@ -14,6 +14,8 @@ from rths_engine.foundation.errors import Issue, RecordingError
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 from rths_engine.parts.compensators.none import NoCompensation
+from rths_engine.parts.controllers.constant_current import ConstantCurrent
+from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.planning.excitation import Drive, FloorForce, Start
 from rths_engine.planning.motion import InlineMotion, NoMotion
 from rths_engine.planning.plan import Plan, Station
@@ -79,6 +81,16 @@ class Excitation:
         return Smoother.of(values, self.recording.dt).smoothed(values)
 
     @property
+    def current(self) -> Array | None:
+        """The recorded current (A) that the specimen of a test of one station follows; None where it follows none."""
+        station = self.plan.stations[0]
+        if not isinstance(station.specimen, Commanded):
+            return None
+        if self.recording.has("coil_voltage") and not self.recording.has("current"):
+            return self.recording.get("coil_voltage") / (station.coil_resistance or 1.0)
+        return self.recording.get("current") if self.recording.has("current") else None
+
+    @property
     def lead(self) -> float:
         """Duration (s) of the ramp before the recorded command; 0 for a structure."""
         if not self.plan.driven or self.recording.of_run or isinstance(self.plan.stations[0].actuator, VelocityDrive):
@@ -128,6 +140,8 @@ class Excitation:
         if self.source == "x_meas":  # the specimen follows the recorded motion itself
             follows = FirstOrderDelay(alpha=1, velocity_limit=FASTEST, force_limit=STRONGEST)
             changes |= {"actuator": follows, "actuator_physics": ()}
+        if self.current is not None:  # a run holds a current or computes it
+            changes["controller"] = ConstantCurrent(current=max(0.0, float(np.mean(self.current))))
         station = station.model_copy(update=changes)
         speed = float(np.max(np.abs(np.diff(values)))) / self.recording.dt
         return {"drive": drive, "stations": (self._room(station, peak, speed),), "duration": drive.shape.duration}

@@ -64,6 +64,9 @@ Pair = tuple[str, Array, Array]  # what it is, as planned, as recorded
 def _driven(plan: Plan, found: Excitation) -> Iterator[Pair]:
     what = {"drive": "drive", "x_meas": "displacement"}.get(found.source, "command")
     yield what, plan.drive.sample(found.time + lead(plan, found.recording)), found.command
+    if found.current is not None:
+        held = plan.stations[0].controller.mean if plan.stations[0].controller.kind == "constant" else 0.0
+        yield "current", np.full(found.recording.samples, held), found.current
 
 
 def _computed(plan: Plan, found: Excitation, library: MotionLibrary) -> Iterator[Pair]:
