@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
@@ -85,6 +86,20 @@ def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) ->
     expect(form.locator("[id='e-forces.0.floor']")).to_contain_text("the structure has 2 floors")
 
 
+def test_the_controller_of_a_current_is_chosen_with_its_fields(form: Page) -> None:
+    form.get_by_label("Start from a template").select_option("semi-active")
+    kind = form.locator("[id='f-stations.0.controller.kind']")
+    answer = checked(form, lambda: kind.select_option("on_off"), lambda plan: _controller(plan)["kind"] == "on_off")
+    assert _controller(answer["plan"]) == {"kind": "on_off", "off_current": 0.0, "on_current": 2.5}
+    form.get_by_label("Current when on, A").fill("-1")
+    expect(form.locator("[id='e-stations.0.controller.on_current']")).to_have_text("needs at least 0 A")
+
+
+def _controller(plan: dict[str, Any]) -> dict[str, Any]:
+    found: dict[str, Any] = plan["stations"][0]["controller"] if plan["stations"] else {"kind": ""}
+    return found
+
+
 RUNS = {
     "specimen-mr-damper": ("light", ["Force against displacement", "Displacement", "Measured force", "Tracking error"]),
     "actuator-sweep": (
@@ -95,6 +110,21 @@ RUNS = {
             "Tracking error",
             "Measured force",
             "Tracking indicator",
+        ],
+    ),
+    "semi-active": (
+        "phone",
+        [
+            "Displacement",
+            "Force against displacement",
+            "Current",
+            "Tracking error",
+            "Synchronisation subspace",
+            "Tracking indicator",
+            "Adaptation Δα",
+            "Energy error",
+            "Floor displacement relative to the ground",
+            "Ground acceleration",
         ],
     ),
     "structure-free-vibration": ("phone", ["Floor displacement relative to the ground"]),
@@ -114,7 +144,7 @@ def test_a_run_shows_the_charts_of_its_kind_of_test_and_none_that_is_empty(
     titles = [title.split(", ")[0] for title in page.locator(".chart figcaption strong").all_text_contents()]
     assert titles == charts
     stability = page.locator("#actions").get_by_role("link", name="Stability")
-    expect(stability).to_have_count(1 if template.startswith("structure") else 0)
+    expect(stability).to_have_count(0 if template.startswith(("specimen", "actuator")) else 1)
     _expect_whole(page)
 
 

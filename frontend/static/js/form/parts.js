@@ -80,14 +80,17 @@ function unionPart(schema, node, path, value) {
   const body = el("div", { class: "fields" });
   /** @type {Map<string, ReturnType<typeof fieldsOf>>} */
   const made = new Map();
-  const current = () => /** @type {ReturnType<typeof fieldsOf>} */ (made.get(choice.read()));
+  const selected = () => /** @type {Node} */ (kinds.get(choice.read()));
+  const current = () => {
+    const kind = choice.read(); // read before `select` when the form hears the same input
+    const fields = made.get(kind) ?? fieldsOf(schema, selected(), path, kind === value?.kind ? value : schema.initial(selected()));
+    made.set(kind, fields);
+    return fields;
+  };
   const hint = el("small", { class: "hint" });
   const select = () => {
-    const kind = choice.read();
-    const option = /** @type {Node} */ (kinds.get(kind));
-    if (!made.has(kind)) made.set(kind, fieldsOf(schema, option, path, kind === value?.kind ? value : schema.initial(option)));
     body.replaceChildren(choice.element, ...current().elements);
-    hint.textContent = hintOf(option);
+    hint.textContent = hintOf(selected());
   };
   choice.control.addEventListener("change", () => {
     select();
