@@ -24,6 +24,7 @@ class StrengthAgainstCurrent(Effect):
     plan ignores the current, it is the share of the whole force. The fluid saturates near i_s. The reference current i_r, at
     which the force is as planned, is held. Neutral: kappa = 0. No state.
     Source: Carlson (2005), Int. J. Mod. Phys. B 19, 1463-1470, yield stress of the fluid over the field strength.
+    A current of two levels, as of on-off control, leaves i_s open: its interval says how well the recording shows it.
     Not valid where friction of the seals, which ignores the current, has another shape than the force of the fluid.
     """
 
@@ -57,5 +58,4 @@ class StrengthAgainstCurrentSearch(Search[StrengthAgainstCurrent]):
 
     def says(self, effect: StrengthAgainstCurrent) -> str:
         left, full = said(max(1.0 - effect.share, 0.0), "%"), said(effect.reference_current, "A")
-        saturation = said(effect.saturation_current, "A")
-        return f"has {left} of the planned force without current and 100 % at {full}, with saturation near {saturation}"
+        return f"has {left} of the planned force without current and 100 % at {full}"
