@@ -101,6 +101,22 @@ def test_a_form_without_recording_or_plan_says_so(service: Service, played: str,
     expect(page.get_by_role("alert")).to_contain_text("the plan describes a 'hybrid' test")
 
 
+def test_a_linear_plan_is_chosen_by_keyboard_and_the_results_are_read_on_a_narrow_screen(
+    service: Service, played: str, diagnosed: str, opened: Opener
+) -> None:
+    page = opened(f"/diagnoses?run={played}", viewport={"width": 390, "height": 800})
+    row = page.locator("tr", has=page.locator(f'a[href="/diagnoses/{diagnosed}"]'))
+    box = row.locator("td.sentence").bounding_box()
+    assert box is not None and box["x"] + box["width"] <= 390, "the result begins or ends outside the screen"
+    page.get_by_label("Plan to check").focus()
+    page.keyboard.type("Linear")
+    page.get_by_role("button", name="Diagnose the recording").press("Enter")
+    page.wait_for_url("**/diagnoses/*-*")
+    expect(page.get_by_text("Linear model fitted to Played damper")).to_be_visible()
+    expect_accessible(page)
+    service.http.post(f"/api/v1{page.url.removeprefix(service.url)}/cancel", json={})
+
+
 def test_the_report_is_drawn_without_a_service(diagnosed: str, opened: Opener, service: Service, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     path.write_text(service.http.get(f"/api/v1/diagnoses/{diagnosed}/report.html").text, encoding="utf-8")
