@@ -17,7 +17,7 @@ from rths_engine.planning.examples import EXAMPLES
 from rths_engine.planning.model import Model
 from rths_engine.planning.reading import plan_to_yaml
 from rths_engine.recordings.run_file import Recording
-from tests.app.test_reports import RUN, Page, recorded
+from tests.app.test_reports import RUN, Page, recorded, shortened
 
 WANTED = {
     "specimen-mr-damper": ["Drive", "Station 1: MR damper"],
@@ -50,6 +50,11 @@ def test_a_report_has_the_sections_of_its_kind_of_test_and_no_empty_plot(
     assert headings(page) == ["Results", *WANTED[name], "Test plan", "Repeating this test"]
     assert page.specs
     assert all(trace["x"]["bdata"] for spec in page.specs for trace in spec["traces"])
+
+
+def test_the_report_of_a_semi_active_test_plots_its_current(tmp_path: Path) -> None:
+    recording = recorded(tmp_path, shortened("semi-active"))
+    assert any(spec["y"] == "Current, A" for spec in Page(report_html(RUN, recording)).specs)
 
 
 def test_a_specimens_report_shows_its_loop_and_the_energy_it_dissipated(
