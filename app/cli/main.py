@@ -128,6 +128,12 @@ def parser() -> argparse.ArgumentParser:
     )
     prove.add_argument("--table", action="store_true", help="also print a row for each effect")
 
+    scores = _command(
+        commands, "scores", "app.cli.scores:scores", "fit models to published measurements and compare with published errors"
+    )
+    scores.add_argument("folder", type=Path, metavar="FOLDER", help="folder with the data sets of docs/scores.md")
+    scores.add_argument("--json", type=Path, metavar="OUT", help="write every score as one JSON object")
+
     serve = _command(commands, "serve", "app.cli.serve:serve", "start the control room")
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")
