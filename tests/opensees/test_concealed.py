@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rths_engine.parts import physics
 from rths_engine.recordings import opening
 from tests.opensees import peer
 from tests.opensees.__main__ import diagnosed, table
@@ -53,6 +54,13 @@ def test_every_law_is_tested_at_each_noise_and_one_law_of_each_kind_is_a_control
     assert [one.name for one in cases(0, "specimen-gap")] == ["specimen-gap-low", "specimen-gap-high"]
     for laws in LAWS.values():
         assert [name for name, law in laws.items() if law.control] == ["linear"]
+
+
+@pytest.mark.parametrize("kind", LAWS)
+def test_right_and_near_names_are_effects_of_the_library(kind: str) -> None:
+    names = {effect.model_fields["kind"].default for effect in (*physics.SPECIMEN, *physics.STRUCTURE)}
+    for law in LAWS[kind].values():
+        assert law.right | law.near <= names and not law.right & law.near
 
 
 @pytest.mark.parametrize(
