@@ -52,14 +52,14 @@ E = TypeVar("E", bound=BoucWenHysteresis)
 class BoucWenHysteresisSearch(Search[E]):
     needs: tuple[str, ...] = ("x_meas", "f_meas")
     relatives: tuple[str, ...] = ("coulomb_friction", "stribeck_friction", "self_centring", "stick_slip")
-    held = ("exponent", "fullness")
-    otherwise: ClassVar = {"exponent": 2.0, "fullness": 0.75}
+    held = ("fullness",)
+    otherwise: ClassVar = {"fullness": 0.75}
     proportional = True
     noun = "hysteresis"
 
     def guesses(self, seen: Seen) -> Iterator[E]:
-        for share in (0.05, 0.3):
-            yield self.sized(strength=0.1 * seen.f, yield_displacement=share * seen.x)
+        for share, exponent in ((0.05, 1.0), (0.3, 1.0), (0.3, 4.0)):
+            yield self.sized(strength=0.1 * seen.f, yield_displacement=share * seen.x, exponent=exponent)
 
     def doubt(self, effect: E, seen: Seen) -> float:
         return beyond(PRESLIDING * seen.x, effect.yield_displacement)
