@@ -107,9 +107,14 @@ def test_stations_are_duplicated_and_removed_and_their_parts_exchanged(form: Pag
     expect(third.get_by_label("Name", exact=True)).to_have_value("Storey 2 damper 2")
     third.get_by_label("Specimen", exact=True).select_option("linear")
     expect(third.get_by_label("Damping coefficient, kN·s/m")).to_have_value("500")
+    form.get_by_label("Storey 2 damper 2: Specimen", exact=True).select_option("nominal")
     form.get_by_role("button", name="Remove station 1").click()
     expect(form.locator("fieldset[data-path='stations.2']")).to_have_count(0)
     expect(form.locator("fieldset[data-path='stations.1']").get_by_label("Specimen", exact=True)).to_have_value("linear")
+    stated = form.get_by_label("Storey 2 damper 2: Specimen", exact=True)
+    expect(stated).to_have_value("nominal")  # the statement stays with its station
+    plan = checked(form, lambda: stated.select_option("guess"), lambda plan: "guess" in plan["known"].values())["plan"]
+    assert plan["known"] == {"stations.1.specimen": "guess"}
     expect(form.locator(".good")).to_be_visible()
 
 
