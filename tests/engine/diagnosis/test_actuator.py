@@ -61,7 +61,7 @@ def test_a_command_in_volts_is_not_taken_for_a_displacement() -> None:
 def test_effects_that_need_the_force_are_looked_for_only_where_it_was_measured() -> None:
     component = Actuator("actuator:1", (DELAY,))
     with_force, without = ({one.id for one in component.hypotheses(data(force))} for force in (LOAD, None))
-    assert with_force - without == {"force_compliance"}
+    assert with_force - without == {"force_compliance", "valve_flow"}
     assert {"delay_error", "backlash", "gain_error", "offset"} <= without
 
 
