@@ -14,10 +14,11 @@ def test_the_carriage_rubs_on_its_guides() -> None:
     fitted, kept = measured("emps", "DATA_EMPS.mat", stop=16.56), measured("emps", "DATA_EMPS.mat", start=16.56)
     found = diagnose(plan("emps"), fitted, [kept]).verdict
     assert found.effects[0].id == "coulomb_friction"
-    friction = found.effects[0].parameters[0].value
-    assert friction == pytest.approx(20.7, rel=0.05)  # Janot, Gautier and Brunot (2019)
+    friction = found.effects[0].parameters[0]
+    low, high = friction.ci90
+    assert low < 20.7 < high < 1.25 * low  # Janot, Gautier and Brunot (2019)
     assert heldout(found, "baseline") > 0.15
-    assert heldout(found, "extended") < 0.045
+    assert heldout(found, "extended") < 0.035
 
 
 def test_the_drive_of_a_shaking_table_saturates() -> None:

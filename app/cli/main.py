@@ -124,6 +124,17 @@ def parser() -> argparse.ArgumentParser:
     prove.add_argument("--keep", type=Path, metavar="DIR", help="folder to store plans, recordings, truths and verdicts in")
     prove.add_argument("--json", type=Path, required=True, metavar="OUT", help="write every score as one JSON object")
     prove.add_argument(
+        "--reliability", type=Path, metavar="OUT.svg", help="draw the share of right names against their probability"
+    )
+    prove.add_argument(
+        "--certificate", action="store_true", help="also write the error rates that verdicts cite into the engine"
+    )
+    prove.add_argument(
+        "--calibrate",
+        action="store_true",
+        help="only fit the map of probabilities to these cases and write it into the engine",
+    )
+    prove.add_argument(
         "--picture", type=Path, metavar="OUT.svg", help="plot the rates against the strength of the left-out physics"
     )
     prove.add_argument("--table", action="store_true", help="also print a row for each effect")

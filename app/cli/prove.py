@@ -23,10 +23,19 @@ def prove(given: Namespace) -> None:
         proving.specs(1, 0, given.only)
     except ValueError as error:
         raise PlanError(Issue("--only", "is not a valid kind of case", given.only, str(error))) from None
+    if given.calibrate:
+        files.write(
+            given.json, json.dumps(proving.calibrate(given.cases, given.seed, given.workers, _progress), indent=1) + "\n"
+        )
+        return
     result = proving.prove(given.cases, given.seed, given.workers, given.only, given.keep, _progress)
     files.write(given.json, json.dumps(result, indent=1) + "\n")
     if given.picture:
         files.write(given.picture, drawing.svg(result))
+    if given.reliability:
+        files.write(given.reliability, drawing.reliability(result))
+    if given.certificate:
+        import_module("tests.proof.certificate").write(result["per_case"], given.cases, given.seed)
     print(table.scores(result))
     if given.table:
         print(table.effects(result["per_case"]))
@@ -39,7 +48,7 @@ def _checked(given: Namespace) -> None:
     for name, least in (("cases", 1), ("workers", 1), ("seed", 0)):
         if getattr(given, name) < least:
             raise PlanError(Issue(f"--{name}", f"needs a value >= {least}", getattr(given, name)))
-    for option, path in (("--json", given.json), ("--picture", given.picture)):
+    for option, path in (("--json", given.json), ("--picture", given.picture), ("--reliability", given.reliability)):
         if path and not path.parent.is_dir():
             problem = f"there is no folder {path.parent}"
             raise PlanError(Issue(option, problem, str(path), f"create it first: mkdir -p '{path.parent}'"))

@@ -60,10 +60,7 @@ def detect(fitted: Fitted, found: Signatures, law: Array, drawn: Array) -> Detec
     absorbed = absorber(fitted.jacobian)
     misfits = np.vstack([fitted.misfit, drawn])
     misfits -= misfits @ absorbed @ absorbed.T
-    along, beside = misfits @ law, _beside_span(misfits, law)
-    lengths = np.sum(along**2, axis=1) / _relative(beside)
-    explained, expected = float(lengths[0]), float(lengths[1:].mean())
-    p_general = _upper_tail(explained, lengths[1:]) if law.shape[1] else 1.0
+    p_general, explained, expected = _by_law(misfits, law)
     if not len(found.rows):
         return Detection(np.zeros(0), 0.0, 1.0, p_general, p_planned(fitted), explained, expected)
     scores = found.scores(misfits) / np.sqrt(_relative(_beside_each(misfits, found.rows)))
@@ -72,6 +69,23 @@ def detect(fitted: Fitted, found: Signatures, law: Array, drawn: Array) -> Detec
     largest = float(scores[0].max())
     p_library = p_value(largest, scores[1:].max(axis=1))
     return Detection(scores[0], largest, p_library, p_general, p_planned(fitted), explained, expected)
+
+
+def left(before: Detection, fitted: Fitted, law: Array, drawn: Array) -> Detection:
+    """The detection of another model with as many effects: only what the general law explains is computed again."""
+    absorbed = absorber(fitted.jacobian)
+    misfits = np.vstack([fitted.misfit, drawn])
+    misfits -= misfits @ absorbed @ absorbed.T
+    p_general, explained, expected = _by_law(misfits, law)
+    return replace(before, p_general=p_general, p_planned=p_planned(fitted), explained=explained, expected=expected)
+
+
+def _by_law(misfits: Array, law: Array) -> tuple[float, float, float]:
+    """The p-value of the squared length of the first misfit along the law, that length, and its mean over the replicates."""
+    along, beside = misfits @ law, _beside_span(misfits, law)
+    lengths = np.sum(along**2, axis=1) / _relative(beside)
+    chance = _upper_tail(float(lengths[0]), lengths[1:]) if law.shape[1] else 1.0
+    return chance, float(lengths[0]), float(lengths[1:].mean())
 
 
 def _beside_span(misfits: Array, columns: Array) -> Array:

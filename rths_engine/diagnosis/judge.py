@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
+from rths_engine.diagnosis.claims import Claims, proved
 from rths_engine.diagnosis.components import Component
+from rths_engine.diagnosis.ends import inner
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.noise import Noise
 from rths_engine.diagnosis.schema import Kind
@@ -20,7 +22,6 @@ from rths_engine.foundation.part import Part
 
 # chosen; see docs/decisions/0023
 BLOCKS, HELD_OUT = 10, (2, 5, 8)  # successive blocks of a recording; blocks held out where no recording is held out
-ENDS = 0.3  # s at each end, where the filters blur the signals
 PLAIN = 25.0  # squared length in units of the noise: an unknown law must exceed it
 NOT_WHOLE = 1 / 3  # largest share of the chi^2 beyond the planned model that named effects may leave to a general law
 MOST = 0.1  # share of the held-out power of the error: effects that leave less are named whatever the general law explains
@@ -29,7 +30,10 @@ MORE_THAN_HALF, DOUBTFUL = 0.5, 0.05  # as NOT_WHOLE, where the p-value of the g
 
 @dataclass(frozen=True)
 class Judged:
-    """The judgement of one component: its selection, its verdict, and its held-out recordings."""
+    """The judgement of one component: its selection, its verdict, its held-out recordings, and the proof of its claims.
+
+    `proof` is None where no mismatch was detected.
+    """
 
     component: Component
     name: str
@@ -37,6 +41,7 @@ class Judged:
     verdict: Kind
     unknown: bool
     heldout: tuple[Any, ...]
+    proof: Claims | None = None
 
     @property
     def recordings(self) -> Recordings:
@@ -44,7 +49,9 @@ class Judged:
 
     @property
     def effects(self) -> tuple[Part, ...]:
-        return () if self.unknown else self.selection.effects
+        """The effects of the extended model; empty where none is named."""
+        refused = self.unknown or (self.proof is not None and not self.proof.claims)
+        return () if refused else self.selection.effects
 
     @property
     def gain(self) -> float:
@@ -120,25 +127,22 @@ def judged(
     weights = tuple(np.ones(one.measured.shape) for one in data)
     selection = select(Recordings(component, tuple(data), masks, noises, weights, weights), level, random, told)
     component.settle(selection.chosen.parts, heldout)
-    first = selection.detections[0]
-    found = Judged(component, name, selection, "consistent", False, tuple(heldout))
-    if first.p_value > level:
-        return Judged(component, name, selection, _calibration(selection, level), False, found.heldout)
+    kept = tuple(heldout)
+    if selection.detections[0].p_value > level:
+        return Judged(component, name, selection, _calibration(selection, level), False, kept)
+    proof = proved(selection, kept, random)
+    found = Judged(component, name, proof.selection, "mismatch", False, kept, proof)
     remains = found.remains(level)
-    if selection.effects and (not remains or found.unproved <= MOST):
-        return Judged(component, name, selection, "mismatch", False, found.heldout)
-    return Judged(component, name, selection, "mismatch" if remains else "undetermined", remains, found.heldout)
+    if proof.claims:
+        whole = not remains or found.unproved <= MOST
+        return found if whole else replace(found, proof=proof.as_part())
+    unknown = remains or (proof.clear and not proof.undecided)
+    return replace(found, verdict="mismatch" if unknown else "undetermined", unknown=unknown)
 
 
 def fitted_blocks(count: int, step: float) -> Any:
     """Mask of the fitted samples where three blocks are held out."""
     return inner(count, step) & ~np.isin(np.arange(count) * BLOCKS // count, HELD_OUT)
-
-
-def inner(count: int, step: float) -> Any:
-    """Mask of the samples that are at least ENDS away from both ends."""
-    place = np.arange(count) * step
-    return (place >= ENDS) & (place < count * step - ENDS)
 
 
 def unbounded(error: float) -> float:

@@ -6,40 +6,61 @@ from collections.abc import Sequence
 from typing import Any
 
 from rths_engine.diagnosis import schema
-from rths_engine.diagnosis.components.component import key
+from rths_engine.diagnosis.claims import HALF, Claim, Claims
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
-from rths_engine.diagnosis.separate import separation
 from rths_engine.diagnosis.unknown import Law
 from rths_engine.foundation import units
 from rths_engine.parts import physics
 from rths_engine.parts.physics import wording
 from rths_engine.parts.physics.effect import Effect
+from rths_engine.parts.physics.search import Seen
 
 
 def named(one: Judged, remains: Law | None) -> list[schema.NamedEffect]:
-    """The effects of a component, the most probable first; `unknown` where no effect of the library explains the mismatch."""
-    if one.unknown:
+    """The effects of a component, the most probable first.
+
+    `unknown` comes first where no effect of the library explains the mismatch, or where the named effects are a part of it.
+    """
+    if one.unknown or one.proof is None:
         return [_unknown(one, remains)]
-    chosen = one.selection.chosen
-    found = []
-    for owner, effect in enumerate(chosen.parts):
-        if owner < len(one.component.base):
-            continue
-        assert isinstance(effect, Effect)
-        probability = min(1.0, _probability(one, effect))
-        numbers = _parameters(one, owner, effect)
-        effect_named = schema.NamedEffect(
-            component=one.component.place(effect),
-            id=effect.id,
-            probability=probability,
-            sentence=_sentence(one, effect, numbers),
-            parameters=numbers,
+    ranked = sorted(one.proof.claims, key=lambda claim: (-round(claim.probability, 2), -claim.gain.mean))
+    found = [_named(one, one.proof, claim) for claim in ranked]
+    return [_unknown(one, remains), *found] if one.proof.part_of_it else found
+
+
+def rejected(one: Judged) -> list[schema.RejectedEffect]:
+    """The effects that the evidence selected and the held-out data did not confirm."""
+    return [
+        schema.RejectedEffect(
+            component=one.component.place(refused.effect),
+            id=refused.effect.id,
+            contradicted=refused.contradicted,
+            reason=refused.reason,
+            gain=refused.gain.mean if refused.gain else None,
+            gain_ci90=refused.gain.ci90 if refused.gain else None,
         )
-        without = [part for part in chosen.parts if part is not effect]
-        found.append((-round(probability, 2), -separation(one.recordings, chosen.parts, without), effect_named))
-    return [effect_named for _, _, effect_named in sorted(found, key=lambda one: one[:2])]
+        for refused in (one.proof.rejected if one.proof else ())
+    ]
+
+
+def _named(one: Judged, proof: Claims, claim: Claim) -> schema.NamedEffect:
+    owner = next(place for place, part in enumerate(one.selection.chosen.parts) if part is claim.effect)
+    numbers = _parameters(one, owner, claim.effect)
+    return schema.NamedEffect(
+        component=one.component.place(claim.effect),
+        id=claim.effect.id,
+        probability=claim.probability,
+        sentence=_sentence(one, proof, claim, numbers),
+        parameters=numbers,
+        part_of_it=proof.part_of_it,
+        gain=claim.gain.mean,
+        gain_ci90=claim.gain.ci90,
+        share_of_error=claim.share,
+        blocks=claim.gain.blocks,
+        other_motion=claim.gain.other_motion,
+    )
 
 
 def configuration_error(one: Replayed) -> schema.NamedEffect:
@@ -62,13 +83,6 @@ def models(one: Judged, model: Fitted) -> list[str]:
     """The effects of a model, each written component/id."""
     added = model.parts[len(one.component.base) :]
     return [f"{one.component.place(part)}/{part.id}" for part in added if isinstance(part, Effect)]
-
-
-def _probability(one: Judged, effect: Effect) -> float:
-    """Probability that an effect is present: the sum over the models that contain it."""
-    pairs = zip(one.selection.chances, one.selection.tried, strict=True)
-    base = len(one.component.base)
-    return sum(chance for chance, model in pairs if any(key(part) == key(effect) for part in model.parts[base:]))
 
 
 def _parameters(one: Judged, owner: int, effect: Effect) -> tuple[schema.Parameter, ...]:
@@ -99,7 +113,8 @@ def _declared(effect: Effect, name: str) -> dict[str, Any]:
     }
 
 
-def _sentence(one: Judged, effect: Effect, numbers: Sequence[schema.Parameter]) -> str:
+def _sentence(one: Judged, proof: Claims, claim: Claim, numbers: Sequence[schema.Parameter]) -> str:
+    effect = claim.effect
     spans = ", ".join(_span(number) for number in numbers[:1])
     at = one.component.place(effect)
     subject = {"sensor": "sensor", "input": "ground motion"}.get(at.partition(":")[0], one.name)
@@ -107,10 +122,24 @@ def _sentence(one: Judged, effect: Effect, numbers: Sequence[schema.Parameter]) 
         subject = f"sensor {at.partition(':')[2]}"
     elif at.startswith("structure:"):
         subject = f"structure, in storey {at.partition(':')[2]},"
-    before, after = (100 * one.nrmse(parts, False) for parts in (one.selection.baseline.parts, one.selection.chosen.parts))
     search = physics.SEARCHES[type(effect)]
-    cause = f"The {subject} {search.says(effect)}: {search.noun} was left out ({spans})."
-    return f"{cause} The held-out error is {before:.3g} % with the planned model and {after:.3g} % with the extended model."
+    the = "Part of it: the" if proof.part_of_it else "The"
+    cause = f"{the} {subject} {search.says(effect)}: {search.noun} was left out ({spans})."
+    return " ".join(filter(None, (cause, _proof(proof, claim), search.caution(_seen(one, effect)))))
+
+
+def _seen(one: Judged, effect: Effect) -> Seen:
+    seen = one.component.seen(one.recordings.data[0])
+    return seen[getattr(effect, "storey", 1) - 1]
+
+
+def _proof(proof: Claims, claim: Claim) -> str:
+    """The proof of one claim: the held-out error with and without the effect."""
+    if not claim.gain.other_motion and proof.other_motion:
+        return "The held-out recordings do not test this effect; the fitted motion alone shows it."
+    motion = "another motion" if claim.gain.other_motion else "the same motion"
+    errors = f"{100 * claim.error_without:.3g} % without this effect alone and {100 * proof.errors[1]:.3g} % with it"
+    return f"The held-out error is {errors} ({claim.gain.blocks} blocks of {motion})."
 
 
 def _span(number: schema.Parameter) -> str:
@@ -119,15 +148,23 @@ def _span(number: schema.Parameter) -> str:
     return f"{number.label}: {low:.3g} to {high:.3g}{unit}, 90 % interval"
 
 
+def _remaining(one: Judged) -> str:
+    """The sentence on the unexplained part, where the named effects are a part of the mismatch."""
+    share = one.proof.remaining if one.proof else None
+    if share is None or share <= HALF:
+        return f"A part of the mismatch of the {one.name} is unexplained: held-out data confirm no effect for it."
+    remains = f"{100 * min(1.0, share):.0f} % of the held-out error beyond the noise remains"
+    return f"Most of the mismatch of the {one.name} is unexplained: {remains}."
+
+
 def _unknown(one: Judged, remains: Law | None) -> schema.NamedEffect:
     """A mismatch that no effect of the library explains. It has no probability, because no effect was fitted for it."""
     law_words = f" The residual contains these terms: {remains.words}." if remains else ""
-    best = [effect for effect in one.selection.effects if isinstance(effect, Effect)]
-    nearest = f" The nearest effect, {best[-1].id.replace('_', ' ')}, explains only a part of the mismatch." if best else ""
-    return schema.NamedEffect(
-        component=one.component.name,
-        id="unknown",
-        probability=None,
-        sentence=f"The {one.name} shows a mismatch that no effect of the library explains.{law_words}{nearest}",
-        parameters=(),
-    )
+    part = one.proof is not None and one.proof.part_of_it and not one.unknown
+    if part:
+        sentence = f"{_remaining(one)}{law_words}"
+    else:
+        best = [effect for effect in one.selection.effects if isinstance(effect, Effect)]
+        nearest = f" The nearest effect, {best[-1].id.replace('_', ' ')}, explains only a part of the mismatch." if best else ""
+        sentence = f"The {one.name} shows a mismatch that no effect of the library explains.{law_words}{nearest}"
+    return schema.NamedEffect(component=one.component.name, id="unknown", probability=None, sentence=sentence, parameters=())

@@ -12,7 +12,8 @@ import numpy as np
 from scipy.signal import welch
 
 from rths_engine.diagnosis.components.structure import StructureData
-from rths_engine.diagnosis.judge import BLOCKS, HELD_OUT, Judged, inner
+from rths_engine.diagnosis.ends import inner
+from rths_engine.diagnosis.judge import BLOCKS, HELD_OUT, Judged
 from rths_engine.diagnosis.locate import BEYOND, place
 from rths_engine.diagnosis.noise import FREQUENCY, Noise
 from rths_engine.diagnosis.result import ORDER

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rths_engine.diagnosis import schema
+from rths_engine.diagnosis import certificate, schema
+from rths_engine.diagnosis.calibration import MOST_PART
+from rths_engine.diagnosis.components import Chain
+from rths_engine.diagnosis.components.component import key
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.diagnosis.locate import place
-from rths_engine.diagnosis.named import configuration_error, models, named
+from rths_engine.diagnosis.named import configuration_error, models, named, rejected
 from rths_engine.diagnosis.next_test import next_test
 from rths_engine.diagnosis.schema.form import finite
 from rths_engine.diagnosis.separate import alike
 from rths_engine.diagnosis.unknown import Law, law
-from rths_engine.parts.physics.effect import Effect
 from rths_engine.planning.plan import Plan
 
 # chosen; see docs/decisions/0023
@@ -47,6 +49,10 @@ def verdict_of(
         fit=_fit(worst),
         unexplained=_unexplained(worst, remains, level),
         next_test=_next_test(plan, worst, near),
+        remaining_share=worst.proof.remaining if worst.proof else None,
+        certificate=certificate.line("chain" if isinstance(worst.component, Chain) else plan.test),
+        replicated=worst.proof is not None and worst.proof.replicated,
+        rejected=tuple(effect for one in ranked for effect in rejected(one)),
         extended_plan=extended.as_dict() if extended else None,
     )
 
@@ -76,16 +82,23 @@ def _digital(one: Replayed) -> schema.ComponentVerdict:
 
 
 def _candidates(one: Judged) -> tuple[schema.Candidate, ...]:
+    """The most probable models. Their probabilities include the doubt that the library does not hold the truth."""
+    pairs = zip(one.selection.tried, one.selection.chances, strict=True)
     best = min(model.bic for model in one.selection.tried)
-    ranked = list(zip(one.selection.tried, one.selection.chances, strict=True))[:SHOWN]
+    rejected = {key(effect.effect) for effect in one.proof.rejected} if one.proof else set()
+    refused = rejected - {key(part) for part in one.selection.chosen.parts}
+    ranked = [pair for pair in pairs if not refused & {key(part) for part in pair[0].parts}][:SHOWN]
+    held = 1.0
+    if one.proof:
+        held = min((claim.probability for claim in one.proof.claims), default=MOST_PART)
     return tuple(
         schema.Candidate(
             effects=tuple(models(one, model)),
-            probability=probability,
+            probability=chance * held,
             delta_bic=model.bic - best,
             heldout_nrmse=finite(one.nrmse(model.parts, False)),
         )
-        for model, probability in ranked
+        for model, chance in ranked
     )
 
 
@@ -126,7 +139,8 @@ def _unexplained(one: Judged, remains: Law | None, level: float) -> schema.Unexp
 
 def _where(one: Judged) -> schema.Where:
     found = place(one)
-    effects = [one.component.place(effect) for effect in one.effects if isinstance(effect, Effect)]
+    claims = sorted(one.proof.claims if one.proof and not one.unknown else (), key=lambda claim: -claim.probability)
+    effects = [one.component.place(claim.effect) for claim in claims]
     return schema.Where(
         component=effects[0] if effects else one.component.name,
         times_s=tuple(found.times),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 import numpy as np
 
 from rths_engine.diagnosis.components.component import Loose, key
-from rths_engine.diagnosis.detect import Detection, detect, null_misfits
+from rths_engine.diagnosis.detect import Detection, detect, left, null_misfits
 from rths_engine.diagnosis.evidence import MATERIAL, STRONG, probabilities, tempering, weighed
 from rths_engine.diagnosis.fitting import ROUGH, Fitted, Recordings, compared, fit
 from rths_engine.diagnosis.noise_of import first_noise, weighted, with_noise
@@ -87,6 +87,59 @@ def select(
     told(0.9)
     models = [*each(lambda one: compared(recordings, one), [rough, *tried]), *simpler, chosen]
     return _compared(recordings, models, [*simpler, chosen], drawn, detections, seen, random)
+
+
+def reduced(selection: Selection, effect: Part) -> Fitted:
+    """The selected model with one effect left out and everything else refitted; from `tried` if it was fitted before."""
+    base = len(selection.recordings.component.base)
+    rest = [part for part in selection.chosen.parts if part is not effect]
+    kind = sorted(str(key(part)) for part in rest[base:])
+    known = [one for one in selection.tried if sorted(str(key(part)) for part in one.parts[base:]) == kind]
+    return known[0] if known else fit(selection.recordings, rest, ROUGH)
+
+
+def chosen_instead(selection: Selection, model: Fitted) -> Selection:
+    """The selection with another model as the selected model, fitted to the end, to be examined.
+
+    The detections end with the stage that had as many effects as the model.
+    """
+    chosen = fit(selection.recordings, model.parts, FINAL)
+    effects = len(chosen.parts) - len(selection.recordings.component.base)
+    tried = tuple(chosen if one is model else one for one in selection.tried)
+    return replace(selection, chosen=chosen, tried=tried, detections=selection.detections[: effects + 1], ranges=())
+
+
+def ranked(selection: Selection, chances: Sequence[float]) -> Selection:
+    """The selection with other probabilities of the models; the most probable model becomes the selected model."""
+    order = sorted(range(len(chances)), key=lambda place: -chances[place])
+    tried = tuple(selection.tried[place] for place in order)
+    found = replace(selection, tried=tried, chances=tuple(chances[place] for place in order))
+    return found if tried[0] is selection.chosen else chosen_instead(found, tried[0])
+
+
+def excluding(selection: Selection, effect: Part) -> Selection:
+    """The selection without all models that have the effect; the most probable of the others becomes the selected model.
+
+    Where every fitted model has it, the selected model is refitted without it.
+    """
+    base = len(selection.recordings.component.base)
+    pairs = zip(selection.tried, selection.chances, strict=True)
+    kept = [(one, chance) for one, chance in pairs if all(key(part) != key(effect) for part in one.parts[base:])]
+    if not kept:
+        return chosen_instead(selection, reduced(selection, effect))
+    whole = max(sum(chance for _, chance in kept), 1e-300)
+    found = replace(selection, tried=tuple(one for one, _ in kept), chances=tuple(chance / whole for _, chance in kept))
+    return chosen_instead(found, found.tried[0])
+
+
+def examined(selection: Selection, random: np.random.Generator) -> Selection:
+    """The selection with the intervals of the selected model, and with what a general law explains after it."""
+    recordings, chosen = selection.recordings, selection.chosen
+    temper = tempering(chosen.bic, selection.baseline.bic)
+    drawn = null_misfits(recordings, chosen, random)
+    last = left(selection.detections[-1], chosen, general(recordings, chosen), drawn)
+    sure = tuple(ranges(recordings, chosen, drawn, temper))
+    return replace(selection, ranges=sure, detections=(*selection.detections[:-1], last))
 
 
 def _afresh(recordings: Recordings, best: Fitted) -> Fitted:
@@ -179,10 +232,11 @@ def _compared(
     order = sorted(range(len(models)), key=weights.__getitem__)
     ranked = tuple(models[place] for place in order)
     chances = tuple(probabilities([weights[place] for place in order]))
+    found = Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), ())
     if ranked[0] is not chosen:
-        drawn = null_misfits(recordings, ranked[0], random)
-    sure = tuple(ranges(recordings, ranked[0], drawn, tempering(ranked[0].bic, plain.bic)))
-    return Selection(recordings, plain, ranked[0], ranked, chances, tuple(detections), sure)
+        effects = len(ranked[0].parts) - base
+        return examined(replace(found, detections=found.detections[: effects + 1]), random)
+    return replace(found, ranges=tuple(ranges(recordings, chosen, drawn, tempering(chosen.bic, plain.bic))))
 
 
 def _best(models: Sequence[Fitted], before: float, seen: Sequence[Seen]) -> Fitted:

@@ -1,4 +1,4 @@
-"""Rates of a proof by class of lambda, with their Wilson 95 % intervals, as SVG."""
+"""Pictures of a proof as SVG: rates by class of lambda, and the reliability of probabilities, with Wilson 95 % intervals."""
 
 from __future__ import annotations
 
@@ -32,6 +32,30 @@ def svg(result: dict[str, Any]) -> str:
                 parts += _rate(_x(place, len(classes)) + APART * (number - (len(DRAWN) - 1) / 2), result[key][name], colour)
         parts.append(f'<circle cx="{WIDTH - RIGHT + 20}" cy="{TOP + 10 + 22 * number}" r="4" fill="{colour}"/>')
         parts.append(_text(WIDTH - RIGHT + 32, TOP + 14 + 22 * number, words, "start"))
+    return "\n".join([*parts, "</svg>"]) + "\n"
+
+
+def reliability(result: dict[str, Any]) -> str:
+    """The share of the named effects that is right, against their probability."""
+    side = HEIGHT - TOP - BOTTOM
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {LEFT + side + 160} {HEIGHT}" font-family="sans-serif" '
+        'font-size="13">',
+        f'<rect width="{LEFT + side + 160}" height="{HEIGHT}" fill="white"/>',
+        f'<path d="M{LEFT} {_y(0):.1f}L{LEFT + side} {_y(1):.1f}" stroke="#656d76" stroke-dasharray="4 4"/>',
+    ]
+    for percent in range(0, 101, 20):
+        parts.append(f'<path d="M{LEFT} {_y(percent / 100):.1f}h{side}" stroke="#ddd"/>')
+        parts.append(_text(LEFT - 8, _y(percent / 100) + 4, f"{percent} %", "end"))
+        parts.append(_text(LEFT + side * percent / 100, HEIGHT - BOTTOM + 20, f"{percent / 100:.1f}"))
+    for tenth in result["reliability"]:
+        if tenth["count"]:
+            x = LEFT + side * tenth["probability"]
+            parts += _rate(x, tenth, "#1f6feb")
+            parts.append(_text(x + 7, _y(tenth["value"]) + 4, str(tenth["count"]), "start"))
+    parts.append(_text(LEFT + side / 2, HEIGHT - 12, "probability of a named effect"))
+    parts.append(_text(LEFT + side + 12, TOP + 14, "share that is right,", "start"))
+    parts.append(_text(LEFT + side + 12, TOP + 32, "with its count", "start"))
     return "\n".join([*parts, "</svg>"]) + "\n"
 
 

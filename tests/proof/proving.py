@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from rths_engine.diagnosis.schema import Verdict
+from tests.proof import calibrate as calibration
 from tests.proof import seals
 from tests.proof.generator.draw import Spec, specs
 from tests.proof.score import scored
@@ -65,6 +66,12 @@ def prove(
         result = {**summary(rows), "seed": seed, "only": only, "level": LEVEL, "per_case": rows}
         (folders.root / "proof.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
         return result
+
+
+def calibrate(cases: int, seed: int, workers: int = 2, told: Told = print) -> dict[str, Any]:
+    """Fit the map of probabilities to generated cases and write calibration.json; return its content."""
+    chosen = [(spec,) for spec in calibration.chosen(cases, seed)]
+    return calibration.write(_everywhere(workers, calibration.claims, chosen, "calibrated", told), cases, seed)
 
 
 def diagnosed(case: Path, found: Path) -> dict[str, Any]:

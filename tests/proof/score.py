@@ -11,6 +11,7 @@ from tests.proof import oracle, peer
 
 QUIET = ("consistent", "recalibrate")
 NOTHING = ("none", "unknown")
+LIKELY = 0.5
 
 
 def scored(shown: Path, sealed: Path, found: Verdict | None, run: dict[str, Any]) -> dict[str, Any]:
@@ -47,6 +48,12 @@ def judged(truth: dict[str, Any], found: Verdict | None) -> dict[str, Any]:
     unknown = any(one.id == "unknown" for one in effects) or (verdict == "undetermined" and not claimed)
     where = place(located_at(found)) if found else None
     places = {place(one.partition("/")[0]) for one in true} or {place(truth["about"].get("component") or "specimen:1")}
+    claims: list[dict[str, Any]] = [
+        {"name": name(one), "probability": one.probability or 0.0, "right": name(one) in true}
+        for one in effects
+        if one.id not in NOTHING and one.probability is not None
+    ]
+    sure = any(not one.part_of_it for one in effects if one.id not in NOTHING) or (not unknown and not claimed)
     parameters = [errors(one, effects) for one in truth["effects"] if named(one) in claimed]
     return {
         "verdict": verdict,
@@ -63,6 +70,9 @@ def judged(truth: dict[str, Any], found: Verdict | None) -> dict[str, Any]:
         "two_one": bool(set(true) & set(claimed)) if len(true) == 2 else None,
         "unknown": unknown and not claimed if outside else None,
         "misnamed": bool(claimed) if outside else None,
+        "outside_doubted": not sure if outside else None,
+        "misnamed_likely": any(one["probability"] > LIKELY for one in claims) if outside else None,
+        "claims": claims,
         "parameters": [row for rows in parameters for row in rows],
         "heldout": {
             "baseline": found.fit.baseline.heldout_nrmse if found else None,

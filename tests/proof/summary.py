@@ -21,8 +21,11 @@ RATES = {
     "two_effects_one_rate": "two_one",
     "unknown_rate": "unknown",
     "unknown_misnamed_rate": "misnamed",
+    "outside_doubted_rate": "outside_doubted",
+    "outside_misnamed_likely_rate": "misnamed_likely",
     "peer_named_first_rate": "peer_named_first",
 }
+SURE = 0.9
 NORMAL = 1.959964  # two-sided 95 %
 
 
@@ -54,6 +57,8 @@ def summary(rows: list[Row]) -> Row:
     found["heldout_gain_share_median"] = by_class(rows, lambda some: median(some, "gain_share"))
     found["interval90_coverage"] = by_class(rows, coverage)
     found["calibration_error"] = calibration(rows)
+    found["reliability"] = reliability(rows)
+    found["right_above_09_rate"] = rate([one for one in claims(rows) if one["probability"] > SURE], "right")
     found["by_level"] = {level: one_level([row for row in rows if row["level"] == level]) for level in levels(rows)}
     met = [row for row in rows if row.get("peer_named_first") is not None]
     found["named_first_rate_where_peer"] = by_class(met, lambda some: rate(some, "named_first")) if met else None
@@ -78,16 +83,26 @@ def coverage(rows: Iterable[Row]) -> Row:
 
 def calibration(rows: Iterable[Row]) -> Row:
     """Expected calibration error: mean of |mean probability - right share| over tenths of the probability, by count."""
-    said = [
-        (p, name in row["truth"]) for row in rows for name, p in row["probabilities"].items() if not name.endswith("/unknown")
-    ]
-    total = 0.0
+    tenths = [one for one in reliability(rows) if one["count"]]
+    count = sum(one["count"] for one in tenths)
+    total = sum(abs(one["probability"] - one["value"]) * one["count"] for one in tenths)
+    return {"value": total / count if count else None, "count": count, "wilson95": None}
+
+
+def reliability(rows: Iterable[Row]) -> list[Row]:
+    """For each tenth of the probability of claims: their mean probability, and the share that is right."""
+    said = claims(rows)
+    found = []
     for tenth in range(10):
-        some = [(p, right) for p, right in said if min(int(10 * p), 9) == tenth]
-        if some:
-            chance, right = np.mean(np.array(some, dtype=float), axis=0)
-            total += abs(chance - right) * len(some)
-    return {"value": total / len(said) if said else None, "count": len(said), "wilson95": None}
+        some = [one for one in said if min(int(10 * one["probability"]), 9) == tenth]
+        mean = float(np.mean([one["probability"] for one in some])) if some else None
+        found.append({"from": tenth / 10, "to": (tenth + 1) / 10, "probability": mean, **rate(some, "right")})
+    return found
+
+
+def claims(rows: Iterable[Row]) -> list[Row]:
+    """All named effects, each with its probability and whether it is part of the truth."""
+    return [one for row in rows for one in row["claims"]]
 
 
 def levels(rows: Iterable[Row]) -> list[str]:

@@ -12,7 +12,7 @@ Row = dict[str, Any]
 def scores(result: Row) -> str:
     """All scores with their counts, one score on each line."""
     lines = [f"{result['cases']} cases, {result['clean_cases']} of them clean; {result['broken']} without a diagnosis"]
-    for name in ("false_alarm_rate", "falsely_named_rate", "calibration_error"):
+    for name in ("false_alarm_rate", "falsely_named_rate", "calibration_error", "right_above_09_rate"):
         lines.append(f"{name:28} {_one(result[name])}")
     lines.append(f"{'by lambda':28} " + " ".join(f"{name:>15}" for name in ("all", *CLASSES)))
     for name, found in result.items():

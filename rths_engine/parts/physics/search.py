@@ -76,6 +76,10 @@ class Search(Generic[E]):
         """A sentence on what the recording confounds with the effect; empty where nothing."""
         return ""
 
+    def contradicted(self, effect: E, seen: Seen, measured: Array, step: float) -> str | None:
+        """What in the recording contradicts the fitted effect; None where nothing. `measured` has the shape (channels, n)."""
+        return None
+
     def says(self, effect: E) -> str:
         """What the effect does, with its size and unit: the verb phrase of a diagnosis' sentence."""
         raise NotImplementedError

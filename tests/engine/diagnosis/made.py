@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from rths_engine.diagnosis.claims import Claims
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal
 from rths_engine.diagnosis.fitting import Fitted, Recordings
 from rths_engine.diagnosis.judge import Judged
@@ -162,5 +163,11 @@ def selected(used: Recordings, baseline: Fitted, chosen: Fitted, **more: Any) ->
     return Selection(used, baseline, chosen, **(given | more))
 
 
-def as_judged(selection: Selection, verdict: Any = "mismatch", unknown: bool = False, heldout: tuple[Any, ...] = ()) -> Judged:
-    return Judged(selection.recordings.component, "specimen of station 1", selection, verdict, unknown, heldout)
+def as_judged(
+    selection: Selection,
+    verdict: Any = "mismatch",
+    unknown: bool = False,
+    heldout: tuple[Any, ...] = (),
+    proof: Claims | None = None,
+) -> Judged:
+    return Judged(selection.recordings.component, "specimen of station 1", selection, verdict, unknown, heldout, proof)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom, chi2, gamma, norm
 
-from rths_engine.diagnosis.detect import Detection, _upper_tail, detect, null_misfits, p_planned, p_value
+from rths_engine.diagnosis.detect import Detection, _upper_tail, detect, left, null_misfits, p_planned, p_value
 from rths_engine.diagnosis.fitting import Fitted, fit
 from rths_engine.diagnosis.noise import Noise, coloured
 from rths_engine.diagnosis.signatures import general, signatures
@@ -72,6 +72,17 @@ def test_what_only_a_general_law_holds_is_detected_without_any_effect() -> None:
     found = detected(linear(waves=0), [Gain(), Wave(size=0.5, storey=1)], 2)
     assert found.p_library == 1.0 and len(found.scores) == 0
     assert found.p_general < 1e-6 and found.explained > 10 * found.expected
+
+
+def test_what_is_left_after_another_model_is_what_its_own_detection_says() -> None:
+    used = recordings(linear(), noisy([Gain(), Wave(size=0.5, storey=4)], 21))
+    plain, whole = fit(used, [Gain()]), fit(used, [Gain(), Wave(size=0.3, storey=4)])
+    drawn = [null_misfits(used, one, np.random.default_rng(0)) for one in (plain, whole)]
+    before = detect(plain, signatures(used, plain), general(used, plain), drawn[0])
+    other = detect(whole, signatures(used, whole), general(used, whole), drawn[1])
+    found = left(before, whole, general(used, whole), drawn[1])
+    assert (found.p_general, found.explained, found.expected) == (other.p_general, other.explained, other.expected)
+    assert found.largest == before.largest
 
 
 def test_planned_numbers_beyond_their_tolerance_are_an_alarm_of_their_own() -> None:

@@ -9,17 +9,16 @@ import numpy as np
 import pytest
 
 from rths_engine.diagnosis.detect import Detection
+from rths_engine.diagnosis.ends import ENDS, inner
 from rths_engine.diagnosis.fitting import Fitted, evaluated
 from rths_engine.diagnosis.judge import (
     BLOCKS,
-    ENDS,
     HELD_OUT,
     MORE_THAN_HALF,
     NOT_WHOLE,
     PLAIN,
     Judged,
     fitted_blocks,
-    inner,
     judged,
 )
 from tests.engine.diagnosis.made import (

@@ -34,6 +34,10 @@ class Clipping(Reading):
         return min(max(y, -p[0]), p[0])
 
 
+# chosen; see docs/decisions/0030
+BEYOND, MOST_BEYOND = 1.02, 0.02  # times the limit, above its ripple in the band of the comparison; share of the samples
+
+
 class DisplacementClipping(OfDisplacement, Clipping):
     """Clipping of the displacement sensor: x_meas = min(max(x, -L), L)."""
 
@@ -57,6 +61,12 @@ class ClippingSearch(ReadingSearch[Clipping]):
     def guesses(self, seen: Seen) -> Iterator[Clipping]:
         for share in (0.7, 0.95):
             yield self.sized(limit=share * self.largest(seen))
+
+    def contradicted(self, effect: Clipping, seen: Seen, measured: Array, step: float) -> str | None:
+        share = float(np.mean(np.abs(measured) > BEYOND * effect.limit))
+        if share <= MOST_BEYOND:
+            return None
+        return f"{100 * share:.0f} % of the samples exceed the limit of {said(effect.limit, self.shown)}"
 
     def says(self, effect: Clipping) -> str:
         return f"does not read beyond ±{said(effect.limit, self.shown)}"

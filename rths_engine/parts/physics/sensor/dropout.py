@@ -40,6 +40,10 @@ class Dropout(Reading):
         return y + lost * (s[0] - y)
 
 
+# chosen; see docs/decisions/0030
+MOVES = 0.3  # of the standard deviation of the whole reading: a reading that is repeated moves less
+
+
 class DisplacementDropout(OfDisplacement, Dropout):
     """Dropout of the displacement sensor: x_meas(t) = x(t_0) for t_0 < t <= t_0 + D."""
 
@@ -59,6 +63,13 @@ class DropoutSearch(ReadingSearch[Dropout]):
     def guesses(self, seen: Seen) -> Iterator[Dropout]:
         for part in (0.15, 0.35, 0.55, 0.75):
             yield self.sized(time=part * seen.time, duration=0.1 * seen.time)
+
+    def contradicted(self, effect: Dropout, seen: Seen, measured: Array, step: float) -> str | None:
+        start, end = (round((effect.time + share * effect.duration) / step) for share in (0.2, 0.8))
+        lost = measured[:, start:end]
+        if lost.shape[1] < 3 or float(np.max(np.std(lost, axis=1) / np.maximum(np.std(measured, axis=1), 1e-300))) < MOVES:
+            return None
+        return f"the reading moves between {said(effect.time, 's')} and {said(effect.time + effect.duration, 's')}"
 
     def says(self, effect: Dropout) -> str:
         return f"repeats one reading from {said(effect.time, 's')} on, for {said(effect.duration, 's')}"

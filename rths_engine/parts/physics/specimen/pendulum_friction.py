@@ -12,7 +12,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.physics.effect import FORCE, Effect
 from rths_engine.parts.physics.friction import bristle
-from rths_engine.parts.physics.search import PRESLIDING, Search, Seen, beyond
+from rths_engine.parts.physics.search import PRESLIDING, TINY, Search, Seen, beyond
 from rths_engine.parts.physics.wording import said
 
 
@@ -51,6 +51,8 @@ class PendulumFriction(Effect):
 
 # chosen; see docs/decisions/0023
 SLOWEST = 0.03  # of the largest velocity: friction that grows at lower velocities looks like Coulomb friction
+RESTORES = 0.02  # least restoring force over the friction, at the largest displacement
+FLATTEST = 5.0  # friction over the largest restoring force: bearings have 0.1 to 2, more is friction on a plane
 
 
 class PendulumFrictionSearch(Search[PendulumFriction]):
@@ -66,7 +68,12 @@ class PendulumFrictionSearch(Search[PendulumFriction]):
         yield self.sized(stiffness=stiffness, friction=force, velocity=0.15 * seen.v, presliding=0.01 * seen.x)
 
     def doubt(self, effect: PendulumFriction, seen: Seen) -> float:
-        return beyond(effect.presliding, PRESLIDING * seen.x) + beyond(SLOWEST * seen.v, effect.velocity)
+        flat = beyond(effect.friction, FLATTEST * effect.stiffness * seen.x)
+        return flat + beyond(effect.presliding, PRESLIDING * seen.x) + beyond(SLOWEST * seen.v, effect.velocity)
+
+    def contradicted(self, effect: PendulumFriction, seen: Seen, measured: Array, step: float) -> str | None:
+        restores = effect.stiffness * seen.x / max(effect.friction, TINY)
+        return f"the restoring force is {100 * restores:.2g} % of the friction" if restores < RESTORES else None
 
     def says(self, effect: PendulumFriction) -> str:
         friction, stiffness = said(effect.friction, "kN"), said(effect.stiffness, "kN/m")
