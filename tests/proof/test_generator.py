@@ -12,7 +12,7 @@ from tests.proof.generator.left_out import BoucWen, Compliance, Drop, Heating, L
 from tests.proof.generator.motion import STEP, Motion, random_motion
 from tests.proof.generator.noise import Colour
 from tests.proof.generator.readings import Reading
-from tests.proof.generator.sizing import Absorbed
+from tests.proof.generator.sizing import Absorbed, sized
 from tests.proof.generator.specimen_effects import CURRENT, IDS, effect
 
 TIME = np.arange(0, 4.0, 1 / 256)
@@ -105,6 +105,12 @@ SCALE = scales(WAVE, specimen.force(LAW, [], WAVE, TIME), TIME) | {"current": 2.
 def fallen(t: float) -> float:
     """A current (A) that rises, then falls, each within 20 ms as in the cases."""
     return float(np.interp(t, [0.5, 0.52, 0.8, 0.82], [1.0, 2.0, 2.0, 0.5]))
+
+
+def test_a_size_that_cannot_be_solved_leaves_the_last_one_that_could() -> None:
+    """lambda = 1e6 size^2 down to a size of 0.01, below which the equations are too stiff."""
+    assert sized(lambda size: 1e6 * size**2 if size > 0.01 else np.inf, 1.0, 1.0, 2.0) == pytest.approx(1 / 30)
+    assert sized(lambda size: 1e4 * size**2, 1.0, 1.0, 2.0) == pytest.approx(0.01)
 
 
 @pytest.mark.parametrize("name", [*IDS, "sensor_offset", "sensor_clipping"])

@@ -84,11 +84,18 @@ class Absorbed:
 
 
 def sized(strength: Callable[[float], float], wanted: float, first: float, most: float) -> float:
-    """A size whose lambda is near `wanted`, by lambda ~ size^2; at most `most`."""
-    size = first
+    """A size whose lambda is near `wanted`, by lambda ~ size^2; at most `most`.
+
+    Where a smaller size makes the generator's equations too stiff to solve (a lag far below a substep), the last size that
+    could be solved stays, with a larger lambda than wanted.
+    """
+    size, solved = first, None
     for _ in range(5):
         found = strength(size)
+        if not np.isfinite(found) and solved is not None:
+            return solved
         if 0.8 < found / wanted < 1.25:
             break
+        solved = size if np.isfinite(found) else None
         size = min(size * min(max(float(np.sqrt(wanted / max(found, 1e-9))), 1 / 30), 5.0), most)
     return size
