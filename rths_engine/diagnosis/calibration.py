@@ -25,8 +25,8 @@ class Facts:
     in standard errors. `remaining` is the share of the held-out error beyond the noise that remains. `flexible` is the held-out
     advantage of the flexible law in units of the planned model's disadvantage. `unexplained` is the chi^2 that a general law
     explains for sure after the effects, over the chi^2 that the effects explain. `share` is the share of the
-    held-out error beyond the noise that the effect explains. `confounded` effects have a twin that the
-    recording cannot tell from them.
+    held-out error beyond the noise that the effect explains. The gain of `doubted` effects is not
+    clearly above zero, or they have a twin that the recording cannot tell from them.
     """
 
     mass: float
@@ -39,7 +39,7 @@ class Facts:
     other_motion: bool
     replicated: bool
     part_of_it: bool
-    confounded: bool
+    doubted: bool
 
     NAMES: ClassVar = ("constant", "mass", "evidence", "certainty", "remaining", "flexible", "unexplained", "share")
 
@@ -66,7 +66,7 @@ def probability(facts: Facts, weights: Sequence[float] = WEIGHTS) -> float:
     """Probability that the effect is truly present, within what the held-out data can show."""
     raw = sum(weight * value for weight, value in zip(weights, facts.row, strict=True))
     found = 1 / (1 + math.exp(-min(max(raw, -30.0), 30.0)))
-    if facts.part_of_it or facts.confounded:
+    if facts.part_of_it or facts.doubted:
         found = min(found, MOST_PART)
     if not facts.other_motion:
         found = min(found, MOST_SAME)

@@ -202,11 +202,9 @@ def _doubtful(selection: Selection, proof: _Proof, gains: dict[Any, Gain]) -> Re
     return None
 
 
-def _unconfirmed(selection: Selection, gains: dict[Any, Gain]) -> list[Rejected]:
-    """The effects that stay in the model, because they were fitted with the others, and are not named."""
-    reason = "Its own gain on held-out data is not clearly above zero. It stays in the extended model."
-    unclear = [one for one in _named(selection) if not gains[key(one)].clear]
-    return [Rejected(one, reason, None, gains[key(one)]) for one in unclear]
+def _unconfirmed(one: Effect, own: Gain) -> Rejected:
+    """An effect that stays in the model, because it was fitted with the others, and is not named."""
+    return Rejected(one, "Its own gain on held-out data is not clearly above zero. It stays in the extended model.", None, own)
 
 
 def _says_nothing(selection: Selection, effect: Effect) -> bool:
@@ -244,20 +242,24 @@ def _cancelling(selection: Selection, effects: Sequence[Effect]) -> tuple[Effect
 
 
 def _claims(selection: Selection, proof: _Proof, gains: dict[Any, Gain], rejected: Sequence[Rejected]) -> Claims:
-    held, unconfirmed = proof.heldout, _unconfirmed(selection, gains)
-    claims = [one for one in _named(selection) if all(one is not other.effect for other in unconfirmed)]
+    held = proof.heldout
     planned, chosen, noise = held.error(proof.planned), held.error(proof.chosen), held.noise
     sure = noise * (1 + CERTAIN * float(np.sqrt(2 * proof.scale.memory / max(1, held.samples))))
     beyond = planned - noise
     remaining = max(0.0, chosen - noise) / beyond if planned > sure else None
     part_of_it = remaining is not None and (chosen - sure) / beyond > HALF
+    shares = {
+        key(one): None if remaining is None else min(1.0, max(0.0, (held.error(proof.without[key(one)]) - chosen) / beyond))
+        for one in _named(selection)
+    }
+    claims = [one for one in _named(selection) if gains[key(one)].clear or (shares[key(one)] or 0.0) > MATERIAL]
+    unconfirmed = [_unconfirmed(one, gains[key(one)]) for one in _named(selection) if all(one is not claim for claim in claims)]
     named = [gains[key(one)] for one in claims]
     replicated = bool(claims) and all(one.replicated for one in named)
     mass, free = _mass(selection, proof) if claims else ({}, 0.0)
     found = []
     for one in claims:
-        without, own = held.error(proof.without[key(one)]), gains[key(one)]
-        share = None if remaining is None else min(1.0, max(0.0, (without - chosen) / beyond))
+        without, own, share = held.error(proof.without[key(one)]), gains[key(one)], shares[key(one)]
         facts = Facts(
             mass=mass[key(one)],
             evidence=evidence_of(selection, one),
@@ -269,9 +271,12 @@ def _claims(selection: Selection, proof: _Proof, gains: dict[Any, Gain], rejecte
             other_motion=own.other_motion,
             replicated=replicated,
             part_of_it=part_of_it,
-            confounded=bool(physics.SEARCHES[type(one)].caution(_seen(selection, one))),
+            doubted=not own.clear or bool(physics.SEARCHES[type(one)].caution(_seen(selection, one))),
         )
         found.append(Claim(one, own, share, float(np.sqrt(without)), facts, probability(facts)))
+    if found and not part_of_it and max(one.probability for one in found) < HALF:
+        part_of_it = True
+        found = [replace(one, facts=replace(one.facts, part_of_it=True)) for one in found]
     return Claims(
         selection,
         tuple(found),

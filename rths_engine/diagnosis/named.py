@@ -139,7 +139,8 @@ def _proof(proof: Claims, claim: Claim) -> str:
         return "The held-out recordings do not test this effect; the fitted motion alone shows it."
     motion = "another motion" if claim.gain.other_motion else "the same motion"
     errors = f"{100 * claim.error_without:.3g} % without this effect alone and {100 * proof.errors[1]:.3g} % with it"
-    return f"The held-out error is {errors} ({claim.gain.blocks} blocks of {motion})."
+    doubt = "" if claim.gain.clear else " Its own gain is not clearly above zero."
+    return f"The held-out error is {errors} ({claim.gain.blocks} blocks of {motion}).{doubt}"
 
 
 def _span(number: schema.Parameter) -> str:
@@ -149,10 +150,10 @@ def _span(number: schema.Parameter) -> str:
 
 
 def _remaining(one: Judged) -> str:
-    """The sentence on the unexplained part, where the named effects are a part of the mismatch."""
+    """The sentence on what is unexplained, where the named effects are a part of the mismatch."""
     share = one.proof.remaining if one.proof else None
     if share is None or share <= HALF:
-        return f"A part of the mismatch of the {one.name} is unexplained: held-out data confirm no effect for it."
+        return f"The cause of the mismatch of the {one.name} is uncertain."
     remains = f"{100 * min(1.0, share):.0f} % of the held-out error beyond the noise remains"
     return f"Most of the mismatch of the {one.name} is unexplained: {remains}."
 

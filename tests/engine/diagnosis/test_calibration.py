@@ -19,7 +19,7 @@ GOOD = Facts(
     other_motion=True,
     replicated=False,
     part_of_it=False,
-    confounded=False,
+    doubted=False,
 )
 BAD = replace(GOOD, mass=0.0, evidence=0.5, certainty=1.0, remaining=0.9, flexible=0.5, unexplained=3.0)
 
@@ -37,7 +37,7 @@ def test_certainty_needs_a_second_recording_another_motion_and_little_that_remai
     assert probability(GOOD, sure) == MOST_ALONE
     assert probability(replace(GOOD, replicated=True), sure) > 0.999
     assert probability(replace(GOOD, other_motion=False), sure) == MOST_SAME
-    for doubt in ("part_of_it", "confounded"):
+    for doubt in ("part_of_it", "doubted"):
         assert probability(replace(GOOD, replicated=True, **{doubt: True}), sure) == MOST_PART < 0.5
 
 

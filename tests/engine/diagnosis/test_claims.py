@@ -12,6 +12,7 @@ from rths_engine.diagnosis.claims import Claims, proved
 from rths_engine.diagnosis.detect import Detection
 from rths_engine.diagnosis.ends import inner
 from rths_engine.diagnosis.fitting import fit
+from rths_engine.diagnosis.gain import Gain as HeldOutGain
 from rths_engine.parts import physics
 from tests.engine.diagnosis.made import DT, Driven, Gain, Wave, linear, noisy, recordings, selected
 
@@ -63,6 +64,18 @@ def test_an_effect_that_is_not_confirmed_stays_in_the_model_without_a_name() -> 
     assert [claim.effect.storey for claim in found.claims] == [4]  # type: ignore[attr-defined]
     assert "stays in the extended model" in found.rejected[0].reason and len(found.selection.effects) == 2
     assert found.undecided
+
+
+def test_an_effect_of_unclear_gain_that_explains_much_is_named_with_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(HeldOutGain, "clear", False)
+    (claim,) = claims(made(19, (0.5, 4)), (made(20, (0.5, 4)),), 4).claims
+    assert claim.facts.doubted and claim.probability <= 0.45
+
+
+def test_effects_of_which_none_is_probable_are_a_part_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rths_engine.diagnosis.claims.probability", lambda facts: 0.3)
+    found = claims(made(21, (0.5, 4)), (made(22, (0.5, 4)),), 4)
+    assert found.part_of_it and found.claims[0].facts.part_of_it
 
 
 def test_two_recordings_that_agree_replicate_the_effect() -> None:
