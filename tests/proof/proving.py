@@ -54,7 +54,8 @@ def prove(
         folders.found.mkdir(parents=True)
         made = specs(cases, seed, only)
         started = time.perf_counter()
-        _everywhere(workers, _made, [(spec, folders) for spec in made], "recordings made", told)
+        whole = _everywhere(workers, _made, [(spec, folders) for spec in made], "recordings made", told)
+        made = [spec for spec, kept in zip(made, whole, strict=True) if kept]
         digests = seals.seal(folders.sealed, folders.root / seals.SEALS)
         told(f"{len(digests)} truths sealed after {time.perf_counter() - started:.0f} s")
         runs = _everywhere(workers, diagnosed, [(folders.shown / spec.name, folders.found) for spec in made], "diagnosed", told)
@@ -63,7 +64,7 @@ def prove(
         (folders.root / "runs.json").write_text(json.dumps(seconds, indent=1) + "\n", encoding="utf-8")
         asked = [(folders, spec.name, seconds[spec.name]) for spec in made]
         rows = _everywhere(workers, _scored, asked, "scored", told)
-        result = {**summary(rows), "seed": seed, "only": only, "level": LEVEL, "per_case": rows}
+        result = {**summary(rows), "not_made": whole.count(False), "seed": seed, "only": only, "level": LEVEL, "per_case": rows}
         (folders.root / "proof.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
         return result
 
@@ -89,8 +90,13 @@ def diagnosed(case: Path, found: Path) -> dict[str, Any]:
     return {"exit": code, "said": said.getvalue().strip(), "seconds": time.perf_counter() - started}
 
 
-def _made(spec: Spec, folders: Folders) -> None:
-    spec.case().write(folders.shown / spec.name, folders.sealed / spec.name)
+def _made(spec: Spec, folders: Folders) -> bool:
+    """Make a case; False where its equations are too stiff to solve, which only the draw of the case decides."""
+    try:
+        spec.case().write(folders.shown / spec.name, folders.sealed / spec.name)
+    except ArithmeticError:
+        return False
+    return True
 
 
 def _scored(folders: Folders, name: str, run: dict[str, Any]) -> dict[str, Any]:

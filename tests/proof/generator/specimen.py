@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 
@@ -13,6 +14,7 @@ from tests.proof.generator.left_out import At, Effect, Series
 from tests.proof.generator.motion import Array, Motion
 
 RTOL, ATOL = 1e-8, 1e-9  # of states of order one
+MOST = 600_000  # evaluations of the equations: a record takes some 100 000
 Current = Callable[[float], float]
 
 
@@ -99,8 +101,18 @@ def _through(connection: Series, law: Law, effects: Sequence[Effect], motion: Mo
 
 
 def solved(slopes: Callable[[float, Array], Sequence[float]], start: Sequence[float], time: Array) -> Array:
-    """States (rows) at `time`. LSODA turns to its stiff method where contact or friction asks for it."""
-    found = solve_ivp(slopes, (time[0], time[-1]), start, method="LSODA", t_eval=time, rtol=RTOL, atol=ATOL, max_step=0.02)
+    """States (rows) at `time`. LSODA turns to its stiff method where contact or friction asks for it.
+
+    Raises ArithmeticError where the equations are so stiff that MOST evaluations do not solve them.
+    """
+    asked = itertools.count()
+
+    def limited(t: float, s: Array) -> Sequence[float]:
+        if next(asked) > MOST:
+            raise ArithmeticError(f"more than {MOST} evaluations: the equations are too stiff")
+        return slopes(t, s)
+
+    found = solve_ivp(limited, (time[0], time[-1]), start, method="LSODA", t_eval=time, rtol=RTOL, atol=ATOL, max_step=0.02)
     if not found.success:
         raise ArithmeticError(found.message)
     return np.asarray(found.y)
