@@ -19,16 +19,27 @@ interface PlotRow {
   said: unknown;
 }
 
+/** A heat map of cells: `z` holds a row for each `y`; `said` is the hover text of each cell. */
+interface PlotSurface {
+  x: number[];
+  y: number[];
+  z: (number | null)[][];
+  said: string[][];
+  limit: number;
+  title: string;
+}
+
 interface PlotSpan {
   from: number;
   to: number;
   text: string;
 }
 
-/** A plot: lines and bars in `traces`, or a heat map in `rows`. `from_zero` and `log` name axes, such as "xy". */
+/** A plot: lines and bars in `traces`, or a heat map in `rows` or in `surface`. `from_zero` and `log` name axes, such as "xy". */
 interface PlotSpec {
   traces: PlotTrace[];
   rows?: PlotRow[];
+  surface?: PlotSurface;
   scale: { from: number; to: number; title: string; at: number[]; said: string[] };
   mark?: { x: number; y: number; text: string };
   spans?: PlotSpan[];

@@ -12,8 +12,8 @@ from app.reports.digits import CHANCES
 from rths_engine.diagnosis.schema import Form, Pictures, Verdict
 
 HEADS = ("field", "type", "unit", "meaning")
-NAMES = {str: "text", float: "number", bool: "true or false"}
-LISTS = {str: "texts", float: "numbers"}
+NAMES = {str: "text", float: "number", int: "integer", bool: "true or false"}
+LISTS = {str: "texts", float: "numbers", int: "integers"}
 Row = tuple[str, str, str, str]
 
 

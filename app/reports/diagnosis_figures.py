@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.reports.diagnosis_names import capital
+from app.reports.diagnosis_surface import surface_panel
 from app.reports.figures import Panel
 from app.reports.packed import Samples, packed
 from rths_engine.diagnosis.schema import Pictures
@@ -91,7 +92,8 @@ def _panels(detail: Detail, models: Models) -> list[Panel]:
         found.append(_lines(f"{name}: recording and simulation", channel, channel.signals.time_s, signals, axes[0], spans))
         found.append(_lines(f"Residual of the {channel.label}", channel, channel.residuals.time_s, left, axes[1], spans))
         found.append(_spectrum(channel, models))
-    return [*found, *_planes(detail.state, models), _blocks(detail, models, spans)]
+    surfaces = [surface_panel(one) for one in detail.surfaces]
+    return [*surfaces, *found, *_planes(detail.state, models), _blocks(detail, models, spans)]
 
 
 def _of(signals: Signals | Residuals | Spectra | State, models: Models, group: str = "") -> list[tuple[str, Numbers]]:

@@ -136,13 +136,18 @@ def _errors(model: Errors) -> list[str]:
 def _unexplained(left: Unexplained) -> list[tuple[str, str]]:
     share = f"{percent(left.fraction)} % of the RMS of the measured signal about its mean"
     found = [("Description", left.words), ("Share", share)]
+    if left.formula_share is not None:
+        explained = f"explains {percent(left.formula_share)} % of the held-out error beyond the noise"
+        return [*found, ("Formula", f"{left.formula}; it {explained}")]
     return [*found, ("Formula", left.formula)] if left.formula else found
 
 
 def _next_test(verdict: Verdict, names: Names) -> str:
     """The next test in words, or the reason why none is proposed."""
     found = verdict.next_test
-    if found:
+    if found and found.tells:
+        return f"{capital(found.signal)}. {found.tells}"
+    if found and found.expected_lambda is not None:
         first, second = (names.candidate(one) for one in found.separates)
         expected = f"The expected λ between {first} and {second} is {short(found.expected_lambda, 3)}"
         return f"{capital(found.signal)}. {expected}; a test separates two candidates from λ = 10 on."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from rths_engine.diagnosis.judge import Judged
 from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.part import Part
 
 # chosen; see docs/decisions/0023
 WINDOW = 1.0  # s
@@ -31,9 +33,10 @@ class Place:
     level: Array
 
 
-def place(one: Judged) -> Place:
-    """Locate the residual of a component's planned model in time, frequency and state."""
-    data, residual = one.recordings.data[0], one.recordings.residuals(one.selection.baseline.parts)[0]
+def place(one: Judged, parts: Sequence[Part] | None = None) -> Place:
+    """Locate the residual of a component's model, by default of its planned model, in time, frequency and state."""
+    parts = one.selection.baseline.parts if parts is None else parts
+    data, residual = one.recordings.data[0], one.recordings.residuals(parts)[0]
     noise = np.array([max(model.deviation, 1e-300) for model in one.recordings.noises])
     scaled = residual / noise[:, None]
     width = max(1, min(round(WINDOW / data.step), scaled.shape[1] // 8))

@@ -7,10 +7,11 @@ from typing import Any
 
 from rths_engine.diagnosis import schema
 from rths_engine.diagnosis.claims import HALF, Claim, Claims
+from rths_engine.diagnosis.described import sentence as described
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.fitting import Fitted
 from rths_engine.diagnosis.judge import Judged
-from rths_engine.diagnosis.unknown import Law
+from rths_engine.diagnosis.remaining import Remaining
 from rths_engine.foundation import units
 from rths_engine.parts import physics
 from rths_engine.parts.physics import wording
@@ -18,7 +19,7 @@ from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.physics.search import Seen
 
 
-def named(one: Judged, remains: Law | None) -> list[schema.NamedEffect]:
+def named(one: Judged, remains: Remaining | None) -> list[schema.NamedEffect]:
     """The effects of a component, the most probable first.
 
     `unknown` comes first where no effect of the library explains the mismatch, or where the named effects are a part of it.
@@ -158,9 +159,9 @@ def _remaining(one: Judged) -> str:
     return f"Most of the mismatch of the {one.name} is unexplained: {remains}."
 
 
-def _unknown(one: Judged, remains: Law | None) -> schema.NamedEffect:
+def _unknown(one: Judged, remains: Remaining | None) -> schema.NamedEffect:
     """A mismatch that no effect of the library explains. It has no probability, because no effect was fitted for it."""
-    law_words = f" The residual contains these terms: {remains.words}." if remains else ""
+    law_words = f" {described(remains, one.name)}" if remains else ""
     part = one.proof is not None and one.proof.part_of_it and not one.unknown
     if part:
         sentence = f"{_remaining(one)}{law_words}"

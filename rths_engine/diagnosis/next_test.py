@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -23,11 +23,44 @@ SHARES = (0.25, 0.5, 1.0, 1.5)  # of the largest displacement in the recording
 
 
 @dataclass(frozen=True)
-class NextTest:
-    """A test in words and its expected lambda: the squared distance of the two simulations in units of the noise."""
+class Motion:
+    """A command that a rig can make: its shape in words, amplitude (m), frequency (Hz), cycles and samples (m)."""
 
-    signal: str
+    waveform: Literal["sine", "triangle"]
+    amplitude: float
+    frequency: float
+    cycles: int
+    x: Array
+
+    @property
+    def signal(self) -> str:
+        return f"a {self.waveform} of {1e3 * self.amplitude:.3g} mm at {self.frequency:g} Hz, {self.cycles} cycles"
+
+
+@dataclass(frozen=True)
+class NextTest:
+    """A test and its expected lambda: the squared distance of the two simulations in units of the noise."""
+
+    motion: Motion
     expected: float
+
+    @property
+    def signal(self) -> str:
+        return self.motion.signal
+
+
+def motions(data: ActuatorData | SpecimenData, stroke: float, speed: float) -> list[Motion]:
+    """Sines and triangles within the rig's `stroke` (m) and `speed` (m/s), scaled by the largest recorded displacement."""
+    largest = data.seen().x
+    offers = []
+    for share in SHARES:
+        amplitude = min(share * largest, stroke)
+        for frequency in FREQUENCIES:
+            if 2 * np.pi * frequency * amplitude <= speed:
+                offers.append(Motion("sine", amplitude, frequency, CYCLES, _sine(amplitude, frequency, data.dt)))
+        if 4 * TRIANGLE * amplitude <= speed:
+            offers.append(Motion("triangle", amplitude, TRIANGLE, 2, _triangle(amplitude, TRIANGLE, data.dt)))
+    return offers
 
 
 def next_test(
@@ -35,31 +68,16 @@ def next_test(
 ) -> NextTest | None:
     """The test with the largest expected lambda between two models, or None where no test separates them.
 
-    The tests are sines and triangles within the rig's `stroke` (m) and `speed` (m/s). A test separates two models where its
-    lambda is at least APART. None also where the component has no drive.
+    The tests are the `motions` of the rig. A test separates two models where its lambda is at least APART. None also where the
+    component has no drive.
     """
     data = recordings.data[0]
     if not isinstance(data, ActuatorData | SpecimenData):
         return None
-    largest = data.seen().x
-    offers = []
-    for share in SHARES:
-        for frequency in FREQUENCIES:
-            amplitude = min(share * largest, stroke)
-            if 2 * np.pi * frequency * amplitude <= speed:
-                offers.append(
-                    (
-                        f"a sine of {1e3 * amplitude:.3g} mm at {frequency:g} Hz, {CYCLES} cycles",
-                        _sine(amplitude, frequency, data.dt),
-                    )
-                )
-        amplitude = min(share * largest, stroke)
-        if 4 * TRIANGLE * amplitude <= speed:
-            signal = _triangle(amplitude, TRIANGLE, data.dt)
-            offers.append((f"a triangle of {1e3 * amplitude:.3g} mm at {TRIANGLE:g} Hz, 2 cycles", signal))
+    offers = motions(data, stroke, speed)
 
-    def expected(offer: tuple[str, Array]) -> float:
-        moved = _moved_as(data, offer[1])
+    def expected(offer: Motion) -> float:
+        moved = _moved_as(data, offer.x)
         first, second = (recordings.component.predicted(parts, moved) for parts in (one, other))
         apart = sum(
             float(np.sum(noise.whitened(a - b) ** 2)) for noise, a, b in zip(recordings.noises, first, second, strict=True)
@@ -72,7 +90,7 @@ def next_test(
     best = int(np.argmax(reached))
     if reached[best] < APART:
         return None
-    return NextTest(offers[best][0], reached[best])
+    return NextTest(offers[best], reached[best])
 
 
 def _sine(amplitude: float, frequency: float, dt: float) -> Array:

@@ -16,8 +16,10 @@ from rths_engine.diagnosis.ends import inner
 from rths_engine.diagnosis.judge import BLOCKS, HELD_OUT, Judged
 from rths_engine.diagnosis.locate import BEYOND, place
 from rths_engine.diagnosis.noise import FREQUENCY, Noise
+from rths_engine.diagnosis.remaining import Remaining
 from rths_engine.diagnosis.result import ORDER
 from rths_engine.diagnosis.schema import pictures as form
+from rths_engine.diagnosis.surface import Surface
 from rths_engine.diagnosis.verdict import Diagnosis
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.roles import SHOWN, dimension, to_si
@@ -35,11 +37,12 @@ MOTIONS = {"x": ("displacement", "m"), "v": ("velocity", "m/s"), "a": ("accelera
 def pictures(diagnosis: Diagnosis) -> form.Pictures:
     """The plots of all components; components with a mismatch, and at least the worst component, in detail."""
     worst = max(diagnosis.judged, key=lambda one: (ORDER.index(one.verdict), one.gain))
-    found = (_component(one, one is worst or one.verdict not in WELL) for one in diagnosis.judged)
+    left = diagnosis.left
+    found = (_component(one, one is worst or one.verdict not in WELL, left.get(one.component.name)) for one in diagnosis.judged)
     return form.Pictures(components=tuple(found))
 
 
-def _component(one: Judged, detailed: bool) -> form.PicturedComponent:
+def _component(one: Judged, detailed: bool, left: Remaining | None) -> form.PicturedComponent:
     found = place(one)
     return form.PicturedComponent(
         component=one.component.name,
@@ -48,15 +51,15 @@ def _component(one: Judged, detailed: bool) -> form.PicturedComponent:
         verdict=one.verdict,
         mismatch=one.verdict not in WELL,
         over_time=form.OverTime(time_s=_numbers(found.middle), level=_numbers(found.level), beyond=BEYOND),
-        detail=_detail(one) if detailed else None,
+        detail=_detail(one, left) if detailed else None,
     )
 
 
-def _detail(one: Judged) -> form.Detail:
+def _detail(one: Judged, left: Remaining | None) -> form.Detail:
     data = one.recordings.data[0]
     before, after = (one.recordings.predicted(model.parts)[0] for model in (one.selection.baseline, one.selection.chosen))
-    left = np.mean((data.measured - before) ** 2, axis=1) / np.maximum(np.var(data.measured, axis=1), 1e-300)
-    shown = sorted(np.argsort(-left)[:MOST_CHANNELS])
+    missed = np.mean((data.measured - before) ** 2, axis=1) / np.maximum(np.var(data.measured, axis=1), 1e-300)
+    shown = sorted(np.argsort(-missed)[:MOST_CHANNELS])
     weights = one.recordings.weights[0]
     return form.Detail(
         channels=tuple(
@@ -72,6 +75,23 @@ def _detail(one: Judged) -> form.Detail:
         blocks=_blocks(data, before, after, not one.heldout),
         held_out_recordings=tuple(_whole(one, other) for other in one.heldout),
         noise_nrmse=_number(one.noise),
+        surfaces=tuple(_surface(surface, left.unit) for surface in left.surfaces) if left else (),
+    )
+
+
+def _surface(one: Surface, unit: str) -> form.Surface:
+    """The unexplained residual in the cells of displacement and velocity."""
+    label = "unexplained displacement" if unit == "m" else "unexplained storey force" if one.place else "unexplained force"
+    x, v = (form.Cells(label=axis.label, **_unit(axis.unit), edges=_numbers(axis.values)) for axis in (one.x, one.v))
+    return form.Surface(
+        place=one.place,
+        output=form.Named(label=label, **_unit(unit)),
+        displacement=x,
+        velocity=v,
+        mean=tuple(_numbers(row) for row in one.mean),
+        error=tuple(_numbers(row) for row in one.error),
+        samples=tuple(tuple(int(count) for count in row) for row in one.samples),
+        visits=tuple(tuple(int(count) for count in row) for row in one.visits),
     )
 
 

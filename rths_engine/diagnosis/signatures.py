@@ -109,7 +109,8 @@ def general_terms(recordings: Recordings, fitted: Fitted) -> Array:
     Such slow changes have too few waves in a recording to distinguish noise from a law.
     """
     absorbed = absorber(np.column_stack([fitted.jacobian, _slow(recordings, len(fitted.misfit))]))
-    terms = [recordings.component.features(fitted.parts, one) for one in recordings.data]
+    first = recordings.data[0]
+    terms = [recordings.component.features(fitted.parts, one, first) for one in recordings.data]
     columns = []
     for same in zip(*terms, strict=True):
         column = _beyond(recordings.joined([term.response for term in same]), absorbed)

@@ -14,6 +14,7 @@ from rths_engine.diagnosis.components import Actuator, Specimen
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.extend import extended
 from rths_engine.diagnosis.judge import Judged, judged
+from rths_engine.diagnosis.remaining import Remaining, remaining
 from rths_engine.diagnosis.result import verdict_of
 from rths_engine.diagnosis.schema import Verdict
 from rths_engine.foundation.errors import Issue, RecordingError
@@ -25,12 +26,16 @@ Told = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The result of a diagnosis: judgements of all components, replays of all computed parts, and the verdict on the plan."""
+    """The result of a diagnosis: judgements of all components, replays of all computed parts, and the verdict on the plan.
+
+    `left` is what no named effect explains, by the name of the component.
+    """
 
     plan: Plan
     judged: tuple[Judged, ...]
     digital: tuple[Replayed, ...]
     verdict: Verdict
+    left: dict[str, Remaining]
 
 
 def diagnose(
@@ -84,7 +89,9 @@ def diagnose(
                     recorded.foreseen(component, found[-1].selection.chosen.parts, pressed, one)
         told("", 1.0)
         plan_after = extended(plan, found)
-        return Diagnosis(plan, tuple(found), tuple(replayed), verdict_of(plan, found, replayed, each, plan_after))
+        left = {one.component.name: rest for one in found if (rest := remaining(plan, one, each)) is not None}
+        verdict = verdict_of(plan, found, replayed, each, plan_after, left)
+        return Diagnosis(plan, tuple(found), tuple(replayed), verdict, left)
 
 
 def _by_name(plan: Plan, recording: Measured, where: str) -> dict[str, Any]:

@@ -53,8 +53,15 @@ EARLIER: dict[str, Any] = {
 
 # fields that later versions added, as they read where nothing was stored
 NO_PROOF = {"part_of_it": False, "gain": None, "gain_ci90": None, "share_of_error": None, "blocks": None, "other_motion": False}
+NOT_DESCRIBED: dict[str, Any] = {
+    **{name: None for name in ("size", "unit", "formula_share", "state_share", "state")},
+    **{name: [] for name in ("times_s", "bands_hz", "terms")},
+}
+NO_COMMAND = {name: None for name in ("tells", "waveform", "amplitude", "frequency", "cycles", "factor")}
 SHOWN = {
     **EARLIER,
+    "unexplained": {**EARLIER["unexplained"], **NOT_DESCRIBED},
+    "next_test": {**EARLIER["next_test"], **NO_COMMAND},
     "effects": [{**effect, **NO_PROOF} for effect in EARLIER["effects"]],
     "remaining_share": None,
     "replicated": False,

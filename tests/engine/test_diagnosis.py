@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from app.reports.diagnosis import report_html
 from rths_engine.diagnosis.noise import FREQUENCY, coloured
+from rths_engine.diagnosis.pictures import pictures
 from rths_engine.diagnosis.verdict import diagnose
 from rths_engine.foundation.errors import RecordingError
 from rths_engine.parts.physics.effect import Effect
@@ -59,10 +61,19 @@ def test_a_law_outside_the_library_is_called_unknown_and_described() -> None:
     plain = recording(4)
     x = plain.get("x_meas")
     cogging = 0.05 * np.std(plain.get("f_meas")) * np.sin(2 * np.pi * x / 0.013)
-    found = diagnose(plan(), _with(plain, f_meas=plain.get("f_meas") + cogging)).verdict
+    diagnosis = diagnose(plan(), _with(plain, f_meas=plain.get("f_meas") + cogging))
+    found = diagnosis.verdict
     assert found.verdict == "mismatch"
     assert [(one.id, one.probability) for one in found.effects] == [("unknown", None)]
-    assert found.unexplained.formula and found.unexplained.words
+    left = found.unexplained
+    assert left.formula and left.words in found.effects[0].sentence
+    assert left.unit == "N" and left.size == pytest.approx(float(np.std(cogging)), rel=0.2)
+    assert left.formula_share is not None and 0.5 < left.formula_share <= 1.0 and left.times_s and left.bands_hz
+    assert found.next_test is not None and found.next_test.tells and found.next_test.amplitude
+    (surface,) = pictures(diagnosis).components[0].detail.surfaces  # type: ignore[union-attr]
+    assert sum(map(sum, surface.samples)) > 900 and surface.output.unit == "N"
+    report = report_html("Cogging", [], found, pictures(diagnosis), plan().as_dict())
+    assert "Unexplained force over displacement and velocity" in report and found.next_test.tells in report
 
 
 @pytest.mark.parametrize(

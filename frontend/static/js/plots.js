@@ -16,6 +16,7 @@
 
   /** @param {PlotSpec} spec @param {PlotTheme} theme @returns {object[]} */
   function traces(spec, theme) {
+    if (spec.surface) return [surface(spec.surface, theme)];
     if (spec.rows) return spec.rows.map((row, i) => heat(row, i, spec, theme));
     const lines = spec.traces.map((trace) => (trace.bars ? bars(trace, theme) : line(trace, theme)));
     if (!spec.mark) return lines;
@@ -48,6 +49,14 @@
     hovertemplate: `%{x:.1f} s: %{customdata:.3g}<extra>${row.name}</extra>`,
   });
 
+  /** Means in cells: negative and positive values have the two ends of the colour scale. @param {PlotSurface} map @param {PlotTheme} theme */
+  const surface = (map, theme) => ({
+    type: "heatmap", x: map.x, y: map.y, z: map.z, customdata: map.said, zmin: -map.limit, zmax: map.limit, xgap: 1, ygap: 1, hoverongaps: false,
+    colorscale: [[0, theme.lines[0]], [0.5, theme.scale[0]], [1, theme.lines[1]]],
+    colorbar: { title: { text: map.title, side: "right", font: { size: 11 } }, thickness: 10, outlinewidth: 0 },
+    hovertemplate: "%{customdata}<extra></extra>",
+  });
+
   /** @param {string} title @param {PlotTheme} theme @param {object} more */
   function axis(title, theme, more) {
     return { title: { text: title, standoff: 8, font: { size: 12 } }, gridcolor: theme.grid, zerolinecolor: theme.zero, zerolinewidth: 1,
@@ -72,7 +81,7 @@
 
   /** @param {PlotSpec} spec @param {PlotTheme} theme @param {PlotSize} size */
   function layout(spec, theme, size) {
-    const named = !spec.rows && spec.traces.length > 1;
+    const named = !spec.rows && !spec.surface && spec.traces.length > 1;
     return {
       ...size, autosize: !size.width, margin: { l: 62, r: 14, t: named ? 26 : 10, b: 44 }, showlegend: named,
       legend: { orientation: "h", x: 1, xanchor: "right", y: 1, yanchor: "bottom" },

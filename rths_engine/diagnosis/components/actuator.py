@@ -11,7 +11,7 @@ import numpy as np
 from scipy.signal import detrend
 
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Signal, guessed
-from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
+from rths_engine.diagnosis.components.features import Sizes, modulated, of_motion, of_position, shaped
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
 from rths_engine.parts import physics
@@ -55,18 +55,26 @@ class ActuatorData(Data):
         return np.gradient(self.command, self.dt)
 
     @cached_property
+    def sizes(self) -> Sizes:
+        return Sizes.of(self.command, self.velocity, self.dt, self.velocity if self.force is None else self.force)
+
+    @cached_property
     def features(self) -> list[Feature]:
         """The terms of the general law."""
-        terms = of_motion(self.command, self.velocity, self.dt, self.velocity if self.force is None else self.force)
+        return self.features_in(self.sizes)
+
+    def features_in(self, sizes: Sizes) -> list[Feature]:
+        load = self.velocity if self.force is None else self.force
+        terms = of_motion(self.command, self.velocity, self.dt, load, sizes)
         if self.force is not None:
-            load = self.force / max(float(np.max(np.abs(self.force))), 1e-300)
+            load = self.force / sizes.f
             terms += [
                 ("f", "proportional to the force on the actuator", load),
                 ("f |f|", "growing with the square of the force on the actuator", load * np.abs(load)),
             ]
-        terms += of_position(self.command, self.velocity, self.dt)
-        shaped = [Feature(formula, words, self.reduced(values[None])) for formula, words, values in terms]
-        return shaped + modulated(self.reduced(self.velocity[None]), "v", "a lag")
+        terms += of_position(self.command, self.velocity, self.dt, sizes)
+        lag = self.reduced(self.velocity[None] / sizes.v)
+        return shaped(terms, self, sizes) + modulated(lag, "v", "a lag", sizes)
 
     def seen(self) -> Seen:
         load = float(np.max(np.abs(self.load)))
@@ -97,8 +105,8 @@ class Actuator(Component):
     def hypotheses(self, data: ActuatorData) -> Iterator[Effect]:
         yield from guessed((*physics.ACTUATOR, *SENSORS), data.seen(), lacking=("f_meas",) if data.force is None else ())
 
-    def features(self, parts: Sequence[Any], data: ActuatorData) -> list[Feature]:
-        return data.features
+    def features(self, parts: Sequence[Any], data: ActuatorData, like: Any = None) -> list[Feature]:
+        return data.features if like is None or like is data else data.features_in(like.sizes)
 
     def signals(self, data: ActuatorData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.command, data.velocity]))

@@ -10,7 +10,7 @@ import numpy as np
 
 from rths_engine.diagnosis.components.actuator import TOLERANCE, ActuatorData
 from rths_engine.diagnosis.components.component import Component, Feature, Loose, Signal, guessed
-from rths_engine.diagnosis.components.features import of_motion, of_position
+from rths_engine.diagnosis.components.features import of_motion, of_position, shaped
 from rths_engine.diagnosis.components.specimen import SENSORS, loose_spread, pressed, settled
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part
@@ -57,10 +57,10 @@ class Chain(Component):
     def hypotheses(self, data: ChainData) -> Iterator[Effect]:
         yield from guessed((*physics.ACTUATOR, *physics.SPECIMEN, *SENSORS), data.seen(), lacking=("current", "temperature"))
 
-    def features(self, parts: Sequence[Any], data: ChainData) -> list[Feature]:
-        terms = of_motion(data.command, data.velocity, data.dt, data.load)
-        terms += of_position(data.command, data.velocity, data.dt)
-        return [Feature(formula, words, data.reduced(values[None])) for formula, words, values in terms]
+    def features(self, parts: Sequence[Any], data: ChainData, like: Any = None) -> list[Feature]:
+        sizes = (data if like is None else like).sizes
+        terms = of_motion(data.command, data.velocity, data.dt, data.load, sizes)
+        return shaped(terms + of_position(data.command, data.velocity, data.dt, sizes), data, sizes)
 
     def signals(self, data: ChainData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.command, data.velocity]))

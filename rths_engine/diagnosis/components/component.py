@@ -132,12 +132,27 @@ class Loose(Part):
         return np.zeros(1), np.zeros(1)
 
 
+class State(NamedTuple):
+    """Displacement and velocity at one place; `place` is empty where a component has only one."""
+
+    place: str
+    x: Signal
+    v: Signal
+
+
 class Feature(NamedTuple):
-    """A term of a law, as a formula and in words, and the change `response` (channels, n) that it makes to the output."""
+    """A term of a law, as a formula and in words, and the change `response` (channels, n) that it makes to the output.
+
+    `sizes` are the values that scale the symbols of the formula. `unit` is the SI value of the coefficient 1: a force, or a
+    displacement for an actuator. `place` is the storey of a structure.
+    """
 
     formula: str
     words: str
     response: Array
+    sizes: Any = None
+    unit: float = 1.0
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -172,12 +187,24 @@ class Component(ABC):
         """All effects of the library that the component can leave out, each at its starting sizes."""
 
     @abstractmethod
-    def features(self, parts: Sequence[Any], data: Any) -> list[Feature]:
-        """The terms of the general law, from which an unknown law is selected."""
+    def features(self, parts: Sequence[Any], data: Any, like: Any = None) -> list[Feature]:
+        """The terms of the general law, from which an unknown law is selected.
+
+        The terms are scaled by the sizes of the recording `like`, or of `data` itself.
+        """
 
     @abstractmethod
     def signals(self, data: Any) -> tuple[Signal, Signal]:
         """Displacement and velocity in the band of the comparison, against which the residual is described."""
+
+    def states(self, data: Any) -> list[State]:
+        """Displacement and velocity at each place where a law may act: a structure has an entry for each storey."""
+        x, v = self.signals(data)
+        return [State("", x, v)]
+
+    def loaded(self, parts: Sequence[Any], data: Any, added: Sequence[Array]) -> Array:
+        """The simulated output (channels, n) where `added` (n) acts at each of the `states`."""
+        return np.asarray(self.predicted(parts, data) + np.asarray(added[0]))
 
     def seen(self, data: Any) -> list[Seen]:
         """The largest motions, forces and energies of the component; a structure has an entry for each storey."""

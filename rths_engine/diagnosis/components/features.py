@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy.signal import lfilter
 
-from rths_engine.diagnosis.components.component import Feature
+from rths_engine.diagnosis.components.component import Data, Feature
 from rths_engine.foundation.arrays import Array
 from rths_engine.running.stop import stop
 
@@ -18,18 +20,38 @@ RELAXATIONS = (0.1, 0.5, 3.0)  # s
 MODULATIONS = 14  # half waves over a recording
 
 
-def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
+class Sizes(NamedTuple):
+    """The values that the terms of a law are scaled by: the largest of each signal, the dissipated energy and the duration.
+
+    Recordings of several amplitudes share the sizes of the first, so that one law holds for all of them.
+    """
+
+    x: float  # m
+    v: float  # m/s
+    a: float  # m/s^2
+    f: float  # N
+    energy: float  # J
+    duration: float  # s
+
+    @classmethod
+    def of(cls, x: Array, v: Array, dt: float, force: Array) -> Sizes:
+        energy = float(np.sum(np.abs(force * v))) * dt
+        top_x, top_v, top_a, top_f = (max(float(np.max(np.abs(one))), 1e-300) for one in (x, v, np.gradient(v, dt), force))
+        return cls(top_x, top_v, top_a, top_f, max(energy, 1e-300), max(len(x) - 1, 1) * dt)
+
+
+def of_motion(x: Array, v: Array, dt: float, force: Array, sizes: Sizes | None = None) -> Terms:
     """Terms of displacement x (m), velocity v (m/s), force (N), energy and time.
 
-    x, v and f are divided by their largest values. E is the share of the dissipated energy and t the share of the
-    duration, both from 0 to 1.
+    x, v, a and f are divided by their sizes; without `sizes`, by their largest values. E is the dissipated energy and t the
+    time, as shares of the sizes' energy and duration.
     """
-    x, v, f = _scaled(x), _scaled(v), _scaled(force)
+    sizes = sizes or Sizes.of(x, v, dt, force)
+    energy = np.cumsum(np.abs(force * v)) * dt / sizes.energy
+    a = np.gradient(v, dt) / sizes.a
+    x, v = x / sizes.x, v / sizes.v
     side = np.tanh(v / SMOOTHING)
-    energy = np.cumsum(np.abs(f * v)) * dt
-    energy = energy / max(float(energy[-1]), 1e-30)
-    time = np.linspace(0.0, 1.0, len(x))
-    a = _scaled(np.gradient(v))
+    time = dt * np.arange(len(x)) / sizes.duration
     stops = [(f"stop_{r:g}(x)", f"hysteretic, closing over {100 * r:.0f} % of the amplitude", stop(x, r)) for r in STOPS]
     return [
         ("1", "constant", np.ones(len(x))),
@@ -58,10 +80,11 @@ def of_motion(x: Array, v: Array, dt: float, force: Array) -> Terms:
     ]
 
 
-def of_position(x: Array, v: Array, dt: float) -> Terms:
+def of_position(x: Array, v: Array, dt: float, sizes: Sizes | None = None) -> Terms:
     """Terms that are periodic in displacement, as a force or as friction, and terms that relax in time."""
-    largest = max(float(np.max(np.abs(x))), 1e-300)
-    side = np.tanh(_scaled(v) / SMOOTHING)
+    sizes = sizes or Sizes.of(x, v, dt, v)
+    largest = sizes.x
+    side = np.tanh(v / sizes.v / SMOOTHING)
     found: Terms = []
     for waves in range(1, WAVES + 1):
         length = 2 * largest / waves
@@ -72,13 +95,13 @@ def of_position(x: Array, v: Array, dt: float) -> Terms:
             found.append((f"{name}(2 pi x / {1e3 * length:.3g} mm) sgn(v)", f"friction {periodic}", shape * side))
     for time in RELAXATIONS:
         keep = np.exp(-dt / time)
-        for name, words, signal in (("x", "displacement", _scaled(x)), ("sgn(v)", "direction of motion", side)):
+        for name, words, signal in (("x", "displacement", x / largest), ("sgn(v)", "direction of motion", side)):
             slow = lfilter([1 - keep], [1, -keep], signal)
             found.append((f"{name} relaxed over {time:g} s", f"following the {words} with a delay of about {time:g} s", slow))
     return found
 
 
-def modulated(values: Array, formula: str, words: str) -> list[Feature]:
+def modulated(values: Array, formula: str, words: str, sizes: Sizes | None = None) -> list[Feature]:
     """Terms that modulate `values` (channels, n) slowly in time; `formula` and `words` describe the values."""
     middle = (np.arange(values.shape[1]) + 0.5) / values.shape[1]
     return [
@@ -86,10 +109,12 @@ def modulated(values: Array, formula: str, words: str) -> list[Feature]:
             f"{formula} cos({half_waves} pi t / T)",
             f"{words} that rises and falls in time",
             values * np.cos(np.pi * half_waves * middle),
+            sizes,
         )
         for half_waves in range(1, MODULATIONS + 1)
     ]
 
 
-def _scaled(signal: Array) -> Array:
-    return signal / max(float(np.max(np.abs(signal))), 1e-300)
+def shaped(terms: Terms, data: Data, sizes: Sizes) -> list[Feature]:
+    """The features of terms that add to the output, in the band of the comparison."""
+    return [Feature(formula, words, data.reduced(values[None]), sizes) for formula, words, values in terms]

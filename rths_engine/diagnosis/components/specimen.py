@@ -11,7 +11,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal, guessed
-from rths_engine.diagnosis.components.features import modulated, of_motion, of_position
+from rths_engine.diagnosis.components.features import Sizes, modulated, of_motion, of_position, shaped
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
@@ -117,11 +117,17 @@ class SpecimenData(Data):
         return np.gradient(self.smooth, self.dt)
 
     @cached_property
+    def sizes(self) -> Sizes:
+        return Sizes.of(self.smooth, self.velocity, self.dt, self.force)
+
+    @cached_property
     def features(self) -> list[Feature]:
         """The terms of the general law that depend on the recording alone."""
-        terms = of_motion(self.smooth, self.velocity, self.dt, self.force)
-        terms += of_position(self.smooth, self.velocity, self.dt)
-        return [Feature(formula, words, self.reduced(values[None])) for formula, words, values in terms]
+        return self.features_in(self.sizes)
+
+    def features_in(self, sizes: Sizes) -> list[Feature]:
+        terms = of_motion(self.smooth, self.velocity, self.dt, self.force, sizes)
+        return shaped(terms + of_position(self.smooth, self.velocity, self.dt, sizes), self, sizes)
 
     def seen(self) -> Seen:
         energy = float(np.sum(np.abs(self.force * self.velocity)) * self.dt)
@@ -186,8 +192,10 @@ class Specimen(Component):
         steady = [role for role, values in given.items() if not np.ptp(values) > 0]
         yield from guessed((*physics.SPECIMEN, *SENSORS), data.seen(), lacking=steady)
 
-    def features(self, parts: Sequence[Any], data: SpecimenData) -> list[Feature]:
-        return data.features + modulated(self.predicted(parts, data), "f", "a strength")
+    def features(self, parts: Sequence[Any], data: SpecimenData, like: Any = None) -> list[Feature]:
+        sizes = data.sizes if like is None else like.sizes
+        terms = data.features if sizes is data.sizes else data.features_in(sizes)
+        return terms + modulated(self.predicted(parts, data) / sizes.f, "f", "a strength", sizes)
 
     def signals(self, data: SpecimenData) -> tuple[Signal, Signal]:
         x, v = data.reduced(np.array([data.smooth, data.velocity]))

@@ -11,8 +11,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.linalg import eigh
 
-from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal, guessed
-from rths_engine.diagnosis.components.features import of_motion
+from rths_engine.diagnosis.components.component import Component, Data, Feature, Loose, Signal, State, guessed
+from rths_engine.diagnosis.components.features import Sizes, of_motion
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Part, quantity
 from rths_engine.parts import physics
@@ -118,10 +118,13 @@ class Structure(Component):
         return TOLERANCES.get(type(part)) if stated is None else stated
 
     def predicted(self, parts: Sequence[Any], data: StructureData) -> Array:
+        return self._shown(self.motion(parts, data), data) + self._read(parts, data)
+
+    def _read(self, parts: Sequence[Any], data: StructureData) -> Array:
+        """The reading (channels, 1) of each channel at rest."""
         zeros = {part.floor: part.displacement for part in parts if isinstance(part, Zero)}
         read = [zeros.get(floor, 0.0) if kind == "x" else 0.0 for kind, floor, _ in data.floors]
-        found: Array = self._shown(self.motion(parts, data), data) + np.array(read)[:, None]
-        return found
+        return np.array(read)[:, None]
 
     def motion(self, parts: Sequence[Any], data: StructureData, extra: Array | None = None) -> Array:
         """Displacements (m) of the floors (samples, floors), in `finer` steps.
@@ -213,22 +216,45 @@ class Structure(Component):
             if seen.storey == 1 and data.ground.any():
                 yield from guessed(physics.INPUT, seen)
 
-    def features(self, parts: Sequence[Any], data: StructureData) -> list[Feature]:
+    def features(self, parts: Sequence[Any], data: StructureData, like: Any = None) -> list[Feature]:
         plain = self.motion(parts, data)
         before = self._shown(plain, data)
         x = _drifts(plain[:: self.finer(data)])
+        other = data if like is None or like is data else like
+        tops = x if other is data else _drifts(self.motion(parts, other)[:: self.finer(other)])
         found = []
-        for storey, moved in enumerate(x[:MOST_STOREYS], start=1):
+        for storey, (moved, top) in enumerate(zip(x[:MOST_STOREYS], tops, strict=False), start=1):
             v = np.gradient(moved, data.dt)
-            size = 0.01 * stiffness(self.built, drift(self.built, storey)) * float(np.max(np.abs(moved)))
-            for formula, words, values in of_motion(moved, v, data.dt, moved):
-                extra = np.zeros((len(moved), len(self.built.floors)))
-                extra[:, storey - 1] -= size * values
-                if storey > 1:
-                    extra[:, storey - 2] += size * values
-                change = self._shown(self.motion(parts, data, extra), data) - before
-                found.append(Feature(formula, f"storey {storey}: {words}", change))
+            sizes = Sizes.of(top, np.gradient(top, other.dt), other.dt, top)
+            size = 0.01 * self._stiffness(storey) * sizes.x
+            for formula, words, values in of_motion(moved, v, data.dt, moved, sizes):
+                change = self._shown(self.motion(parts, data, self._between(storey, size * values)), data) - before
+                found.append(Feature(formula, f"storey {storey}: {words}", change, sizes, size, f"storey {storey}"))
         return found
+
+    def _between(self, storey: int, force: Array) -> Array:
+        """Forces (samples, floors) of a resistance `force` (N) in a storey: against its upper floor, with its lower floor."""
+        extra = np.zeros((len(force), len(self.built.floors)))
+        extra[:, storey - 1] -= force
+        if storey > 1:
+            extra[:, storey - 2] += force
+        return extra
+
+    def _stiffness(self, storey: int) -> float:
+        return float(stiffness(self.built, drift(self.built, storey)))
+
+    def states(self, data: StructureData) -> list[State]:
+        """The simulated drift of each storey at the sampling rate of the recording."""
+        found = []
+        for storey, moved in enumerate(self.drifts(data)[:MOST_STOREYS], start=1):
+            x = Signal("simulated drift", "m", "mm", moved)
+            v = Signal("simulated drift velocity", "m/s", "mm/s", np.gradient(moved, data.dt))
+            found.append(State(f"storey {storey}", x, v))
+        return found
+
+    def loaded(self, parts: Sequence[Any], data: StructureData, added: Sequence[Array]) -> Array:
+        extra = sum(self._between(storey, force) for storey, force in enumerate(added, start=1))
+        return self._shown(self.motion(parts, data, np.asarray(extra)), data) + self._read(parts, data)
 
     def signals(self, data: StructureData) -> tuple[Signal, Signal]:
         moved = self.drifts(data)[0]

@@ -3,9 +3,10 @@
 from rths_engine.diagnosis.schema.certificate import Certificate, Rate
 from rths_engine.diagnosis.schema.components import ComponentVerdict, Kind, Where
 from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, Parameter, RejectedEffect
-from rths_engine.diagnosis.schema.fit import Errors, Fit, Unexplained
+from rths_engine.diagnosis.schema.fit import Errors, Fit
 from rths_engine.diagnosis.schema.form import Form
 from rths_engine.diagnosis.schema.pictures import Pictures
+from rths_engine.diagnosis.schema.unexplained import LawTerm, Scale, Unexplained
 from rths_engine.diagnosis.schema.verdict import Verdict
 
 __all__ = [
@@ -16,12 +17,14 @@ __all__ = [
     "Fit",
     "Form",
     "Kind",
+    "LawTerm",
     "NamedEffect",
     "NextTest",
     "Parameter",
     "Pictures",
     "Rate",
     "RejectedEffect",
+    "Scale",
     "Unexplained",
     "Verdict",
     "Where",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from rths_engine.diagnosis.schema.form import AS_STATED, NUMBERS, Form, field
 
 
@@ -90,10 +92,24 @@ class Candidate(Form):
 
 
 class NextTest(Form):
-    """The test that separates two candidates best within the limits of the rig."""
+    """The test within the limits of the rig that separates two candidates best, or tells most about an unknown."""
 
-    separates: tuple[str, str] = field("The two candidates; each is a list of effects, component/id, separated by commas")
-    signal: str = field("Command of the test: shape, amplitude, frequency and cycles")
-    expected_lambda: float = field(
-        "Squared distance λ of the two simulations in units of the noise; a test separates two candidates from 10 on", NUMBERS
+    separates: tuple[str, ...] = field(
+        "The two candidates; each is a list of effects, component/id, separated by commas. Empty for a test of an unknown"
     )
+    signal: str = field("Command of the test: shape, amplitude, frequency and cycles")
+    expected_lambda: float | None = field(
+        "Squared distance λ of the two simulations in units of the noise; a test separates two candidates from 10 on; null for "
+        "a test of an unknown",
+        NUMBERS,
+    )
+    tells: str | None = field(
+        "What a test of an unknown would tell, as a sentence; null for a test of two candidates", default=None
+    )
+    waveform: Literal["sine", "triangle", "recorded"] | None = field(
+        "Shape of the command; recorded is the recorded excitation of a structure; null in older verdicts", default=None
+    )
+    amplitude: float | None = field("Amplitude of a sine or a triangle", "m", default=None)
+    frequency: float | None = field("Frequency of a sine or a triangle", "Hz", default=None)
+    cycles: int | None = field("Number of cycles of a sine or a triangle", NUMBERS, default=None)
+    factor: float | None = field("Factor on the recorded excitation of a structure", NUMBERS, default=None)

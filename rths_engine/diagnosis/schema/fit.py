@@ -1,4 +1,4 @@
-"""The errors of the planned and the extended model, and the unexplained residual."""
+"""The errors of the planned and the extended model."""
 
 from __future__ import annotations
 
@@ -18,18 +18,3 @@ class Fit(Form):
     baseline: Errors = field("Errors of the planned model; its parameters are refitted within their tolerances")
     extended: Errors = field("Errors of the extended model; equal to the baseline where no effect was added")
     noise_floor_nrmse: float | None = field("Noise floor: the error that the measurement noise alone leaves", NUMBERS)
-
-
-class Unexplained(Form):
-    """The residual that the extended model leaves beyond the noise."""
-
-    fraction: float | None = field(
-        "RMS of the residual beyond the noise over the RMS of the recorded signal about its mean; null where it is not finite",
-        NUMBERS,
-    )
-    formula: str | None = field(
-        "Law of the unexplained residual; null where none was fitted. The coefficients are in the SI unit of the compared "
-        "signal; for a structure, in 1 % of the storey's largest elastic force. x, v, a and f are divided by their largest "
-        "values. E and t are the shares of the dissipated energy and of the duration"
-    )
-    words: str = field("The unexplained residual in words")

@@ -82,6 +82,30 @@ class State(Form):
     residual_after: Numbers = field("Residual of the extended model", "stated in `output.unit`")
 
 
+class Cells(Named):
+    """Edges of the cells along displacement or velocity."""
+
+    edges: Numbers = field("Edges of the cells, one more than there are cells", AS_STATED)
+
+
+class Surface(Form):
+    """The unexplained residual in cells of displacement and velocity: one row for each cell of displacement."""
+
+    place: str = field("Storey of a structure, such as storey 2; empty for other components")
+    output: Named = field("Label and unit of the unexplained residual")
+    displacement: Cells = field("Cells of displacement")
+    velocity: Cells = field("Cells of velocity")
+    mean: tuple[Numbers, ...] = field(
+        "Mean of recorded minus simulated in each cell; null without a sample", "stated in `output.unit`"
+    )
+    error: tuple[Numbers, ...] = field(
+        "Standard error of the mean from the scatter between visits of the cell; null with fewer than two visits",
+        "stated in `output.unit`",
+    )
+    samples: tuple[tuple[int, ...], ...] = field("Number of samples in each cell", NUMBERS)
+    visits: tuple[tuple[int, ...], ...] = field("Number of times that the motion enters each cell", NUMBERS)
+
+
 class HeldOut(Form):
     """Errors on one held-out recording."""
 
@@ -114,6 +138,11 @@ class Detail(Form):
     blocks: tuple[Block, ...] = field("Errors over ten successive blocks of the recording")
     held_out_recordings: tuple[HeldOut, ...] = field("Errors on each held-out recording")
     noise_nrmse: float | None = field("RMS of the noise over the RMS of the recorded signal about its mean", NUMBERS)
+    surfaces: tuple[Surface, ...] = field(
+        "The unexplained residual over displacement and velocity, for a structure in each storey; empty where nothing is left "
+        "to describe",
+        default=(),
+    )
 
 
 class PicturedComponent(Form):

@@ -7,8 +7,9 @@ from typing import Any, Literal
 from rths_engine.diagnosis.schema.certificate import Certificate
 from rths_engine.diagnosis.schema.components import ComponentVerdict, Kind, Where
 from rths_engine.diagnosis.schema.effects import Candidate, NamedEffect, NextTest, RejectedEffect
-from rths_engine.diagnosis.schema.fit import Fit, Unexplained
+from rths_engine.diagnosis.schema.fit import Fit
 from rths_engine.diagnosis.schema.form import NUMBERS, Form, field
+from rths_engine.diagnosis.schema.unexplained import Unexplained
 
 
 class Verdict(Form):
@@ -29,8 +30,8 @@ class Verdict(Form):
     fit: Fit = field("Errors of the worst component before and after the extension")
     unexplained: Unexplained = field("Residual of the worst component beyond the extended model and the noise")
     next_test: NextTest | None = field(
-        "Test that separates two indistinguishable candidates; null where there are none, "
-        "or where no test within the limits of the rig separates them"
+        "Test that separates two indistinguishable candidates or, for an unexplained mismatch, the test that tells most about "
+        "it; null where there is neither, or where no test within the limits of the rig does so"
     )
     remaining_share: float | None = field(
         "Share of the held-out squared error beyond the noise that remains with all named effects of the worst component: 1 is "

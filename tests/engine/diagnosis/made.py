@@ -121,8 +121,8 @@ class Linear(Component):
         for place in range(self.waves):
             yield Wave(size=0.3, storey=place + 1)
 
-    def features(self, parts: Sequence[Any], data: Driven) -> list[Feature]:
-        x = data.x / np.max(np.abs(data.x))
+    def features(self, parts: Sequence[Any], data: Driven, like: Any = None) -> list[Feature]:
+        x = data.x / np.max(np.abs((like or data).x))
         laws = (("x^2", x**2), ("x^3", x**3), ("x^5", x**5), ("x", x))
         return [Feature(formula, f"the law {formula}", values[None]) for formula, values in laws]
 

@@ -12,8 +12,11 @@ from rths_engine.diagnosis.detect import Detection
 from rths_engine.diagnosis.digital import Replayed
 from rths_engine.diagnosis.fitting import Fitted, fit
 from rths_engine.diagnosis.judge import Judged, fitted_blocks
+from rths_engine.diagnosis.locate import Place
 from rths_engine.diagnosis.named import configuration_error, models, named, rejected
-from rths_engine.diagnosis.unknown import Law
+from rths_engine.diagnosis.remaining import Remaining
+from rths_engine.diagnosis.surface import surfaces
+from rths_engine.diagnosis.unknown import Law, Term
 from tests.engine.diagnosis.made import DT, SAMPLES, Gain, Wave, as_judged, linear, noisy, recordings, selected
 
 WHOLE = recordings(linear(), noisy([Gain(), Wave(size=0.5, storey=1), Wave(size=2.0, storey=2)], 1))
@@ -92,9 +95,15 @@ def test_models_are_told_by_their_component_and_effect() -> None:
 
 
 def test_what_has_no_name_is_unknown_with_the_law_in_words_and_no_probability() -> None:
-    (found,) = named(judged(unknown=True), Law("x^2", "even in displacement", 0.9))
+    one = judged(unknown=True)
+    law = Law((Term(1200.0, "x^2", "even in displacement", "", None),), 0.9, 0.8)
+    where = Place([(1.0, 2.0)], [(0.5, 3.0)], "", np.zeros(1), np.zeros(1))
+    shape = tuple(surfaces(one.recordings, one.selection.baseline.parts))
+    (found,) = named(one, Remaining("N", 1234.0, "", shape, 0.3, law, where, None))
     assert (found.id, found.probability, found.parameters) == ("unknown", None, ())
-    assert "even in displacement" in found.sentence
+    assert "is 1.23 kN RMS, from 1.0 to 2.0 s, at 0.5 to 3 Hz" in found.sentence
+    assert "even in displacement" in found.sentence and "explains 80 % of it on held-out data" in found.sentence
+    assert "explains 30 % of it on held-out data; the rest changes within a cell" in found.sentence
 
 
 @pytest.mark.parametrize(("error", "said"), [(0.0123, "1.23 % of the largest"), (float(np.inf), "diverges")])

@@ -45,7 +45,7 @@ class Trap(Linear):
         yield Trapped(size=0.3, storey=1)
         yield Trapped(size=0.3, storey=2)
 
-    def features(self, parts: Sequence[Any], data: Driven) -> list[Any]:
+    def features(self, parts: Sequence[Any], data: Driven, like: Any = None) -> list[Any]:
         return []
 
 
