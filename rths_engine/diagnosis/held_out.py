@@ -29,7 +29,7 @@ class HeldOut:
     cell is a property of the recording, so the mean of a force's residual is removed from each data set, unless `zeros_free` is
     false. `quiet` is the mean square of the residual in the quietest block, over that of the recorded channels: steady noise
     is no larger. Where the error of the models is much larger than the noise, its colour is not the noise's: residuals are
-    then not `white`ned.
+    then not whitened (`white`).
     """
 
     recordings: Recordings
