@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rths_engine.diagnosis.claims import Rejected, proved
+from rths_engine.diagnosis.claims import proved
 from rths_engine.diagnosis.detect import Detection
 from rths_engine.diagnosis.digital import Replayed
+from rths_engine.diagnosis.doubts import Rejected
 from rths_engine.diagnosis.fitting import Fitted, fit
 from rths_engine.diagnosis.judge import Judged, fitted_blocks
 from rths_engine.diagnosis.locate import Place
