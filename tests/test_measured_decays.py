@@ -30,5 +30,5 @@ def diagnosed(name: str) -> Diagnosis:
 @pytest.mark.parametrize("name", DECAYS)
 def test_the_guides_of_a_carriage_rub_as_its_free_vibration_decays(name: str) -> None:
     found = diagnosed(name).verdict
-    assert found.effects[0].id == "coulomb_friction"
+    assert next(one.id for one in found.effects if one.id != "unknown") == "coulomb_friction"
     assert heldout(found, "extended") < 0.5 * heldout(found, "baseline")

@@ -47,7 +47,7 @@ def plain(schema: dict[str, Any]) -> Any:
         highest = schema.get("maximum", schema.get("exclusiveMaximum", lowest + 2))
         middle = schema.get("default", (lowest + highest) / 2)
         return int(middle) if schema["type"] == "integer" else middle
-    return {"boolean": False, "string": "a" * 64}[schema["type"]]
+    return {"boolean": False, "string": "a" * 64, "object": {}}[schema["type"]]
 
 
 def at(data: Any, path: Path) -> Any:
