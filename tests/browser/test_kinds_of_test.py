@@ -89,6 +89,7 @@ def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) ->
 def test_the_controller_of_a_current_is_chosen_with_its_fields(form: Page) -> None:
     form.get_by_label("Start from a template").select_option("semi-active")
     kind = form.locator("[id='f-stations.0.controller.kind']")
+    expect(kind).to_have_value("clipped_optimal")
     answer = checked(form, lambda: kind.select_option("on_off"), lambda plan: _controller(plan)["kind"] == "on_off")
     assert _controller(answer["plan"]) == {"kind": "on_off", "off_current": 0.0, "on_current": 2.5}
     form.get_by_label("Current when on, A").fill("-1")
