@@ -60,7 +60,7 @@ class Claims:
         return any(one.gain is not None and one.gain.mean > 0 and one.contradicted is None for one in self.rejected)
 
     def as_part(self) -> Claims:
-        """The same claims as a part of the mismatch: a general law explains much of what they leave."""
+        """The same claims as a part of the mismatch: a general law explains much of what they leave, or none is probable."""
         facts = [replace(claim.facts, part_of_it=True) for claim in self.claims]
         pairs = zip(self.claims, facts, strict=True)
         found = tuple(replace(claim, facts=one, probability=probability(one)) for claim, one in pairs)
@@ -140,10 +140,7 @@ def _claims(selection: Selection, proof: Proof, gains: dict[Any, Gain], rejected
             doubted=not own.clear or bool(physics.SEARCHES[type(one)].caution(seen_by(selection, one))),
         )
         found.append(Claim(one, own, share, float(np.sqrt(without)), facts, probability(facts)))
-    if found and not part_of_it and max(one.probability for one in found) < HALF:
-        part_of_it = True
-        found = [replace(one, facts=replace(one.facts, part_of_it=True)) for one in found]
-    return Claims(
+    whole = Claims(
         selection,
         tuple(found),
         (*rejected, *rest),
@@ -154,6 +151,8 @@ def _claims(selection: Selection, proof: Proof, gains: dict[Any, Gain], rejected
         planned > sure,
         (float(np.sqrt(planned)), float(np.sqrt(chosen))),
     )
+    unlikely = found and max(one.probability for one in found) < HALF
+    return whole.as_part() if unlikely else whole
 
 
 def _mass(selection: Selection, proof: Proof) -> tuple[dict[Any, float], float]:

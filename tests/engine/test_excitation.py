@@ -1,4 +1,4 @@
-"""A plan under the recorded excitation moves as the recording does; another excitation is told from it."""
+"""A plan under the recorded excitation moves as the recording does. Another excitation is recognised."""
 
 from __future__ import annotations
 

@@ -208,7 +208,7 @@ class CurrentStrength(Effect):
 class Remanence(Effect):
     """f (i_0 + h) / (i_0 + i): the field h is the mean of three plays of the current, of widths around i_r (Prandtl-Ishlinskii)
 
-    The current is given beforehand, so h is computed every GRID (s) before the solution of the specimen.
+    The current does not depend on the specimen. Therefore h is computed first, at every GRID (s).
     """
 
     residual: float
