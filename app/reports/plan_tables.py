@@ -9,8 +9,9 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from rths_engine.planning.field_text import LISTED, declared, written
+
 _HIDDEN = {"kind", "schema_", "name", "notes", "template"}
-_LISTED = 12  # a longer list is shown as its number of values
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,35 +56,24 @@ def groups(title: str, part: BaseModel, test: str = "", leave_out: Sequence[str]
             own.grids.append(_grid(label, value))
         elif isinstance(value, dict):
             own.rows += [Row(f"{label}: {path}", how) for path, how in value.items()]
-        elif isinstance(value, tuple) and value and isinstance(value[0], tuple) and len(value[0]) <= _LISTED:
+        elif isinstance(value, tuple) and value and isinstance(value[0], tuple) and len(value[0]) <= LISTED:
             own.grids.append(_matrix(label, value, info))
         elif value is not None and value != ():
-            own.rows.append(Row(label, written(value, info), _extra(info).get("shown_label", "")))
+            own.rows.append(Row(label, written(value, info), declared(info).get("shown_label", "")))
         elif info.description:
             own.rows.append(Row(label, info.description.removeprefix("empty: ")))
     return [group for group in [own, *nested] if group.rows or group.grids]
 
 
-def written(value: Any, info: FieldInfo) -> str:
-    """The text of a field's value in the shown unit."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, tuple | list):
-        return ", ".join(written(item, info) for item in value) if len(value) <= _LISTED else f"{len(value)} values"
-    if isinstance(value, float):
-        return f"{value / _extra(info).get('factor', 1.0):.6g}".replace("-", "−")
-    return str(_extra(info).get("titles", {}).get(value, value))
-
-
 def _matrix(title: str, rows: Sequence[Sequence[float]], info: FieldInfo) -> Grid:
-    unit = _extra(info).get("shown_label", "")
+    unit = declared(info).get("shown_label", "")
     columns = [str(number) for number in range(1, len(rows[0]) + 1)]
     return Grid(f"{title}, {unit}" if unit else title, columns, [[written(value, info) for value in row] for row in rows])
 
 
 def _grid(title: str, parts: Sequence[BaseModel]) -> Grid:
     kept = [(name, info) for name, info in type(parts[0]).model_fields.items() if name not in _HIDDEN]
-    units = [_extra(info).get("shown_label", "") for _, info in kept]
+    units = [declared(info).get("shown_label", "") for _, info in kept]
     columns = [f"{info.title}, {unit}" if unit else info.title or "" for (_, info), unit in zip(kept, units, strict=True)]
     rows = [[written(getattr(part, name), info) for name, info in kept] for part in parts]
     return Grid(title, columns, rows)
@@ -91,7 +81,7 @@ def _grid(title: str, parts: Sequence[BaseModel]) -> Grid:
 
 def _fields(part: BaseModel, test: str = "", leave_out: Sequence[str] = ()) -> Iterator[tuple[FieldInfo, Any]]:
     for name, info in type(part).model_fields.items():
-        used = not test or test in _extra(info).get("tests", [test])
+        used = not test or test in declared(info).get("tests", [test])
         if used and name not in _HIDDEN and name not in leave_out:
             yield info, getattr(part, name)
 
@@ -99,7 +89,3 @@ def _fields(part: BaseModel, test: str = "", leave_out: Sequence[str] = ()) -> I
 def _name(part: BaseModel) -> str:
     title = getattr(type(part), "title", "")
     return title if isinstance(title, str) else ""
-
-
-def _extra(info: FieldInfo) -> dict[str, Any]:
-    return info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}

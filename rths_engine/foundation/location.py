@@ -17,13 +17,13 @@ def path(location: Sequence[int | str], kind: Any) -> list[int | str]:
     the rest of the location is taken as keys.
     """
     found: list[int | str] = []
-    kinds = _choices(kind)
+    kinds = choices(kind)
     for step in location:
         if len(kinds) > 1:
             kinds = _chosen(kinds, step)
             continue
         found.append(step)
-        kinds = _choices(_inside(kinds[0], step))
+        kinds = choices(inside(kinds[0], step))
     return found
 
 
@@ -32,7 +32,7 @@ def dotted(location: Sequence[int | str], kind: Any) -> str:
     return ".".join(str(step) for step in path(location, kind))
 
 
-def _choices(kind: Any) -> list[Any]:
+def choices(kind: Any) -> list[Any]:
     """The types that a union allows, without None. A type that is not a union is its only choice."""
     while get_origin(kind) is Annotated:
         kind = get_args(kind)[0]
@@ -43,12 +43,12 @@ def _choices(kind: Any) -> list[Any]:
 
 def _chosen(kinds: list[Any], label: int | str) -> list[Any]:
     """The types that remain after the label of a choice: those whose discriminating field has the label as its value."""
-    return next((_choices(one) for one in kinds if any(label in values for values in _constants(one))), [Any])
+    return next((choices(one) for one in kinds if any(label in values for values in _constants(one))), [Any])
 
 
 def _constants(kind: Any) -> Iterator[tuple[Any, ...]]:
     """The values of each field that has one constant value, such as a part's `kind`."""
-    for one in _choices(kind):
+    for one in choices(kind):
         if isinstance(one, type) and issubclass(one, BaseModel):
             for field in one.model_fields.values():
                 if get_origin(field.annotation) is Literal and len(get_args(field.annotation)) == 1:
@@ -57,7 +57,7 @@ def _constants(kind: Any) -> Iterator[tuple[Any, ...]]:
             yield from _constants(one)
 
 
-def _inside(kind: Any, step: int | str) -> Any:
+def inside(kind: Any, step: int | str) -> Any:
     """The type of a model's field or of a sequence's item."""
     if isinstance(kind, type) and issubclass(kind, BaseModel):
         fields = kind.model_fields.items()
