@@ -25,6 +25,7 @@ from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
 from app.measured.mapping_endpoints import router as mappings
 from app.motions.endpoints import router as motions
+from app.notifications.endpoints import router as notifications
 from app.pages.batches import router as batches_page
 from app.pages.diagnoses import router as diagnoses_page
 from app.pages.recordings import router as recordings_page
@@ -55,7 +56,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.hub = Hub()
     problems.install(app)
     openapi.install(app)
-    for router in (runs, motions, plans, mappings, diagnoses, stability, table4, health, live):
+    for router in (runs, motions, plans, mappings, diagnoses, stability, table4, notifications, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)

@@ -9,6 +9,7 @@ import sqlalchemy as sa
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db import Base
+from app.events.tables import Event as Event
 from app.jobs.tables import Job
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of

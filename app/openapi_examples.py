@@ -53,6 +53,7 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/runs": lambda: {"plan": plan(), "submitted_by": "Ana Ruiz"},
     "POST /api/v1/runs/{run_id}/cancel": lambda: BY,
     "POST /api/v1/abort": lambda: BY,
+    "POST /api/v1/queue/release": lambda: BY,
     "POST /api/v1/plans/check": plan,
     "POST /api/v1/plans/drive": lambda: DRIVE,
     "POST /api/v1/plans/read": lambda: plan_to_yaml(templates.template(TEMPLATE)),

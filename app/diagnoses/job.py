@@ -20,6 +20,9 @@ class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
     process = "app.worker.diagnosis"
     niceness = 10
 
+    def title(self, job: Diagnosis) -> str:
+        return job.name
+
     def order(self, job: Diagnosis, settings: Settings) -> DiagnosisOrder:
         first, *others = [file_of(given, settings).resolve() for given in job.inputs]
         plan = None if "fitted" in job.plan else job.plan

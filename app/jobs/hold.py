@@ -8,6 +8,8 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.events.log import EventLog
+from app.events.tables import EventKind
 from app.jobs.tables import QueueState
 
 
@@ -25,16 +27,24 @@ class Hold:
     def held(self) -> bool:
         return bool(self.session.scalar(sa.select(QueueState.held).where(QueueState.id == 1)))
 
-    def set(self, by: str) -> None:
-        self._change(held=True, held_by=by, held_at=datetime.now(UTC))
+    def set(self, by: str, reason: str = "") -> None:
+        """Hold the queue. Jobs that run go on."""
+        self._change(held=True, held_by=by, held_at=datetime.now(UTC), held_reason=reason)
+        self._tell(EventKind.HELD, f"{by} held the queue{': ' if reason else '.'}{reason}")
 
-    def release(self) -> None:
-        self._change(held=False, held_by=None, held_at=None)
+    def release(self, by: str) -> None:
+        """Release the queue; nothing is told where it was not held."""
+        if self.locked().held:
+            self._change(held=False, held_by=None, held_at=None, held_reason="")
+            self._tell(EventKind.RELEASED, f"{by} released the queue.")
 
     def locked(self) -> QueueState:
         """The state, locked against other writers until the end of the transaction; see JobRepository.locked."""
         self._change(held=QueueState.held)
         return self.state
+
+    def _tell(self, kind: EventKind, sentence: str) -> None:
+        EventLog(self.session).add(kind, sentence, "queue")
 
     def _change(self, **values: Any) -> None:
         change = sa.update(QueueState).where(QueueState.id == 1).values(**values)

@@ -55,6 +55,10 @@ class Kind(ABC, Generic[Row, Given, Result]):
         """Number of jobs of this kind that one worker executes at the same time."""
         return 1
 
+    def title(self, job: Row) -> str:
+        """The name that people gave a job; empty for a kind whose jobs have no names."""
+        return ""
+
     @abstractmethod
     def order(self, job: Row, settings: Settings) -> Given:
         """The order for the process of a job that has just started."""

@@ -9,6 +9,8 @@ from typing import Any, Generic, Protocol
 
 from sqlalchemy.orm import Session
 
+from app.events.log import EventLog
+from app.events.tables import EventKind
 from app.jobs import states
 from app.jobs.hold import Hold
 from app.jobs.kind import Kind, Result, Row
@@ -106,6 +108,8 @@ class JobService(Generic[Row, Result]):
             self._move(job, State.RUNNING)
             job.attempt += 1
             job.worker, job.started_at, job.doing, job.share = worker, datetime.now(UTC), "", 0.0
+            again = f", attempt {job.attempt}" if job.attempt > 1 else ""
+            self._tell(EventKind.STARTED, job, f"Started on worker {worker}{again}.")
             return job
         return None
 
@@ -157,6 +161,12 @@ class JobService(Generic[Row, Result]):
     def _end(self, job: Row, state: State, reason: str) -> None:
         self._move(job, state)
         job.reason, job.finished_at, job.doing = reason, datetime.now(UTC), ""
+        self._tell(EventKind(state), job, reason)
+
+    def _tell(self, kind: EventKind, job: Row, sentence: str) -> None:
+        title = self.kind.title(job)
+        called = f"{self.kind.name.capitalize()} {job.number}{', ' if title else ''}{title}"
+        EventLog(self.session).add(kind, f"{called}: {sentence}", self.kind.name, job.id, title)
 
 
 def named(by: str) -> str:

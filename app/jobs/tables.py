@@ -34,7 +34,7 @@ class Job:
 
 
 class QueueState(Base):
-    """Whether the queue is held, by whom and since when: one row."""
+    """Whether the queue is held, by whom, since when and why: one row."""
 
     __tablename__ = "queue_state"
 
@@ -42,6 +42,12 @@ class QueueState(Base):
     held: Mapped[bool] = mapped_column(default=False)
     held_by: Mapped[str | None] = mapped_column(sa.String(80))
     held_at: Mapped[datetime | None]
+    held_reason: Mapped[str] = mapped_column(sa.String(200), default="", server_default="")
+
+    @property
+    def sentence(self) -> str:
+        """Who holds the queue, and why."""
+        return f"queue held by {self.held_by}{': ' if self.held_reason else ''}{self.held_reason}"
 
 
 class WorkerHeartbeat(Base):

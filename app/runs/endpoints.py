@@ -143,7 +143,7 @@ def queue(runs: Runs) -> QueueOut:
 
 
 @router.post("/queue/release")
-def release(runs: Runs) -> QueueOut:
-    """Release the queue after an abort, so that queued tests start."""
-    runs.release()
+def release(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
+    """Release the queue after a hold or an abort, so that queued tests start."""
+    runs.release(person.by)
     return runs.queue_state()

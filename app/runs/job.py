@@ -27,6 +27,9 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
     def at_a_time(self, settings: Settings) -> int:
         return settings.worker_concurrency
 
+    def title(self, job: Run) -> str:
+        return job.name
+
     def order(self, job: Run, settings: Settings) -> RunOrder:
         recording = settings.recordings / f".{job.id}.{job.attempt}.h5"
         return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings.motions.resolve())

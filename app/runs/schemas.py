@@ -129,6 +129,7 @@ class QueueOut(BaseModel):
     held: bool
     held_by: str | None
     held_at: datetime | None
+    held_reason: str
     queued: int
     running: list[RunOut]
     worker_seen_at: datetime | None

@@ -24,6 +24,8 @@ from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.plan import MOST_STATIONS, Plan
 from rths_engine.planning.reading import read_plan
 
+ABORTED = "running tests aborted"
+
 
 class RunService:
     """Rules of runs: submit, list, cancel and abort. No SQL, no HTTP."""
@@ -80,6 +82,7 @@ class RunService:
             held=state.held,
             held_by=state.held_by,
             held_at=state.held_at,
+            held_reason=state.held_reason,
             queued=self.runs.count(State.QUEUED),
             running=[RunOut.of(run) for run in self.runs.in_states(State.RUNNING)],
             worker_seen_at=seen,
@@ -92,11 +95,11 @@ class RunService:
 
     def abort(self, by: str) -> list[Run]:
         """Hold the queue and stop every running test. A run that a worker is about to start ends too: the queue is held."""
-        self.hold.set(named(by))
+        self.hold.set(named(by), ABORTED)
         return self.jobs.cancel_running(by)
 
-    def release(self) -> None:
-        self.hold.release()
+    def release(self, by: str) -> None:
+        self.hold.release(named(by))
 
 
 def _run_of(checked: Checked) -> Run:

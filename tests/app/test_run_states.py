@@ -165,7 +165,7 @@ def test_abort_holds_the_queue_even_when_a_test_ends_at_that_moment(
 
 
 def test_release_forgets_who_held_the_queue(maker: sessionmaker[Session]) -> None:
-    acts: tuple[Callable[[RunService], object], ...] = (lambda one: one.abort(" "), lambda one: one.release())
+    acts: tuple[Callable[[RunService], object], ...] = (lambda one: one.abort(" "), lambda one: one.release("Ana"))
     for act in acts:
         with db.unit_of_work(maker) as session:
             act(service(session))

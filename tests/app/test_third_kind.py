@@ -137,7 +137,7 @@ def test_it_does_not_wait_while_the_queue_is_held_unless_it_is_declared_so(worke
         assert worked.ended(worked.submit(1)).state is State.COMPLETED
     finally:
         with db.unit_of_work(worked.maker) as session:
-            Hold(session).release()
+            Hold(session).release("Bo")
 
 
 @pytest.mark.parametrize("kind", [*KINDS, COUNTS], ids=lambda kind: kind.name)
