@@ -46,6 +46,9 @@ class Settings:
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     upload_limit: int = 20 * MEGABYTE
     measurements_limit: int = 1100 * MEGABYTE
+    laboratory: str = ""
+    laboratory_address: str = ""
+    laboratory_logo: Path | None = None
 
     @property
     def url(self) -> str:
@@ -119,5 +122,10 @@ VARIABLES: dict[str, Variable] = {
     "upload_limit": Variable("RTHS_UPLOAD_LIMIT_MB", _megabytes, "largest request accepted, MB", _in_megabytes),
     "measurements_limit": Variable(
         "RTHS_MEASUREMENTS_LIMIT_MB", _megabytes, "largest file of measurements accepted, MB", _in_megabytes
+    ),
+    "laboratory": Variable("RTHS_LABORATORY", str, "name of the laboratory in reports, until the settings page sets one"),
+    "laboratory_address": Variable("RTHS_LABORATORY_ADDRESS", str, "address line of the laboratory in reports, likewise"),
+    "laboratory_logo": Variable(
+        "RTHS_LABORATORY_LOGO", Path, "PNG or SVG file with the laboratory's logo, likewise", default="none"
     ),
 }

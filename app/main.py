@@ -19,6 +19,7 @@ from app.guard import Guard
 from app.head import Head
 from app.health import router as health
 from app.jobs import queue as durable
+from app.laboratory.endpoints import router as laboratory
 from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.measured.batch_endpoints import router as batches
@@ -29,6 +30,7 @@ from app.notifications.endpoints import router as notifications
 from app.pages.batches import router as batches_page
 from app.pages.diagnoses import router as diagnoses_page
 from app.pages.recordings import router as recordings_page
+from app.pages.settings import router as settings_page
 from app.pages.stability import router as stability_page
 from app.pages.table4 import router as table4_page
 from app.plans.endpoints import router as plans
@@ -56,7 +58,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.hub = Hub()
     problems.install(app)
     openapi.install(app)
-    for router in (runs, motions, plans, mappings, diagnoses, stability, table4, notifications, health, live):
+    for router in (runs, motions, plans, mappings, diagnoses, stability, table4, laboratory, notifications, health, live):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)
@@ -67,6 +69,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(recordings_page)
     app.include_router(diagnoses_page)
     app.include_router(table4_page)
+    app.include_router(settings_page)
     app.include_router(pages.router)
     app.add_middleware(Head)
     app.add_middleware(Guard, settings=configured)

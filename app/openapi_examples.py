@@ -64,6 +64,11 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/mappings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Damper rig", "saved_by": "Ana Ruiz"},
     "PATCH /api/v1/mappings/{mapping_id}": lambda: {"name": "Damper rig, 100 kN"},
     "POST /api/v1/recordings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Sine test", "imported_by": "Ana Ruiz"},
+    "PUT /api/v1/laboratory": lambda: {
+        "name": "Structures Laboratory",
+        "address": "12 Harbour Road, Wellington",
+        "signatures": ["Test operator", "Approved by"],
+    },
     "POST /api/v1/diagnoses": lambda: {"recording": {"run": RUN}, "level": 0.01, "submitted_by": "Ana Ruiz"},
     "POST /api/v1/diagnoses/{diagnosis_id}/cancel": lambda: BY,
     "POST /api/v1/diagnoses/{diagnosis_id}/simulations": lambda: BY,

@@ -47,6 +47,10 @@ export const api = {
   post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
   /** @param {string} path @param {any} data @returns {Promise<any>} */
   patch: async (path, data) => (await request(path, { ...json(data), method: "PATCH" })).json(),
+  /** @param {string} path @param {any} data @returns {Promise<any>} */
+  put: async (path, data) => (await request(path, { ...json(data), method: "PUT" })).json(),
+  /** @param {string} path @param {FormData} form @returns {Promise<any>} */
+  putForm: async (path, form) => (await request(path, { method: "PUT", body: form })).json(),
   /** @param {string} path */
   remove: async (path) => void (await request(path, { method: "DELETE" })),
   /** @param {string} path @param {any} data @returns {Promise<string>} */
