@@ -20,6 +20,8 @@ from app.head import Head
 from app.health import router as health
 from app.jobs import queue as durable
 from app.laboratory.endpoints import router as laboratory
+from app.library.draft_endpoints import router as drafts
+from app.library.endpoints import router as library
 from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.measured.batch_endpoints import router as batches
@@ -58,7 +60,21 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.hub = Hub()
     problems.install(app)
     openapi.install(app)
-    for router in (runs, motions, plans, mappings, diagnoses, stability, table4, laboratory, notifications, health, live):
+    for router in (
+        runs,
+        motions,
+        plans,
+        library,
+        drafts,
+        mappings,
+        diagnoses,
+        stability,
+        table4,
+        laboratory,
+        notifications,
+        health,
+        live,
+    ):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)

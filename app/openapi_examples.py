@@ -30,6 +30,8 @@ def plan() -> dict[str, Any]:
     return templates.template(TEMPLATE).as_dict()
 
 
+DRAFT = {"name": "Brace B", "duration": "40 s", "stations": "not yet"}
+
 # what a field of an answer shows; other fields are shown by the smallest value that their schema takes
 FIELDS: dict[str, Any] = {
     "id": RUN,
@@ -58,6 +60,14 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/plans/drive": lambda: DRIVE,
     "POST /api/v1/plans/read": lambda: plan_to_yaml(templates.template(TEMPLATE)),
     "POST /api/v1/plans/write": plan,
+    "POST /api/v1/library/plans": lambda: {"plan": plan(), "name": "Brace", "tags": ["braces"], "saved_by": "Ana Ruiz"},
+    "POST /api/v1/library/import": lambda: plan_to_yaml(templates.template(TEMPLATE)),
+    "PATCH /api/v1/library/plans/{plan_id}": lambda: {"name": "Brace, 100 kN", "tags": ["braces", "spring 2027"]},
+    "POST /api/v1/library/plans/{plan_id}/versions": lambda: {"plan": plan(), "comment": "Higher limit"},
+    "POST /api/v1/library/plans/{plan_id}/duplicate": lambda: {"name": "Brace without compensation", "saved_by": "Ana Ruiz"},
+    "POST /api/v1/library/plans/{plan_id}/archive": lambda: BY,
+    "PUT /api/v1/library/drafts/{draft_id}": lambda: {"plan": DRAFT, "revision": 0, "owner": "Ana Ruiz", "writer": "tab 1"},
+    "POST /api/v1/library/drafts/{draft_id}/close": lambda: {"closed_as": "discarded"},
     "POST /api/v1/stability": plan,
     "POST /api/v1/table4": lambda: BY,
     "POST /api/v1/recordings/preview": lambda: {"file": SHA256, "mapping": MAPPING},

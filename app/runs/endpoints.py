@@ -65,9 +65,9 @@ def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
     if (body.plan is None) == (body.plans is None):
         raise PlanError(Issue("plan", "needs either one plan as 'plan' or a list of plans as 'plans'"))
     if body.plans is None:
-        stored = runs.submit([body.plan], body.submitted_by, prefix="")
+        stored = runs.submit([body.plan], body.submitted_by, prefix="", library=body.library)
     else:
-        stored = runs.submit(body.plans, body.submitted_by)
+        stored = runs.submit(body.plans, body.submitted_by, library=body.library)
     return Submitted(runs=[RunOut.of(run) for run in stored])
 
 

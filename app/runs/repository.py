@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session, defer
 
 from app.jobs.repository import JobRepository
 from app.jobs.states import State
-from app.models import Run, RunStation
+from app.models import LibraryPlan, PlanVersion, Run, RunStation
 from rths_engine.results.measure import RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 
@@ -76,6 +76,11 @@ class RunRepository(JobRepository[Run]):
 
     def count(self, state: State) -> int:
         return self.session.scalar(sa.select(sa.func.count()).where(Run.state == state)) or 0
+
+    def has_version(self, library_id: str, version: int) -> bool:
+        """Whether the library has this version of a plan."""
+        query = sa.select(PlanVersion.number).join(LibraryPlan, LibraryPlan.number == PlanVersion.plan_number)
+        return self.session.scalar(query.where(LibraryPlan.id == library_id, PlanVersion.number == version)) is not None
 
     def _filtered(self, wanted: Filter) -> sa.Select[Run]:
         query = sa.select(Run)

@@ -15,14 +15,24 @@ from app.text import Storable
 from rths_engine.results.measure import FloorMeasure, RunMeasure, StationMeasure
 
 
+class FromLibrary(BaseModel):
+    """The version of a plan in the library that a submitted plan was opened from."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    id: Storable = Field(max_length=36)
+    version: int = Field(ge=1, le=10**6)
+
+
 class Submission(BaseModel):
-    """One plan or a list of plans, and the person who submits."""
+    """One plan or a list of plans, the person who submits, and the version in the library that the plans were opened from."""
 
     model_config = ConfigDict(extra="forbid")
 
     plan: PlanData | None = None
     plans: list[Annotated[Any, PLAN]] | None = Field(None, max_length=500)
     submitted_by: Storable = Field("", max_length=80)
+    library: FromLibrary | None = None
 
 
 class Person(BaseModel):
@@ -68,6 +78,8 @@ class _Known(BaseModel):
     code_version: str
     seed: int
     template: str | None
+    library_id: str | None
+    library_version: int | None
     submitted_by: str
     submitted_at: datetime
     started_at: datetime | None

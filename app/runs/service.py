@@ -17,7 +17,7 @@ from app.models import Run
 from app.runs.job import RUNS
 from app.runs.order import Outcome
 from app.runs.repository import MEASURES, SORTS, Filter, Page, RunRepository
-from app.runs.schemas import QueueOut, RunOut
+from app.runs.schemas import FromLibrary, QueueOut, RunOut
 from rths_engine import __version__
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
@@ -36,10 +36,21 @@ class RunService:
         self.hold = Hold(session)
         self.session, self.motions = session, motions
 
-    def submit(self, plans: Sequence[Any], submitted_by: str, prefix: str = "plans.{}") -> list[Run]:
-        """Check, store and queue all plans. Raises PlanError with every issue, and then stores nothing."""
+    def submit(
+        self, plans: Sequence[Any], submitted_by: str, prefix: str = "plans.{}", library: FromLibrary | None = None
+    ) -> list[Run]:
+        """Check, store and queue all plans. Raises PlanError with every issue, and then stores nothing.
+
+        `library` is the version in the library that the plans were opened from; it is stored with the runs.
+        """
         if not plans:
             raise PlanError(Issue("plans", "needs at least one plan", fix="add a plan"))
+        if library is not None and not self.runs.has_version(library.id, library.version):
+            fix, given = (
+                "open the plan in the library again, or leave out 'library'",
+                f"{library.id}, version {library.version}",
+            )
+            raise PlanError(Issue("library", "is not a version of a plan in the library", given, fix))
         issues: list[Issue] = []
         runs: list[Run] = []
         for index, data in enumerate(plans):
@@ -49,6 +60,9 @@ class RunService:
                 issues += [_under(prefix.format(index), issue) for issue in error.issues]
         if issues:
             raise PlanError(issues)
+        if library is not None:
+            for run in runs:
+                run.library_id, run.library_version = library.id, library.version
         self.jobs.submit(runs, submitted_by)
         return runs
 

@@ -47,8 +47,8 @@ export const api = {
   post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
   /** @param {string} path @param {any} data @returns {Promise<any>} */
   patch: async (path, data) => (await request(path, { ...json(data), method: "PATCH" })).json(),
-  /** @param {string} path @param {any} data @returns {Promise<any>} */
-  put: async (path, data) => (await request(path, { ...json(data), method: "PUT" })).json(),
+  /** With `keepalive`, which browsers allow up to 64 KiB, the request outlives the page. @param {string} path @param {any} data @returns {Promise<any>} */
+  put: async (path, data, keepalive = false) => (await request(path, { ...json(data), method: "PUT", keepalive })).json(),
   /** @param {string} path @param {FormData} form @returns {Promise<any>} */
   putForm: async (path, form) => (await request(path, { method: "PUT", body: form })).json(),
   /** @param {string} path */

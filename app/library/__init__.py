@@ -1,0 +1,1 @@
+"""Library of plans: versions under a name, drafts, tags, comparison and history."""

@@ -1,0 +1,25 @@
+"""The services of the library in a request."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends
+
+from app.dependencies import Library, OneSession
+from app.library.drafts import DraftService
+from app.library.service import LibraryService
+
+
+def library_service(session: OneSession, motions: Library) -> LibraryService:
+    """The service of plans in the library."""
+    return LibraryService(session, motions)
+
+
+def draft_service(session: OneSession, motions: Library) -> DraftService:
+    """The service of drafts."""
+    return DraftService(session, motions)
+
+
+KeptPlans = Annotated[LibraryService, Depends(library_service)]
+Drafts = Annotated[DraftService, Depends(draft_service)]
