@@ -30,6 +30,19 @@ class UtcDateTime(sa.TypeDecorator[datetime]):
         return value.replace(tzinfo=UTC) if value and value.tzinfo is None else value
 
 
+class Tags(sa.TypeDecorator[list[str]]):
+    """Column of a few words, stored as `|one|another|` so that LIKE finds a whole word; empty text without words."""
+
+    impl = sa.Text
+    cache_ok = True
+
+    def process_bind_param(self, value: list[str] | None, dialect: sa.Dialect) -> str:
+        return f"|{'|'.join(value)}|" if value else ""
+
+    def process_result_value(self, value: str | None, dialect: sa.Dialect) -> list[str]:
+        return value.strip("|").split("|") if value else []
+
+
 class Base(DeclarativeBase):
     """Base of the tables; times are stored in UTC and dictionaries as JSON."""
 

@@ -6,24 +6,41 @@ from datetime import datetime
 from typing import Any
 
 import sqlalchemy as sa
+from sqlalchemy.ext.associationproxy import AssociationProxy, association_proxy
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
-from app.db import Base
+from app.db import Base, Tags
 from app.events.tables import Event as Event
 from app.jobs.tables import Job
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 
+LONGEST_VALUE = 200  # characters of a text by which lists sort and filter
+
+
+def _where(condition: str) -> dict[str, Any]:
+    """A partial index in every database."""
+    return {"sqlite_where": sa.text(condition), "postgresql_where": sa.text(condition)}
+
 
 class Run(Job, Base):
-    """One test: plan, state, outcome, measures, and checksum and size of its recording."""
+    """One test: state, outcome, measures, checksum and size of its recording, and what people say about it.
+
+    The row is narrow, because lists read every row: `RunPlan` holds the plan, and `RunValue` the values that lists sort and
+    filter by. `name` starts as the name of the plan; a new name changes neither plan nor digest.
+    An archived run is hidden from lists. A deleted run (`deleted_at`) is hidden too, and is removed after a grace period.
+    """
 
     __tablename__ = "run"
     __table_args__ = tuple(sa.Index(f"ix_run_{name}", name) for name in ("submitted_by", "submitted_at", "finished_at"))
 
     name: Mapped[str] = mapped_column(sa.String(200), index=True)
     template: Mapped[str | None] = mapped_column(sa.String(80), index=True)
-    plan: Mapped[dict[str, Any]]
+    test: Mapped[str] = mapped_column(sa.String(16))
+    tags: Mapped[list[str]] = mapped_column(Tags, default=list)
+    notes: Mapped[str] = mapped_column(sa.Text, default="")
+    archived: Mapped[bool] = mapped_column(default=False)
+    deleted_at: Mapped[datetime | None]
     digest: Mapped[str] = mapped_column(sa.String(64), index=True)
     code_version: Mapped[str] = mapped_column(sa.String(40))
     seed: Mapped[int] = mapped_column(sa.BigInteger)
@@ -38,11 +55,63 @@ class Run(Job, Base):
     stations: Mapped[list[RunStation]] = relationship(
         back_populates="run", order_by="RunStation.number", cascade="all, delete-orphan", lazy="selectin"
     )
+    planned: Mapped[RunPlan] = relationship(cascade="all, delete-orphan")
+    plan: AssociationProxy[dict[str, Any]] = association_proxy("planned", "plan", creator=lambda plan: RunPlan(plan=plan))
 
-    @property
-    def test(self) -> str:
-        """Kind of test; a plan of an earlier version without this field is a hybrid test."""
-        return str(self.plan.get("test", "hybrid"))
+    def __init__(self, **values: Any):
+        values.setdefault("test", values.get("plan", {}).get("test", "hybrid"))  # an earlier plan without it is hybrid
+        super().__init__(**values)
+
+
+class RunPlan(Base):
+    """The plan of a run. It is read for one run at a time."""
+
+    __tablename__ = "run_plan"
+
+    run_number: Mapped[int] = mapped_column(sa.ForeignKey("run.number", ondelete="CASCADE"), primary_key=True)
+    plan: Mapped[dict[str, Any]]
+
+
+class ValuePath(Base):
+    """The key of a column of the run table whose values stand in `RunValue`: `plan.PATH`, or a measure, `mte_mm:1`."""
+
+    __tablename__ = "value_path"
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    path: Mapped[str] = mapped_column(sa.String(200), unique=True)
+
+
+class RunValue(Base):
+    """A value of a run, number or text, by which lists sort and filter: an index over plans and measures of all runs.
+
+    It follows from `RunPlan` and `RunStation` (app/runs/values.py). Numbers of plans are SI; measures have the unit shown.
+    Rows of one path lie together, so that a list reads one column of all runs. There is no foreign key to `run`, because the
+    check would need a further index of the same size; the removal of a run removes its values.
+    """
+
+    __tablename__ = "run_value"
+    __table_args__ = (
+        sa.Index("ix_run_value_number", "path_id", "number", "run_number", **_where("number IS NOT NULL")),
+        sa.Index("ix_run_value_text", "path_id", "text", "run_number", **_where("text IS NOT NULL")),
+        {"sqlite_with_rowid": False},
+    )
+
+    path_id: Mapped[int] = mapped_column(sa.ForeignKey("value_path.id"), primary_key=True, autoincrement=False)
+    run_number: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
+    number: Mapped[float | None]
+    text: Mapped[str | None] = mapped_column(sa.String(LONGEST_VALUE))
+
+
+class RunView(Base):
+    """A saved view of the run table: a name for an address."""
+
+    __tablename__ = "run_view"
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str] = mapped_column(sa.String(80), unique=True)
+    query: Mapped[str] = mapped_column(sa.Text)
+    saved_by: Mapped[str] = mapped_column(sa.String(80))
+    saved_at: Mapped[datetime]
 
 
 class RunStation(Base):

@@ -11,9 +11,12 @@ from app.jobs.kind import Ending, Kind
 from app.jobs.service import NOBODY
 from app.jobs.states import State
 from app.models import Run, RunStation
+from app.runs import values
 from app.runs.order import Outcome, RunOrder
 from rths_engine.results.measure import FloorMeasure, RunMeasure
 from rths_engine.results.measures import of
+
+assert values  # the import makes values follow from runs
 
 
 class RunKind(Kind[Run, RunOrder, Outcome]):

@@ -6,14 +6,16 @@ from dataclasses import dataclass
 from datetime import datetime
 
 import sqlalchemy as sa
-from sqlalchemy.orm import Session, defer
+from sqlalchemy.orm import Session
 
 from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.models import LibraryPlan, PlanVersion, Run, RunStation
+from app.runs import values
 from rths_engine.results.measure import RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 
+assert values  # the import makes values follow from runs
 SORTS = {
     "number": Run.number,
     "name": Run.name,
@@ -63,7 +65,7 @@ class RunRepository(JobRepository[Run]):
         column, _, station = page.sort.partition(":")
         order = self._measure(column, int(station)) if station else SORTS[column]
         ordered = (order.desc() if page.descending else order.asc()).nulls_last()
-        query = query.options(defer(Run.plan)).order_by(ordered, Run.number.desc())
+        query = query.order_by(ordered, Run.number.desc())
         return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
 
     def most_stations(self) -> int:
@@ -71,7 +73,7 @@ class RunRepository(JobRepository[Run]):
         return self.session.scalar(sa.select(sa.func.max(RunStation.number))) or 0
 
     def in_states(self, *states: State) -> list[Run]:
-        query = sa.select(Run).where(Run.state.in_(states)).options(defer(Run.plan)).order_by(Run.number)
+        query = sa.select(Run).where(Run.state.in_(states)).order_by(Run.number)
         return list(self.session.scalars(query))
 
     def count(self, state: State) -> int:
@@ -83,7 +85,7 @@ class RunRepository(JobRepository[Run]):
         return self.session.scalar(query.where(LibraryPlan.id == library_id, PlanVersion.number == version)) is not None
 
     def _filtered(self, wanted: Filter) -> sa.Select[Run]:
-        query = sa.select(Run)
+        query = sa.select(Run).where(Run.archived.is_(False), Run.deleted_at.is_(None))
         if wanted.states:
             query = query.where(Run.state.in_(wanted.states))
         if wanted.text:
