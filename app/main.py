@@ -36,6 +36,8 @@ from app.pages.settings import router as settings_page
 from app.pages.stability import router as stability_page
 from app.pages.table4 import router as table4_page
 from app.plans.endpoints import router as plans
+from app.preflight.endpoints import router as preflight
+from app.preflight.process import DryRuns
 from app.runs.endpoints import router as runs
 from app.stability.endpoints import router as stability
 from app.table4.endpoints import router as table4
@@ -58,12 +60,14 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.settings = configured
     app.state.hub = Hub()
+    app.state.dry_runs = DryRuns()
     problems.install(app)
     openapi.install(app)
     for router in (
         runs,
         motions,
         plans,
+        preflight,
         library,
         drafts,
         mappings,
@@ -109,6 +113,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     finally:
         if worker:
             await asyncio.to_thread(worker.stop)
+        await asyncio.to_thread(app.state.dry_runs.close)
         app.state.queue.close()
         engine.dispose()
 

@@ -57,6 +57,10 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/abort": lambda: BY,
     "POST /api/v1/queue/release": lambda: BY,
     "POST /api/v1/plans/check": plan,
+    "POST /api/v1/plans/preflight": lambda: {
+        "plan": plan(),
+        "capacities": [{"stroke": 0.25, "velocity": 0.5, "force": 1.0e6}],
+    },
     "POST /api/v1/plans/drive": lambda: DRIVE,
     "POST /api/v1/plans/read": lambda: plan_to_yaml(templates.template(TEMPLATE)),
     "POST /api/v1/plans/write": plan,

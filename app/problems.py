@@ -42,6 +42,10 @@ class Conflict(Exception):
     """A request does not fit the present state of what it names."""
 
 
+class Unavailable(Exception):
+    """The service cannot answer a request in time; the same request may succeed later."""
+
+
 def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None) -> Response:
     """A response in problem+json (RFC 9457)."""
     title = TITLES.get(status, "Error")
@@ -57,6 +61,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(NotFound, lambda _, error: problem(404, str(error)))
     app.add_exception_handler(Conflict, lambda _, error: problem(409, str(error)))
+    app.add_exception_handler(Unavailable, _unavailable)
     app.add_exception_handler(OperationalError, _database_error)
     app.add_exception_handler(Exception, _unexpected)
 
@@ -146,6 +151,12 @@ def _detail(request: Request, error: HTTPException) -> str:
 def _database_error(request: Request, error: Exception) -> Response:
     log.error("%s %s: the database did not answer: %s", request.method, request.url.path, error)
     response = problem(503, "The database did not answer; nothing was stored. Try again in a moment.")
+    response.headers["Retry-After"] = "5"
+    return response
+
+
+def _unavailable(_: Request, error: Exception) -> Response:
+    response = problem(503, str(error))
     response.headers["Retry-After"] = "5"
     return response
 

@@ -57,6 +57,12 @@ def parser() -> argparse.ArgumentParser:
     )
     _data(run)
 
+    about = "simulate a plan before it is queued: would it trip, when and where, with its peaks against limits"
+    preflight = _command(commands, "preflight", "app.cli.preflight:preflight", about)
+    preflight.add_argument("plan", metavar="PLAN.yaml", help="file with the plan; - reads standard input")
+    preflight.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    _data(preflight)
+
     stability = _command(commands, "stability", "app.cli.stability:stability", "predict whether a plan's closed loop is stable")
     stability.add_argument(
         "plan", nargs="?", metavar="PLAN.yaml", help="file with the plan; without it, print a published limit"

@@ -30,15 +30,25 @@ def read_model(given: Namespace) -> Model:
         return model.changed(motion=validated(FileMotion, {**motion, "scale": plan.motion.scale}))
     if given.record_unit or given.record_dt:
         raise PlanError(Issue("--record", "is needed with --record-unit and --record-dt", fix="name the record's file"))
-    if isinstance(plan.motion, FileMotion) and given.plan != STANDARD_INPUT:
-        beside = str(Path(given.plan).parent / plan.motion.path)
-        return model.changed(motion=plan.motion.model_copy(update={"path": beside}))
-    return model
+    return _beside(model, given.plan)
+
+
+def model_of_plan(path: str) -> Model:
+    """The model of the plan in a YAML file; the path of its record starts at the folder of the file. Raises PlanError."""
+    return _beside(model_at(path), path)
 
 
 def model_at(path: str) -> Model:
     """The model of the plan in a YAML file; - is standard input. Raises PlanError with every issue."""
     return model_from_yaml(_text(path))
+
+
+def _beside(model: Model, path: str) -> Model:
+    """The model with the path of its record relative to the folder of the plan's file `path`."""
+    planned = model.plan.motion
+    if not isinstance(planned, FileMotion) or path == STANDARD_INPUT:
+        return model
+    return model.changed(motion=planned.model_copy(update={"path": str(Path(path).parent / planned.path)}))
 
 
 def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from rths_engine.foundation.kernel import compiled
+import numpy as np
+
+from rths_engine.foundation.kernel import compiled, entry
 
 # chosen; see docs/decisions/0023
 LEAST = 0.02  # m/s, smallest peak of a half wave that counts
@@ -29,3 +31,12 @@ def half_waves(state, velocity, dt):
         state[PEAK] = velocity
     state[AGE] += dt
     return state[COUNT]
+
+
+@entry
+def longest_rows(velocity, dt):
+    """The length of the row after each substep of a command velocity (samples), m/s."""
+    state, rows = np.zeros(SIZE), np.empty(velocity.size)
+    for q in range(velocity.size):
+        rows[q] = half_waves(state, velocity[q], dt)
+    return rows

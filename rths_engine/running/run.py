@@ -71,6 +71,12 @@ class Run:
         self.history[0] = x[self._setup.floors], v[self._setup.floors]
 
     @property
+    def noise(self) -> Array:
+        """Sensor noise of the recorded samples (done, stations, 2): displacement (m) and force (N)."""
+        noise: Array = self._setup.noise[: self.done]
+        return noise
+
+    @property
     def finished(self) -> bool:
         return self.trip is not None or self.done >= self.total
 

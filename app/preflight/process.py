@@ -1,0 +1,132 @@
+"""The process that executes dry runs, so that the web service stays responsive: started at the first preflight, then kept.
+
+It executes one dry run after the other, and ends after IDLE_S without work. A dry run that does not answer is killed.
+"""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+import os
+import signal
+import threading
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from typing import Any
+
+from app.problems import Unavailable
+from rths_engine.foundation.errors import Issue, PlanError
+
+MODULE = "rths_engine.preflight"
+IDLE_S = 900.0
+START_S = 90.0  # to load or compile the engine
+ANSWER_S = 20.0  # of a dry run, which bounds its own time to some seconds
+QUEUE_S = 15.0  # wait for the dry runs of other people
+WAITING = 8  # requests that may wait at the same time
+NICENESS = 5  # tests come first
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A dry run: a checked plan, the folder of records, and stroke, velocity and force of each station's actuator."""
+
+    plan: dict[str, Any]
+    motions: Path | None
+    capacities: list[tuple[float | None, float | None, float | None] | None]
+
+
+class DryRuns:
+    """The process of the dry runs and the pipe to it. Threads may share one instance."""
+
+    def __init__(self) -> None:
+        self._process: BaseProcess | None = None
+        self._pipe: Connection | None = None
+        self._turn = threading.Lock()
+        self._waiting = threading.BoundedSemaphore(WAITING)
+
+    def execute(self, order: Order) -> dict[str, Any]:
+        """The preflight of a plan. Raises PlanError, or Unavailable when no answer comes in time."""
+        if not self._waiting.acquire(blocking=False):
+            raise Unavailable("Too many dry runs are waiting. Try again in a moment.")
+        try:
+            if not self._turn.acquire(timeout=QUEUE_S):
+                raise Unavailable(f"Other dry runs took more than {QUEUE_S:g} s. Try again in a moment.")
+            try:
+                return self._answer(order)
+            finally:
+                self._turn.release()
+        finally:
+            self._waiting.release()
+
+    def close(self) -> None:
+        """End the process."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.join(2)
+        if self._pipe is not None:
+            self._pipe.close()
+        self._process = self._pipe = None
+
+    def _answer(self, order: Order) -> dict[str, Any]:
+        late = f"The dry run did not answer within {ANSWER_S:g} s. Shorten the test, or run `rths preflight` on the plan."
+        try:
+            pipe = self._ready()
+            pipe.send(order)
+            if not pipe.poll(ANSWER_S):
+                self.close()
+                raise Unavailable(late)
+            kind, answer = pipe.recv()
+        except (EOFError, OSError):
+            self.close()
+            raise Unavailable("The process of the dry runs ended unexpectedly. Try again in a moment.") from None
+        if kind == "refused":
+            raise PlanError(tuple(answer))
+        if kind == "failed":
+            raise Unavailable(f"The dry run failed: {answer}.")
+        found: dict[str, Any] = answer
+        return found
+
+    def _ready(self) -> Connection:
+        """The pipe to a process that is ready for orders."""
+        if self._pipe is not None and self._process is not None and self._process.is_alive():
+            return self._pipe
+        self.close()
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        self._process = context.Process(target=serve, args=(theirs,), daemon=True, name="rths-preflight")
+        self._process.start()
+        theirs.close()
+        if not self._pipe.poll(START_S):
+            raise OSError("not ready")
+        self._pipe.recv()
+        return self._pipe
+
+
+def serve(pipe: Connection) -> None:
+    """Execute dry runs until nobody has asked for IDLE_S, or the web service has ended."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(NICENESS)
+    engine = importlib.import_module(MODULE)
+    try:
+        pipe.send("ready")
+        while pipe.poll(IDLE_S):
+            pipe.send(_executed(engine, pipe.recv()))
+    except (EOFError, OSError):
+        return
+
+
+def _executed(engine: Any, order: Order) -> tuple[str, Any]:
+    from rths_engine.foundation.errors import RthsError
+    from rths_engine.parts.ground_motions import MotionLibrary
+    from rths_engine.planning.reading import read_model
+
+    try:
+        capacities = [None if one is None else engine.Capacity(*one) for one in order.capacities]
+        return "done", engine.preflight(read_model(order.plan), MotionLibrary(order.motions), capacities)
+    except RthsError as error:
+        issues: tuple[Issue, ...] = tuple(error.issues)
+        return "refused", issues
+    except Exception as error:
+        return "failed", f"{type(error).__name__}: {error}"

@@ -1,0 +1,95 @@
+"""Preflight by REST and on the command line; the service answers other requests meanwhile."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from app.cli.main import main
+from app.config import Settings
+from app.main import create_app
+from app.preflight import process
+from rths_engine.planning import templates
+from rths_engine.planning.reading import plan_to_yaml
+from tests.app.conftest import ADDRESS, app_of, plan
+
+PATH = "/api/v1/plans/preflight"
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    """A service whose process of dry runs stays for the tests of this file."""
+    settings = Settings(data=tmp_path_factory.mktemp("preflight"), embedded_worker=False)
+    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as one:
+        yield one
+
+
+def tripping() -> dict[str, Any]:
+    """A plan whose second station trips early."""
+    data = plan(duration=8.0)
+    data["stations"][1]["limits"]["velocity"] = 0.05
+    return data
+
+
+def test_a_plan_is_simulated_and_nothing_is_stored(running: TestClient) -> None:
+    found = running.post(PATH, json={"plan": tripping(), "capacities": [{"force": 1.0e5}]}).json()
+    assert found["verdict"] == "trips"
+    assert found["trip"]["path"] == "stations.1.limits.velocity"
+    assert [use["bound"] for use in found["uses"] if use["against"] == "rig"] == [1.0e5]
+    assert running.get("/api/v1/runs").json()["total"] == 0
+
+
+def test_a_plan_that_cannot_run_is_refused_at_its_field(running: TestClient) -> None:
+    data = plan()
+    data["stations"][0]["actuator"]["alpha"] = 0.2
+    refused = running.post(PATH, json={"plan": data})
+    assert (refused.status_code, refused.json()["errors"][0]["where"]) == (422, "plan.stations.0.actuator.alpha")
+    refused = running.post(PATH, json={"plan": plan(), "capacities": [None, None, None]})
+    assert refused.json()["errors"][0]["where"] == "capacities"
+
+
+def test_the_service_answers_while_a_long_plan_is_simulated(running: TestClient) -> None:
+    answers: list[Any] = []
+    asking = threading.Thread(target=lambda: answers.append(running.post(PATH, json={"plan": plan(duration=1500.0)})))
+    asking.start()
+    waits = []
+    while asking.is_alive():
+        begun = time.perf_counter()
+        assert running.get("/api/v1/templates/linear-damper").status_code == 200
+        waits.append(time.perf_counter() - begun)
+    assert max(waits) < 2.0
+    found = answers[0].json()
+    assert found["verdict"] == "incomplete"
+    assert 0 < found["covered_s"] < 1500.0
+
+
+def test_a_dry_run_that_does_not_answer_is_given_up(running: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process, "ANSWER_S", 0.0)
+    refused = running.post(PATH, json={"plan": plan()})
+    assert (refused.status_code, refused.headers["Retry-After"]) == (503, "5")
+    assert "did not answer within 0 s" in refused.json()["detail"]
+    monkeypatch.undo()
+    app_of(running).state.dry_runs.close()
+    assert running.post(PATH, json={"plan": plan()}).json()["verdict"] == "completes"  # by a new process
+
+
+def test_the_command_line_says_whether_a_plan_would_trip(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    good, bad = tmp_path / "good.yaml", tmp_path / "bad.yaml"
+    calm = templates.template("table3-04").model_copy(update={"duration": 3.0})
+    good.write_text(plan_to_yaml(calm))
+    bad.write_text(json.dumps(tripping()))
+    assert main(["preflight", str(good), "--data", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "Would complete 3 s. Largest use of a limit:" in said
+    assert "command velocity" in said and "delay margin" in said
+    assert main(["preflight", str(bad), "--json", "--data", str(tmp_path)]) == 1
+    assert json.loads(capsys.readouterr().out)["trip"]["station"] == 2
+    bad.write_text("schema: rths-plan/1\nnone: 1\n")
+    assert main(["preflight", str(bad), "--data", str(tmp_path)]) == 2
