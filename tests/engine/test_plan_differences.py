@@ -68,7 +68,7 @@ def test_texts_of_unequal_values_differ() -> None:
     mass = BASE["structure"]["storeys"][0]["mass"]
     (row,) = differences([BASE, changed(structure__storeys__0__mass=mass * (1 + 1e-14))])
     assert row.texts[0] != row.texts[1]
-    motion = {"kind": "inline", "dt": 0.01, "acceleration": [0.1 * k for k in range(100)]}
+    motion: dict[str, Any] = {"kind": "inline", "dt": 0.01, "acceleration": [0.1 * k for k in range(100)]}
     other = {**motion, "acceleration": [0.2, *motion["acceleration"][1:]]}
     (row,) = differences([changed(motion=motion), changed(motion=other)])
     assert all(text.startswith("100 values from 0") for text in row.texts) and row.texts[0] != row.texts[1]
