@@ -13,6 +13,7 @@ from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
 from app import db, openapi, pages, problems
+from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
 from app.guard import Guard
@@ -72,6 +73,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         drafts,
         mappings,
         diagnoses,
+        compare,
         stability,
         table4,
         laboratory,

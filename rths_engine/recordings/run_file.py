@@ -9,7 +9,7 @@ Attributes of the file: `schema`, `summary`, `measures` (declarations of the mea
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -96,6 +96,26 @@ def rows(path: Path, count: int) -> tuple[tuple[Channel, ...], float, Iterator[A
                 yield _columns(file, items, file["signals"][first : first + count], plan)[1]
 
     return channels, dt, parts()
+
+
+def head(path: Path) -> tuple[tuple[Channel, ...], float, int]:
+    """Channels, time step (s) and number of samples of a recording. Raises RecordingError as `load` does."""
+    with _opened(path) as file:
+        if file.attrs["schema"] == first_form.SCHEMA:
+            channels, _ = _columns(file, json.loads(file.attrs["channels"]), file["signals"][:0], _plan(file))
+        else:
+            channels = tuple(_channel(item) for item in json.loads(file.attrs["channels"]))
+        return channels, float(file.attrs["dt"]), len(file["signals"])
+
+
+def chosen(path: Path, keys: Sequence[str], part: slice = slice(None)) -> dict[str, Array]:
+    """The channels `keys` in a part of the samples, without reading the others. Raises RecordingError as `load` does."""
+    with _opened(path) as file:
+        items, dataset = json.loads(file.attrs["channels"]), file["signals"]
+        if file.attrs["schema"] == first_form.SCHEMA:
+            channels, signals = _columns(file, items, dataset[part], _plan(file))
+            return {one.key: signals[:, k] for k, one in enumerate(channels) if one.key in keys}
+        return {one["key"]: dataset[part, k] for k, one in enumerate(items) if one["key"] in keys}
 
 
 @contextmanager

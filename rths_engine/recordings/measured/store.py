@@ -9,6 +9,8 @@ lie in one piece and are mapped when the recording is loaded.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -44,9 +46,30 @@ def save(path: Path, measured: Measured, durable: bool = True) -> None:
 
 def load(path: Path) -> Measured:
     """Read a measured recording. Raises RecordingError where the file is missing, damaged or in another format."""
+    with _opened(path) as file:
+        return _read(file, path)
+
+
+def head(path: Path) -> tuple[tuple[str, ...], float, float, int]:
+    """Keys of the channels, time step (s), time of the first sample (s) and number of samples. Raises RecordingError."""
+    with _opened(path) as file:
+        keys = tuple(file)
+        return keys, float(file.attrs["dt"]), float(file.attrs["start_s"]), len(file[keys[0]])
+
+
+def chosen(path: Path, keys: Sequence[str], part: slice = slice(None)) -> dict[str, Array]:
+    """The channels `keys` in a part of the samples, without reading the others. Raises RecordingError as `load` does."""
+    with _opened(path) as file:
+        return {name: _samples(file[name], path)[part] for name in keys if name in file}
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[h5py.File]:
     try:
         with h5py.File(path, "r") as file:
-            return _read(file, path)
+            if file.attrs.get("schema") != SCHEMA or not len(file):
+                raise ValueError(f"its schema is {file.attrs.get('schema')!r}")
+            yield file
     except FileNotFoundError:
         raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
     except (OSError, KeyError, TypeError, ValueError) as error:
@@ -107,8 +130,6 @@ def _fill(path: Path, places: list[tuple[int, Array]]) -> None:
 
 def _read(file: h5py.File, path: Path) -> Measured:
     attrs = file.attrs
-    if attrs.get("schema") != SCHEMA:
-        raise ValueError(f"its schema is {attrs.get('schema')!r}")
     fields = Finding.__dataclass_fields__
     warnings = [Finding(**{name: one[name] for name in fields}) for one in json.loads(attrs["warnings"])]
     channels = tuple(_channel(file[name], path) for name in file)
