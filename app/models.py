@@ -11,7 +11,7 @@ from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db import Base, Tags
 from app.events.tables import Event as Event
-from app.jobs.tables import Job
+from app.jobs.tables import Job, Ordered
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 
@@ -23,12 +23,18 @@ def _where(condition: str) -> dict[str, Any]:
     return {"sqlite_where": sa.text(condition), "postgresql_where": sa.text(condition)}
 
 
-class Run(Job, Base):
-    """One test: state, outcome, measures, checksum and size of its recording, and what people say about it.
+EMULATED = "emulated"
+"""The rig of every test that names none: the emulated laboratory of this program."""
+
+
+class Run(Ordered, Job, Base):
+    """One test: rig, state, outcome, measures, checksum and size of its recording, and what people say about it.
 
     The row is narrow, because lists read every row: `RunPlan` holds the plan, and `RunValue` the values that lists sort and
     filter by. `name` starts as the name of the plan; a new name changes neither plan nor digest.
     An archived run is hidden from lists. A deleted run (`deleted_at`) is hidden too, and is removed after a grace period.
+    `pace` is the planned speed factor, null for as fast as possible. `samples` and `size` say how long and how large the test
+    is: its expected time follows from earlier runs alike.
     """
 
     __tablename__ = "run"
@@ -48,10 +54,16 @@ class Run(Job, Base):
     duration_s: Mapped[float]
     elapsed_s: Mapped[float | None]
     simulated_s: Mapped[float | None]
+    rig_id: Mapped[str] = mapped_column(sa.String(36), index=True, default=EMULATED, server_default=EMULATED)
+    retry_of: Mapped[str | None] = mapped_column(sa.String(36), index=True)
+    pace: Mapped[float | None]
+    samples: Mapped[int | None] = mapped_column(sa.BigInteger)
+    size: Mapped[str | None] = mapped_column(sa.String(40))
     recording_sha256: Mapped[str | None] = mapped_column(sa.String(64))
     recording_size: Mapped[int | None] = mapped_column(sa.BigInteger)
     library_id: Mapped[str | None] = mapped_column(sa.String(36), index=True)
     library_version: Mapped[int | None]
+    rig: Mapped[Rig | None] = relationship(primaryjoin="foreign(Run.rig_id) == Rig.id", viewonly=True, lazy="selectin")
     stations: Mapped[list[RunStation]] = relationship(
         back_populates="run", order_by="RunStation.number", cascade="all, delete-orphan", lazy="selectin"
     )
@@ -61,6 +73,28 @@ class Run(Job, Base):
     def __init__(self, **values: Any):
         values.setdefault("test", values.get("plan", {}).get("test", "hybrid"))  # an earlier plan without it is hybrid
         super().__init__(**values)
+
+    @property
+    def rig_name(self) -> str:
+        return self.rig.name if self.rig else self.rig_id
+
+
+class Rig(Base):
+    """A rig on which tests run. `tests_at_a_time` is null where any number of tests may run at once.
+
+    `actuators` holds the capacities of the actuators, one for each station in their order: `name`, `stroke_m`, `velocity_m_s`
+    and `force_N`.
+    """
+
+    __tablename__ = "rig"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    name: Mapped[str] = mapped_column(sa.String(80), unique=True)
+    kind: Mapped[str] = mapped_column(sa.String(16))
+    tests_at_a_time: Mapped[int | None]
+    actuators: Mapped[list[dict[str, Any]]] = mapped_column(sa.JSON)
+    retired: Mapped[bool] = mapped_column(default=False)
 
 
 class RunPlan(Base):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import ClassVar, Generic, NamedTuple, TypeVar
 
+import sqlalchemy as sa
+
 from app.config import Settings
 from app.jobs.order import Order
 from app.jobs.states import State
@@ -46,6 +48,8 @@ class Kind(ABC, Generic[Row, Given, Result]):
     """Whether processes start with the worker and stay for the next job; otherwise each job gets a new process."""
     keeps_when_cancelled: ClassVar[bool] = False
     """Whether a cancelled job stores its result so far; otherwise its process is killed at once."""
+    ordered: ClassVar[bool] = False
+    """Whether people order the jobs of this kind: its table is Ordered, and a delivery starts the first that may start."""
     waits_while_held: ClassVar[bool] = False
     """Whether jobs of this kind wait while the queue is held."""
     watched_live: ClassVar[bool] = False
@@ -58,6 +62,10 @@ class Kind(ABC, Generic[Row, Given, Result]):
     def title(self, job: Row) -> str:
         """The name that people gave a job; empty for a kind whose jobs have no names."""
         return ""
+
+    def may_start(self) -> sa.ColumnElement[bool]:
+        """The condition on a queued job of an ordered kind that it may start now; others are passed over meanwhile."""
+        return sa.true()
 
     @abstractmethod
     def order(self, job: Row, settings: Settings) -> Given:

@@ -9,7 +9,7 @@ import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
 from app.jobs.states import State
-from app.jobs.tables import Job
+from app.jobs.tables import Job, Ordered
 
 Row = TypeVar("Row", bound=Job)
 
@@ -40,6 +40,14 @@ class JobRepository(Generic[Row]):
         """The ids of the jobs in a state, oldest first."""
         return list(self.session.scalars(sa.select(self.table.id).where(self.table.state == state).order_by(self.table.number)))
 
+    def any_in(self, state: State, where: sa.ColumnElement[bool] | None = None) -> bool:
+        """Whether a job is in a state, and meets a condition."""
+        found = sa.select(self.table.id).where(self.table.state == state, sa.true() if where is None else where)
+        return self.session.scalar(found.limit(1)) is not None
+
+    def count(self, state: State) -> int:
+        return self.session.scalar(sa.select(sa.func.count()).where(self.table.state == state)) or 0
+
     def cancel_requested(self, job_id: str) -> bool:
         return self.session.scalar(sa.select(self.table.cancel_requested_by).where(self.table.id == job_id)) is not None
 
@@ -52,6 +60,39 @@ class JobRepository(Generic[Row]):
     def remove(self, job: Row) -> None:
         self.session.delete(job)
         self.session.flush()
+
+    def of_turn(self, turn: str) -> str | None:
+        """The id of the job of an ordered kind that an earlier delivery of this turn started."""
+        return self.session.scalar(sa.select(self.table.id).where(self._ordered().turn == turn))
+
+    def give_back(self, job: Row) -> None:
+        """Forget the turn of a job that goes back to the queue: any turn may start it again."""
+        cast(Any, job).turn = None
+
+    def first(self, may_start: sa.ColumnElement[bool], turn: str) -> Row | None:
+        """The first queued job of an ordered kind that may start, locked and taken by `turn`. The caller has locked the queue.
+
+        Another transaction may have cancelled it meanwhile; then the next one is taken.
+        """
+        while True:
+            queued = sa.select(self.table.id).where(self.table.state == State.QUEUED, may_start)
+            found = self.session.scalar(queued.order_by(*self.in_order()).limit(1))
+            job = self.locked(found) if found else None
+            if job is None:
+                return None
+            if job.state is State.QUEUED:
+                taken: Any = job
+                taken.turn, taken.beside = turn, self.count(State.RUNNING)
+                return job
+
+    def in_order(self) -> tuple[Any, ...]:
+        """The order in which the queued jobs of an ordered kind start."""
+        table = self._ordered()
+        return table.priority.desc(), sa.func.coalesce(table.position, self.table.number), self.table.number
+
+    def _ordered(self) -> Any:
+        assert issubclass(self.table, Ordered)
+        return self.table
 
     def _change(self, where: sa.ColumnElement[bool], **values: Any) -> None:
         change = sa.update(cast(Any, self.table)).where(where).values(**values)

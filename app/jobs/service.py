@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any, Generic, Protocol
 
@@ -26,6 +27,18 @@ class Queue(Protocol):
     """The part of the durable queue that submitting uses."""
 
     def enqueue(self, session: Session, kind: Kind[Any, Any, Any], ids: Sequence[str]) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Taken(Generic[Row]):
+    """What a delivery of the durable queue comes to: a job that started, or a wait, or nothing left to do.
+
+    `left` is the job of the delivery that an earlier attempt left, or that has ended: its files of earlier attempts go.
+    """
+
+    started: Row | None = None
+    left: Row | None = None
+    waits: bool = False
 
 
 class JobService(Generic[Row, Result]):
@@ -83,35 +96,60 @@ class JobService(Generic[Row, Result]):
             raise Conflict(f"The {self.kind.noun} has not ended: it is {job.state}. Cancel it first.")
         self.rows.remove(job)
 
-    def start(self, job_id: str, worker: str) -> Row | None:
-        """Start a job on a worker. None if there is nothing to do: the job has ended, was cancelled, or has no attempt left.
+    def start(self, turn: str, worker: str) -> Taken[Row]:
+        """Start the job of a delivery of the durable queue, in one transaction. `turn` is the id that was delivered.
 
-        A running job was left by a worker that died; this worker takes it over. For a kind with `waits_while_held` the worker
-        has already waited for the release of the queue. If the queue is held again at this moment, the job ends as cancelled.
+        For an ordered kind this is the first queued job that may start now, otherwise the job with that id. A running job that
+        this turn started before was left by a worker that died; it goes back to its place in the queue first.
         """
         queue = Hold(self.session).locked() if self.kind.waits_while_held else None
-        job = self.rows.locked(job_id)
-        if job is None or job.state.ended:
-            return None
-        noun = self.kind.noun
+        job_id = self._job_of(turn)
+        left = self.rows.locked(job_id) if job_id else None
+        if left is not None and (left.state.ended or not self._bears_attempt(left)):
+            return Taken(left=left)
+        if queue is not None and queue.held:
+            return Taken(left=left, waits=self.rows.any_in(State.QUEUED))
+        job = self.rows.first(self.kind.may_start(), turn) if self.kind.ordered else left
+        if job is None:
+            return Taken(left=left, waits=self.kind.ordered and self.rows.any_in(State.QUEUED))
+        self._move(job, State.RUNNING)
+        job.attempt += 1
+        job.worker, job.started_at, job.doing, job.share = worker, datetime.now(UTC), "", 0.0
+        again = f", attempt {job.attempt}" if job.attempt > 1 else ""
+        self._tell(EventKind.STARTED, job, f"Started on worker {worker}{again}.")
+        return Taken(started=job, left=left)
+
+    def over(self, turn: str) -> bool:
+        """Whether the job of a delivery has ended, read without a lock."""
+        job_id = self._job_of(turn)
+        job = self.rows.get(job_id) if job_id else None
+        return job is not None and job.state.ended
+
+    def may_start(self) -> bool:
+        """Whether a turn that waits should try to start again, read without a lock."""
+        if self.kind.waits_while_held and Hold(self.session).held:
+            return False
+        if not self.kind.ordered or not self.rows.any_in(State.QUEUED):
+            return True
+        return self.rows.any_in(State.QUEUED, self.kind.may_start())
+
+    def _job_of(self, turn: str) -> str | None:
+        return self.rows.of_turn(turn) if self.kind.ordered else turn
+
+    def _bears_attempt(self, job: Row) -> bool:
+        """Move a running job of a dead worker to the queue, or end it: it was cancelled, or no attempt is left."""
         if job.state is State.RUNNING:
             self._move(job, State.QUEUED)
+            if self.kind.ordered:
+                self.rows.give_back(job)
+        noun = self.kind.noun
         if job.cancel_requested_by:
             died = f"The worker or the process of the {noun} had died."
             self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}. {died}")
-        elif queue is not None and queue.held:
-            self._end(job, State.CANCELLED, f"Stopped by {queue.held_by} before it started.")
         elif job.attempt >= MOST_ATTEMPTS:
             died = f"The worker or the process of the {noun} died {job.attempt} times"
             self._end(job, State.FAILED, f"{died}. There is no further attempt.")
-        else:
-            self._move(job, State.RUNNING)
-            job.attempt += 1
-            job.worker, job.started_at, job.doing, job.share = worker, datetime.now(UTC), "", 0.0
-            again = f", attempt {job.attempt}" if job.attempt > 1 else ""
-            self._tell(EventKind.STARTED, job, f"Started on worker {worker}{again}.")
-            return job
-        return None
+        return not job.state.ended
 
     def progress(self, job_id: str, attempt: int, doing: str, share: float) -> None:
         """Store the progress of an attempt; nothing happens if the attempt is not the current one."""

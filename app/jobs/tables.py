@@ -33,6 +33,20 @@ class Job:
     reason: Mapped[str | None] = mapped_column(sa.Text)
 
 
+class Ordered:
+    """Columns of a kind of job whose jobs people order, as a mixin: `class Run(Ordered, Job, Base)`.
+
+    Jobs start by `priority`, the highest first, and then by `position`; the position of a job that nobody moved is its number.
+    `turn` names the delivery of the durable queue that executes the job, and `beside` is the number of others that ran when it
+    started.
+    """
+
+    priority: Mapped[int] = mapped_column(default=0, server_default="0")
+    position: Mapped[float | None]
+    turn: Mapped[str | None] = mapped_column(sa.String(36), index=True)
+    beside: Mapped[int | None]
+
+
 class QueueState(Base):
     """Whether the queue is held, by whom, since when and why: one row."""
 
@@ -51,9 +65,10 @@ class QueueState(Base):
 
 
 class WorkerHeartbeat(Base):
-    """Time of the last heartbeat of a worker."""
+    """Time of the last heartbeat of a worker, and how many tests it executes at the same time."""
 
     __tablename__ = "worker_heartbeat"
 
     worker: Mapped[str] = mapped_column(sa.String(80), primary_key=True)
     seen_at: Mapped[datetime]
+    tests_at_a_time: Mapped[int] = mapped_column(default=1, server_default="1")

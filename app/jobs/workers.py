@@ -18,8 +18,14 @@ class Workers:
     def __init__(self, session: Session):
         self.session = session
 
-    def beat(self, worker: str) -> None:
-        self.session.merge(WorkerHeartbeat(worker=worker, seen_at=datetime.now(UTC)))
+    def beat(self, worker: str, tests_at_a_time: int = 1) -> None:
+        self.session.merge(WorkerHeartbeat(worker=worker, seen_at=datetime.now(UTC), tests_at_a_time=tests_at_a_time))
+
+    def tests_at_a_time(self) -> int:
+        """Number of tests that all living workers together execute at the same time."""
+        since = datetime.now(UTC) - WORKER_SILENCE
+        total = sa.select(sa.func.sum(WorkerHeartbeat.tests_at_a_time)).where(WorkerHeartbeat.seen_at >= since)
+        return self.session.scalar(total) or 0
 
     def last_beat(self) -> datetime | None:
         newest = sa.select(WorkerHeartbeat).order_by(WorkerHeartbeat.seen_at.desc()).limit(1)

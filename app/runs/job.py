@@ -6,11 +6,14 @@ import json
 import os
 from typing import Any
 
+import sqlalchemy as sa
+from sqlalchemy.orm import aliased
+
 from app.config import Settings
 from app.jobs.kind import Ending, Kind
 from app.jobs.service import NOBODY
 from app.jobs.states import State
-from app.models import Run, RunStation
+from app.models import Rig, Run, RunStation
 from app.runs import values
 from app.runs.order import Outcome, RunOrder
 from rths_engine.results.measure import FloorMeasure, RunMeasure
@@ -25,13 +28,19 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
     name, noun, table = "run", "test", Run
     queue, workflow = "tests", "run-test"
     process = "app.worker.engine"
-    kept_warm = keeps_when_cancelled = waits_while_held = watched_live = True
+    ordered = kept_warm = keeps_when_cancelled = waits_while_held = watched_live = True
 
     def at_a_time(self, settings: Settings) -> int:
         return settings.worker_concurrency
 
     def title(self, job: Run) -> str:
         return job.name
+
+    def may_start(self) -> sa.ColumnElement[bool]:
+        """A test waits while its rig executes as many tests as it takes at a time."""
+        other = aliased(Run)
+        running = sa.select(sa.func.count()).where(other.state == State.RUNNING, other.rig_id == Rig.id).correlate(Rig)
+        return Run.rig_id.not_in(sa.select(Rig.id).where(Rig.tests_at_a_time <= running.scalar_subquery()))
 
     def order(self, job: Run, settings: Settings) -> RunOrder:
         recording = settings.recordings / f".{job.id}.{job.attempt}.h5"

@@ -76,9 +76,6 @@ class RunRepository(JobRepository[Run]):
         query = sa.select(Run).where(Run.state.in_(states)).order_by(Run.number)
         return list(self.session.scalars(query))
 
-    def count(self, state: State) -> int:
-        return self.session.scalar(sa.select(sa.func.count()).where(Run.state == state)) or 0
-
     def has_version(self, library_id: str, version: int) -> bool:
         """Whether the library has this version of a plan."""
         query = sa.select(PlanVersion.number).join(LibraryPlan, LibraryPlan.number == PlanVersion.plan_number)

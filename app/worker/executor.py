@@ -13,7 +13,6 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app.config import Settings
 from app.db import unit_of_work
-from app.jobs.hold import Hold
 from app.jobs.kind import Kind
 from app.jobs.order import Order
 from app.jobs.service import JobService
@@ -22,7 +21,7 @@ from app.worker.link import Link, Telling
 from app.worker.pool import JobProcess, Outcome, Pool, ProcessDied
 
 log = logging.getLogger("rths.worker")
-HOLD_POLL_S = 0.1
+WAIT_POLL_S = 0.1
 PROGRESS_S = 1.0  # between two writes of a job's progress
 AnyKind = Kind[Any, Any, Any]
 
@@ -63,13 +62,13 @@ class Executor:
         self.running: dict[str, Running] = {}
         self._lock = threading.Lock()
 
-    def execute(self, kind: AnyKind, job_id: str) -> None:
-        """Execute a job to its end, and again if its process dies. A job that has ended or was cancelled is not executed."""
+    def execute(self, kind: AnyKind, turn: str) -> None:
+        """Execute a job to its end, and again if its process dies. `turn` is the delivery of the queue: JobService.start."""
         try:
-            self._attempt(kind, job_id)
+            self._attempt(kind, turn)
         except ProcessDied as died:
-            log.warning("the process died (%s) over %s %s", died, kind.name, job_id)
-            self.execute(kind, job_id)
+            log.warning("the process died (%s) over turn %s of %s", died, turn, kind.queue)
+            self.execute(kind, turn)
 
     def look(self) -> None:
         """Store the progress of running jobs, and stop the jobs that someone cancelled."""
@@ -88,47 +87,41 @@ class Executor:
         if cancelled:
             one.process.cancel()
 
-    def _attempt(self, kind: AnyKind, job_id: str) -> None:
-        if self._ended(kind, job_id):
-            self._start(kind, job_id)  # removes files of earlier attempts and sends the end to viewers
+    def _attempt(self, kind: AnyKind, turn: str) -> None:
+        with unit_of_work(self.maker) as session:
+            over = JobService(session, kind).over(turn)
+        if over:
+            self._start(kind, turn)  # removes files of earlier attempts and sends the end to viewers
             return
         pool = self.pools[kind.name]
         process = pool.take()
         try:
-            if kind.waits_while_held:
-                self._wait_while_held()
-            order = self._start(kind, job_id)
+            order, waits = self._start(kind, turn)
+            while waits:
+                time.sleep(WAIT_POLL_S)
+                if self._may_start(kind):
+                    order, waits = self._start(kind, turn)
             if order is not None:
                 self._execute(kind, order, process)
         finally:
             pool.give(process)
 
-    def _ended(self, kind: AnyKind, job_id: str) -> bool:
+    def _may_start(self, kind: AnyKind) -> bool:
         with unit_of_work(self.maker) as session:
-            job = JobService(session, kind).rows.get(job_id)
-            return job is None or job.state.ended
+            return JobService(session, kind).may_start()
 
-    def _wait_while_held(self) -> None:
-        while True:
-            with unit_of_work(self.maker) as session:
-                if not Hold(session).held:
-                    return
-            time.sleep(HOLD_POLL_S)
-
-    def _start(self, kind: AnyKind, job_id: str) -> Order | None:
+    def _start(self, kind: AnyKind, turn: str) -> tuple[Order | None, bool]:
+        """The order of the job that starts in this turn, and whether the turn waits instead."""
         with unit_of_work(self.maker) as session:
-            jobs = JobService(session, kind)
-            started = jobs.start(job_id, self.name)
-            job = started or jobs.rows.get(job_id)
-            if job is None:
-                return None
-            kind.clear(job, self.settings)
-            if started is None:
-                if kind.watched_live:
-                    self.link.open(job_id, job.attempt).ended = True
-                return None
-            order: Order = kind.order(job, self.settings)
-            return order
+            taken = JobService(session, kind).start(turn, self.name)
+            for job in (taken.left, taken.started):
+                if job is not None:
+                    kind.clear(job, self.settings)
+            left = taken.left
+            if left is not None and left is not taken.started and kind.watched_live:
+                self.link.open(left.id, left.attempt).ended = True
+            order: Order | None = kind.order(taken.started, self.settings) if taken.started is not None else None
+            return order, taken.waits
 
     def _execute(self, kind: AnyKind, order: Order, process: JobProcess) -> None:
         telling = self.link.open(order.job_id, order.attempt) if kind.watched_live else None

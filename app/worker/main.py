@@ -84,22 +84,22 @@ def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any,
             polling_interval_sec=POLLING_S,
             on_conflict="always_update",
         )
-    _watch(executor, maker, name)
+    _watch(executor, maker, name, settings.worker_concurrency)
 
 
 def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
     attempts = MOST_ATTEMPTS + 1  # the last attempt ends the job as failed
 
     @DBOS.step(name=f"execute-{kind.name}", retries_allowed=True, max_attempts=attempts)
-    def execute(job_id: str) -> None:
-        executor.execute(kind, job_id)
+    def execute(turn: str) -> None:
+        executor.execute(kind, turn)
 
     @DBOS.workflow(name=kind.workflow, max_recovery_attempts=None)
-    def run(job_id: str) -> None:
-        execute(job_id)
+    def run(turn: str) -> None:
+        execute(turn)
 
 
-def _watch(executor: Executor, maker: sessionmaker[Session], name: str) -> None:
+def _watch(executor: Executor, maker: sessionmaker[Session], name: str, tests_at_a_time: int) -> None:
     """Store progress, pass on cancels, write this worker's heartbeat, and take over the jobs of workers that have died."""
     beaten = 0.0
     while True:
@@ -107,16 +107,16 @@ def _watch(executor: Executor, maker: sessionmaker[Session], name: str) -> None:
             executor.look()
             if time.monotonic() - beaten >= BEAT_S:
                 beaten = time.monotonic()
-                _beat(maker, name)
+                _beat(maker, name, tests_at_a_time)
         except sa.exc.OperationalError as error:
             log.warning("the database did not answer: %s", error)
         time.sleep(WATCH_S)
 
 
-def _beat(maker: sessionmaker[Session], name: str) -> None:
+def _beat(maker: sessionmaker[Session], name: str, tests_at_a_time: int) -> None:
     with unit_of_work(maker) as session:
         workers = Workers(session)
-        workers.beat(name)
+        workers.beat(name, tests_at_a_time)
         silent = workers.silent()
     for dead in silent:
         for workflow in DBOS.list_workflows(status="PENDING", executor_id=dead):

@@ -78,7 +78,7 @@ def submitted(maker: sessionmaker[Session]) -> str:
 def started(maker: sessionmaker[Session]) -> str:
     run_id = submitted(maker)
     with db.unit_of_work(maker) as session:
-        assert jobs(session).start(run_id, "one") is not None
+        assert jobs(session).start(run_id, "one").started is not None
     return run_id
 
 
@@ -98,7 +98,7 @@ class Meanwhile:
 
     def _start(self, maker: sessionmaker[Session], run_id: str) -> None:
         with db.unit_of_work(maker) as session:
-            self.found.append(jobs(session).start(run_id, "other"))
+            self.found.append(jobs(session).start(run_id, "other").started)
 
     def result(self) -> Run | None:
         self._thread.join(PATIENCE_S)
@@ -122,15 +122,14 @@ def test_a_run_cancelled_while_a_worker_takes_it_does_not_start(maker: sessionma
     assert (run.state, run.attempt) == (State.CANCELLED, 0)
 
 
-def test_a_run_aborted_while_a_worker_takes_it_does_not_start(maker: sessionmaker[Session]) -> None:
+def test_a_run_that_a_worker_takes_at_the_moment_of_an_abort_stays_queued(maker: sessionmaker[Session]) -> None:
     run_id = submitted(maker)
     with db.unit_of_work(maker) as session:
         assert service(session).abort("Bo") == []
         meanwhile = Meanwhile(maker, run_id)
     assert meanwhile.result() is None
     run = run_of(maker, run_id)
-    assert run.state is State.CANCELLED
-    assert run.reason == "Stopped by Bo before it started."
+    assert (run.state, run.attempt) == (State.QUEUED, 0)
 
 
 def test_a_cancel_sees_the_state_at_its_turn_not_the_one_it_read_before(maker: sessionmaker[Session]) -> None:
@@ -138,7 +137,7 @@ def test_a_cancel_sees_the_state_at_its_turn_not_the_one_it_read_before(maker: s
     with db.unit_of_work(maker) as session:
         assert service(session).get(run_id).state is State.QUEUED
         with db.unit_of_work(maker) as other:
-            assert jobs(other).start(run_id, "one") is not None
+            assert jobs(other).start(run_id, "one").started is not None
         run = service(session).cancel(run_id, "Bo")
         assert (run.state, run.cancel_requested_by) == (State.RUNNING, "Bo")
 
@@ -180,7 +179,7 @@ def test_a_run_whose_cancel_its_dead_worker_missed_is_cancelled_when_taken_up(ma
     with db.unit_of_work(maker) as session:
         service(session).cancel(run_id, "Bo")
     with db.unit_of_work(maker) as session:
-        assert jobs(session).start(run_id, "other") is None
+        assert jobs(session).start(run_id, "other").started is None
     assert run_of(maker, run_id).state is State.CANCELLED
 
 

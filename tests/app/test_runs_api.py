@@ -44,8 +44,10 @@ def execute(client: TestClient, settings: Settings, run_id: str) -> dict[str, An
     """What a worker does, in this process."""
     motions = MotionLibrary(settings.motions)
     with unit_of_work(app_of(client).state.sessions) as session:
-        run = JobService(session, job.RUNS).start(run_id, "test")
-        assert run is not None
+        jobs = JobService(session, job.RUNS)
+        jobs.get(run_id).priority = 1  # so that it is the next
+        run = jobs.start(run_id, "test").started
+        assert run is not None and run.id == run_id
         result = simulate(read_plan(run.plan), motions)
     saved = recording.save(settings.recordings / f"{run_id}.h5", result)
     with unit_of_work(app_of(client).state.sessions) as session:
@@ -242,7 +244,7 @@ def test_a_second_finish_changes_nothing(client: TestClient, settings: Settings)
     summary = execute(client, settings, run_id)
     with unit_of_work(app_of(client).state.sessions) as session:
         service = JobService(session, job.RUNS)
-        assert service.start(run_id, "other") is None
+        assert service.start(run_id, "other").started is None
         assert service.finish(run_id, 1, Outcome({**summary, "status": "tripped"}, "0" * 64, 1)) is False
     assert client.get(f"{RUNS}/{run_id}").json()["state"] == "completed"
 
@@ -251,10 +253,10 @@ def test_a_run_that_kills_its_worker_is_parked_after_three_attempts(client: Test
     run_id = submit(client)
     for attempt in (1, 2, 3):
         with unit_of_work(app_of(client).state.sessions) as session:
-            run = JobService(session, job.RUNS).start(run_id, "dying")
+            run = JobService(session, job.RUNS).start(run_id, "dying").started
             assert run is not None and run.attempt == attempt
     with unit_of_work(app_of(client).state.sessions) as session:
-        assert JobService(session, job.RUNS).start(run_id, "dying") is None
+        assert JobService(session, job.RUNS).start(run_id, "dying").started is None
     run = client.get(f"{RUNS}/{run_id}").json()
     assert run["state"] == "failed" and "3 times" in run["reason"]
 

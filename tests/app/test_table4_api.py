@@ -74,6 +74,7 @@ def end(settings: Settings, run_id: str, found: dict[str, object]) -> None:
     """End a run as a worker does."""
     with Session(db.connect(settings.url)) as session:
         service = JobService(session, RUNS)
-        assert service.start(run_id, "worker") is not None
+        started = service.start(run_id, "worker").started
+        assert started is not None and started.id == run_id
         service.finish(run_id, 1, Outcome(found, "0" * 64, 1))
         session.commit()
