@@ -21,13 +21,13 @@ from rths_engine.running.run import Run, simulate
 from rths_engine.running.warm import warm
 
 ROUNDS = 7
-TABLE3 = "table3-04"
+TWO_STOREYS = "two-storeys"
 BATCH = 30  # runs of each process in the two-core benchmark
 
 
 def table3() -> dict[str, float]:
-    """Time of a 40 s test of Table III at 1024 Hz with all channels recorded: in memory, and with its file."""
-    plan = templates.template(TABLE3)
+    """Time of a 40 s test of two storeys at 1024 Hz with all channels recorded: in memory, and with its file."""
+    plan = templates.template(TWO_STOREYS)
     simulate(plan)
     runs, stored = [], []
     with tempfile.TemporaryDirectory() as folder:
@@ -43,7 +43,7 @@ def table3() -> dict[str, float]:
 def cold() -> dict[str, float]:
     """Time of `rths run` of the same plan in a new process, with the engine compiled before."""
     rths = Path(sys.executable).with_name("rths")
-    plan = plan_to_yaml(templates.template(TABLE3))
+    plan = plan_to_yaml(templates.template(TWO_STOREYS))
     seconds = []
     for _ in range(ROUNDS + 1):
         start = perf_counter()
@@ -54,7 +54,7 @@ def cold() -> dict[str, float]:
 
 def _batch(_: int) -> float:
     """CPU time (s) of BATCH runs."""
-    plan = templates.template(TABLE3)
+    plan = templates.template(TWO_STOREYS)
     start = process_time()
     for _ in range(BATCH):
         simulate(plan, LIBRARY)
@@ -82,7 +82,7 @@ def two_cores() -> dict[str, float]:
 
 def memory() -> dict[str, Any]:
     """Resident memory (kB) during a test of 1600 s; the recording is allocated and written once before the test."""
-    run = Run(templates.template(TABLE3).model_copy(update={"duration": 1600.0}), LIBRARY)
+    run = Run(templates.template(TWO_STOREYS).model_copy(update={"duration": 1600.0}), LIBRARY)
     run.signals[:] = 0.0
     run.history[:] = 0.0
     resident = []

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from rths_engine.planning.paper import PAPER
 from rths_engine.planning.plan import Plan
-from rths_engine.planning.templates import PAPER
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 

@@ -13,6 +13,7 @@ from rths_engine import stability
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning import plan_yaml, templates
+from rths_engine.planning.paper import PAPER
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import plan_to_yaml, read_plan
 from rths_engine.results.channels import CHANNELS
@@ -38,7 +39,7 @@ class PlanService:
         """The plan of a template, and the paper's results if the template is a simulation of Table III."""
         if name not in templates.names():
             raise NotFound(f"There is no template '{name}'. Templates: {', '.join(templates.names())}.")
-        paper = templates.PAPER.get(name)
+        paper = PAPER.get(name)
         return {"name": name, "plan": templates.template(name).as_dict(), "paper": asdict(paper) if paper else None}
 
     def schema(self) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rths_engine.planning.templates import PAPER
+from rths_engine.planning.paper import PAPER
 from rths_engine.recordings.run_file import Recording
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of

@@ -24,6 +24,7 @@ from rths_engine.planning.motion import RecordMotion
 from rths_engine.planning.plan import Noise, Plan, RealTime, Station
 from rths_engine.planning.safety import Limits
 from rths_engine.planning.shapes import Chirp, IncreasingCycles, Sine
+from rths_engine.planning.two_storeys import two_storeys
 
 # chosen; see docs/decisions/0023
 EL_CENTRO = "imperial-valley-1940-el-centro-ns"
@@ -174,6 +175,7 @@ def _pulled_at_the_top(storeys: tuple[Storey, ...], top: float) -> tuple[float, 
 
 EXAMPLES: dict[str, Callable[[str], Plan]] = {
     "linear-damper": linear_damper,
+    "two-storeys": two_storeys,
     "semi-active": semi_active,
     "specimen-mr-damper": specimen_mr_damper,
     "actuator-sweep": actuator_sweep,

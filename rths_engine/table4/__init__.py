@@ -3,8 +3,8 @@
 `rths_engine.table4.running` runs them.
 """
 
+from rths_engine.planning.laboratory import BUNDLED, LABORATORY, Laboratory, PlannedRecord, name, plans
 from rths_engine.table4.comparison import DRIFTS_PERCENT, FLOORS_PEAK_MM, PAPER, Comparison, Row, comparison
-from rths_engine.table4.laboratory import BUNDLED, LABORATORY, Laboratory, PlannedRecord, name, plans
 
 __all__ = [
     "BUNDLED",

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from rths_engine.planning import templates
-from rths_engine.planning.templates import PaperRow
+from rths_engine.planning.paper import PAPER as ROWS
+from rths_engine.planning.paper import PaperRow
 from rths_engine.results.measures import measure
 
-PAPER = {row.simulation: row for row in templates.PAPER.values()}
+PAPER = {row.simulation: row for row in ROWS.values()}
 # Chen and Ricles (2012); the simulations that numbers were calibrated on: docs/table4.md
 FLOORS_PEAK_MM = (49.6, 94.6)  # of simulation 2
 DRIFTS_PERCENT = (1.1, 1.2)  # of simulation 2

@@ -8,11 +8,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.paper import HEIGHTS
 from rths_engine.planning.plan import Plan
 from rths_engine.results.result import Result
 from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import Row
-from rths_engine.table4.laboratory import HEIGHTS
 
 # chosen; see docs/decisions/0023
 CORES = 2

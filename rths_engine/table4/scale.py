@@ -9,11 +9,11 @@ from scipy.optimize import brentq
 from rths_engine.foundation.errors import Issue, MotionError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.parts.ground_motions.scaling import Factor
+from rths_engine.planning.laboratory import LABORATORY, Laboratory, PlannedRecord, plans
+from rths_engine.planning.paper import VELOCITY_CAPACITY
 from rths_engine.planning.safety import Limits
-from rths_engine.planning.templates import VELOCITY_CAPACITY
 from rths_engine.running.run import simulate
 from rths_engine.table4.comparison import FLOORS_PEAK_MM
-from rths_engine.table4.laboratory import LABORATORY, Laboratory, PlannedRecord, plans
 
 # chosen; see docs/decisions/0023
 LEAST, MOST = 0.01, 50.0

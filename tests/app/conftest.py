@@ -73,4 +73,4 @@ def earlier(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
 
 def plan(**changes: Any) -> dict[str, Any]:
     """Simulation 4 of Table III, 2 s of it, with some of it changed."""
-    return {**templates.template("table3-04").as_dict(), "duration": 2.0, **changes}
+    return {**templates.template("two-storeys").as_dict(), "duration": 2.0, **changes}

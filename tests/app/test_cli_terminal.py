@@ -21,7 +21,7 @@ RTHS = [sys.executable, "-m", "app.cli"]
 
 
 def plan(**changes: object) -> str:
-    return plan_to_yaml(templates.template("table3-04").model_copy(update=changes))
+    return plan_to_yaml(templates.template("two-storeys").model_copy(update=changes))
 
 
 def until_shown(terminal: int, pattern: str) -> None:

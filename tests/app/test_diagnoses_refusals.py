@@ -52,7 +52,7 @@ def queued(client: TestClient, recording: str, **more: Any) -> dict[str, Any]:
     ("changes", "status", "told"),
     [
         ({"plan": None}, 422, "is required: an imported recording has no plan"),
-        ({"template": "table3-04"}, 422, "is given 2 times"),
+        ({"template": "two-storeys"}, 422, "is given 2 times"),
         ({"plan": {"test": "specimen", "stations": []}}, 422, "stations"),
         ({"plan": "test: [specimen"}, 422, "line"),
         ({"plan": "name: \ud800"}, 422, ""),

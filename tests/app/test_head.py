@@ -18,7 +18,7 @@ OTHERS = ("/healthz", "/openapi.json", "/api/docs", "/api/v1/runs?limit=0", "/ap
 
 def addresses(client: TestClient) -> Iterator[str]:
     """Every GET route of every row, and of a row that is not there."""
-    ids: dict[str, list[str]] = {"name": ["table3-04", "nothing"]}
+    ids: dict[str, list[str]] = {"name": ["two-storeys", "nothing"]}
     for kind, parameter in (("runs", "run_id"), ("recordings", "recording_id"), ("diagnoses", "diagnosis_id")):
         rows = client.get(f"/api/v1/{kind}").json()[kind]
         ids[parameter] = [*(row["id"] for row in rows), "nothing"]

@@ -83,7 +83,7 @@ def addresses(client: TestClient, route: str) -> Iterator[str]:
     kind = WITH_ROWS.get(name)
     rows = client.get(f"/api/v1/{kind}").json()[kind] if kind else []
     known = {"sha256": [one["raw_sha256"] for one in client.get("/api/v1/recordings").json()["recordings"]]}
-    known["name"] = ["table3-04", "imperial-valley-1940-el-centro-ns"]
+    known["name"] = ["two-storeys", "imperial-valley-1940-el-centro-ns"]
     for one in (*(row["id"] for row in rows), *known.get(name, ()), "nothing"):
         yield path.replace(f"{{{name}}}", one)
 

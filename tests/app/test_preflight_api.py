@@ -82,7 +82,7 @@ def test_a_dry_run_that_does_not_answer_is_given_up(running: TestClient, monkeyp
 
 def test_the_command_line_says_whether_a_plan_would_trip(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     good, bad = tmp_path / "good.yaml", tmp_path / "bad.yaml"
-    calm = templates.template("table3-04").model_copy(update={"duration": 3.0})
+    calm = templates.template("two-storeys").model_copy(update={"duration": 3.0})
     good.write_text(plan_to_yaml(calm))
     bad.write_text(json.dumps(tripping()))
     assert main(["preflight", str(good), "--data", str(tmp_path)]) == 0

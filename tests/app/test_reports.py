@@ -116,7 +116,7 @@ def test_the_measures_stand_beside_those_of_the_paper(fourth: tuple[Recording, s
 
 
 def test_the_further_measures_have_a_table_with_a_dash_where_there_is_none(tmp_path: Path) -> None:
-    recording = recorded(tmp_path, shortened("table3-04"))
+    recording = recorded(tmp_path, shortened("two-storeys"))
     del recording.summary["stations"][0]["delay_ms"]  # as in a recording from before it was measured
     recording.summary["stations"][0]["energy_error_percent"] = None
     page = Page(report_html(RUN, recording))
@@ -148,12 +148,12 @@ def test_a_tripped_test_says_station_limit_value_and_time(tmp_path: Path) -> Non
 
 
 def test_a_cancelled_test_says_who_stopped_it(tmp_path: Path) -> None:
-    text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-04"), "cancelled", steps=100))).text
+    text = Page(report_html(RUN, recorded(tmp_path, shortened("two-storeys"), "cancelled", steps=100))).text
     assert "Cancelled : Stopped by A. Student at 1.00 s." in text
 
 
 def test_a_test_stopped_before_its_first_step_still_has_a_report(tmp_path: Path) -> None:
-    run = Run(shortened("table3-04"), MotionLibrary(None))
+    run = Run(shortened("two-storeys"), MotionLibrary(None))
     recordings.save(tmp_path / "run.h5", run.result("cancelled", 0.0))
     text = Page(report_html(RUN, recordings.load(tmp_path / "run.h5"))).text
     assert "Cancelled" in text and "0.00 s of test" in text
@@ -200,8 +200,8 @@ def test_the_spectrum_marks_t1_and_the_spectral_acceleration_of_the_scaled_recor
 def test_a_stored_record_out_of_reach_is_replaced_by_the_recorded_acceleration(tmp_path: Path) -> None:
     library = MotionLibrary(tmp_path / "motions")
     library.add(Motion("own", "Own record", 0.01, np.sin(np.arange(800) * 0.05), provenance="made for this test"))
-    motion = templates.template("table3-04").motion.model_copy(update={"record": "own"})
-    recording = recorded(tmp_path, shortened("table3-04", motion=motion), library=library)
+    motion = templates.template("two-storeys").motion.model_copy(update={"record": "own"})
+    recording = recorded(tmp_path, shortened("two-storeys", motion=motion), library=library)
     with_record, without = Page(report_html(RUN, recording, library)), Page(report_html(RUN, recording))
     assert "made for this test" in with_record.text
     assert "ground acceleration in this recording" in without.text
@@ -212,8 +212,8 @@ def test_a_stored_record_out_of_reach_is_replaced_by_the_recorded_acceleration(t
 def test_the_plan_is_written_with_the_units_of_its_own_fields(fourth: tuple[Recording, str]) -> None:
     text = Page(fourth[1]).text
     for row in (
-        "Storey stiffness, kN/m",
-        "36007",
+        "Lateral stiffness of the braces, kN/m",
+        "662.9",
         "Measured force limit 1000 kN",
         "Integral gain ki 0.04 1/(mm²·s)",
         "Pace As fast as possible",
@@ -255,9 +255,9 @@ def test_the_report_is_plotly_once_and_less_than_2_mb_besides(fourth: tuple[Reco
 def test_many_stations_share_the_points_of_the_plots(tmp_path: Path) -> None:
     from app.reports.page import plotly
 
-    station = templates.template("table3-04").stations[0]
+    station = templates.template("two-storeys").stations[0]
     stations = tuple(station.model_copy(update={"name": f"S{j}", "dampers": 1}) for j in range(12))
-    html = report_html(RUN, recorded(tmp_path, shortened("table3-04", stations=stations)))
+    html = report_html(RUN, recorded(tmp_path, shortened("two-storeys", stations=stations)))
     assert len(html.encode()) - len(plotly().encode()) < 2.5e6  # twelve stations' tables and alternative texts come on top
 
 

@@ -40,7 +40,7 @@ def test_a_new_run_has_the_values_of_its_plan_and_an_ended_run_those_of_its_meas
 
 
 def test_samples_and_texts_for_people_are_no_values() -> None:
-    plan = templates.template("table3-04").as_dict()
+    plan = templates.template("two-storeys").as_dict()
     plan["motion"] = {"kind": "inline", "dt": 0.01, "acceleration": [0.0] * 9}
     plan["start"] = {"displacement": [1, 2]}
     found = dict(values.plan_values(plan))

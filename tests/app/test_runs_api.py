@@ -62,7 +62,7 @@ def total(client: TestClient) -> int:
 
 def test_a_plan_is_queued_with_who_when_digest_and_seed(client: TestClient) -> None:
     run = client.get(f"{RUNS}/{submit(client)}").json()
-    assert (run["state"], run["submitted_by"], run["seed"], run["template"]) == ("queued", "Ana", 4, "table3-04")
+    assert (run["state"], run["submitted_by"], run["seed"], run["template"]) == ("queued", "Ana", 4, "two-storeys")
     assert run["digest"] == read_plan(run["plan"]).digest
     assert datetime.now(UTC) - datetime.fromisoformat(run["submitted_at"]) < timedelta(minutes=1)
 
@@ -135,7 +135,7 @@ def test_the_list_filters_sorts_and_pages(client: TestClient, settings: Settings
     assert names(state="completed") == ["beta"]
     assert names(q="%") == ["alpha 100%"]
     assert names(submitted_by="nobody") == []
-    assert names(template="table3-04", sort="mte_mm:1")[0] == "beta"
+    assert names(template="two-storeys", sort="mte_mm:1")[0] == "beta"
     assert names(since=(datetime.now(UTC) + timedelta(days=1)).isoformat()) == []
     assert client.get(RUNS, params={"sort": "nonsense"}).status_code == 422
     assert client.get(RUNS, params={"limit": 0}).status_code == 422

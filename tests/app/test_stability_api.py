@@ -13,6 +13,7 @@ from app.cli.main import main
 from rths_engine.planning import templates
 from rths_engine.planning.reading import plan_to_yaml
 from tests.app.conftest import plan
+from tests.engine.plans import two_storeys
 
 
 def test_a_stable_plan_has_a_radius_modes_margins_and_a_map(client: TestClient) -> None:
@@ -38,14 +39,14 @@ def test_a_plan_with_mistakes_is_refused_with_each_of_them(client: TestClient) -
 
 
 def test_the_check_warns_of_an_unstable_loop_for_small_amplitudes_only(client: TestClient) -> None:
-    unstable = templates.template("table3-01").as_dict()
+    unstable = two_storeys((1, 1)).as_dict()
     (found,) = [one for one in client.post("/api/v1/plans/check", json=unstable).json()["warnings"] if "unstable" in one]
     assert "oscillates at 3.89 Hz" in found and "initial tangent" in found
     stable = client.post("/api/v1/plans/check", json=plan()).json()["warnings"]
     assert not any("unstable" in one for one in stable)
 
 
-@pytest.mark.parametrize("name", ["table3-04", "linear-damper"])
+@pytest.mark.parametrize("name", ["two-storeys", "linear-damper"])
 def test_the_page_of_a_template_names_its_source_and_allows_styles_alone(client: TestClient, name: str) -> None:
     answer = client.get(f"/stability/{name}")
     assert answer.status_code == 200
@@ -73,7 +74,7 @@ def test_plotly_comes_from_this_service(client: TestClient) -> None:
 
 def test_the_command_prints_the_prediction(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "plan.yaml"
-    path.write_text(plan_to_yaml(templates.template("table3-10")))
+    path.write_text(plan_to_yaml(two_storeys((30, 1))))
     assert main(["stability", str(path)]) == 0
     assert "UNSTABLE" in capsys.readouterr().out
     assert main(["stability", str(path), "--json"]) == 0

@@ -33,7 +33,7 @@ class Service:
     def post(self, path: str, data: Any) -> Any:
         return self.http.post(f"/api/v1{path}", json=data).raise_for_status().json()
 
-    def plan(self, template: str = "table3-04", **changes: Any) -> dict[str, Any]:
+    def plan(self, template: str = "two-storeys", **changes: Any) -> dict[str, Any]:
         return {**self.get(f"/templates/{template}")["plan"], **changes}
 
     def submit(self, by: str = "Ana Ruiz", **changes: Any) -> str:

@@ -96,7 +96,7 @@ def test_a_form_without_recording_or_plan_says_so(service: Service, played: str,
     page.get_by_label("Plan to check").select_option("file")
     page.get_by_role("button", name="Diagnose the recording").click()
     expect(page.get_by_role("alert")).to_have_text("Select a plan file, or select another plan.")
-    page.get_by_label("Plan to check").select_option("template:table3-04")
+    page.get_by_label("Plan to check").select_option("template:two-storeys")
     page.get_by_role("button", name="Diagnose the recording").click()
     expect(page.get_by_role("alert")).to_contain_text("the plan describes a 'hybrid' test")
 

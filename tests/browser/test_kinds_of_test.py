@@ -19,7 +19,7 @@ SPREADSHEET = "50\t0\t0\r\n0\t50\t0\r\n0\t0\t40\r\n"
 
 @pytest.fixture
 def form(idle: Service, opened: Opener) -> Page:
-    page = opened("/new?template=table3-04", allow=("422",))
+    page = opened("/new?template=two-storeys", allow=("422",))
     expect(page.locator(".good")).to_be_visible()
     return page
 

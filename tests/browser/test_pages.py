@@ -26,7 +26,7 @@ CONTENT = {
     "/new": ".good",
     "/runs": "tbody tr",
     "/runs/{run}": "#metrics tbody tr",
-    "/stability/table3-04": "#map .plot-container",
+    "/stability/two-storeys": "#map .plot-container",
     "/stability/{run}": "#map .plot-container",
     "/table4": ".table4 tbody tr",
     "/recordings": "tbody tr",

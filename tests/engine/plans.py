@@ -7,9 +7,14 @@ from typing import Any
 import numpy as np
 
 from rths_engine.foundation.part import validated
+from rths_engine.parts.compensators import Compensator
+from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.compensators.inverse import InverseCompensation
+from rths_engine.parts.compensators.none import NoCompensation
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.planning.reading import read_plan
+from rths_engine.planning.templates import template
 from rths_engine.running.run import Run
 
 NO_LIMITS = {"displacement": 10.0, "velocity": 10.0, "force": 1e9}
@@ -47,6 +52,22 @@ def make(
     return read_plan(
         {"structure": structure, "motion": motion, "integrator": integrator, "controller_rate": substeps / dt, **more}
     )
+
+
+def two_storeys(alpha_es: tuple[float, float], kp: float = 0.0) -> Plan:
+    """The template of two storeys with delay estimates (controller steps), and adaptation kp (1/mm^2) or none."""
+    plan = template("two-storeys")
+    stations = tuple(
+        station.model_copy(update={"compensator": _compensator(alpha, kp * 1e6)})
+        for station, alpha in zip(plan.stations, alpha_es, strict=True)
+    )
+    return plan.model_copy(update={"stations": stations})
+
+
+def _compensator(alpha_es: float, kp: float) -> Compensator:
+    if kp:
+        return AdaptiveInverseCompensation(alpha_es=alpha_es, kp=kp, ki=kp / 10)
+    return InverseCompensation(alpha_es=alpha_es) if alpha_es > 1 else NoCompensation()
 
 
 def completed(plan: Plan, **more: Any) -> Run:

@@ -73,7 +73,7 @@ def test_a_number_that_is_not_finite_is_null_and_never_a_stand_in() -> None:
 
 def test_a_computed_part_has_no_noise_and_no_probability(tmp_path: Path) -> None:
     """A hybrid test whose compensator ran with another setting than planned; its structure was computed as planned."""
-    two = templates.template("table3-04").model_copy(update={"duration": 6.0})
+    two = templates.template("two-storeys").model_copy(update={"duration": 6.0})
     plan = two.model_copy(update={"stations": two.stations[:1]})
     run_file.save(tmp_path / "test.h5", simulate(plan))
     station = plan.stations[0].model_copy(update={"compensator": AdaptiveInverseCompensation(alpha_es=29.0)})

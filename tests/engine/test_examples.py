@@ -8,6 +8,7 @@ import pytest
 from rths_engine.planning import templates
 from rths_engine.planning.examples import EXAMPLES
 from rths_engine.planning.kinds_of_test import TESTS
+from rths_engine.planning.paper import PAPER
 from rths_engine.planning.reading import read_plan
 from rths_engine.results.result import Result
 from rths_engine.running.run import simulate
@@ -26,7 +27,7 @@ def test_every_kind_of_test_has_a_template_under_a_heading_of_its_own() -> None:
     kinds = {templates.template(name).test: templates.group(name) for name in EXAMPLES}
     assert kinds.keys() == TESTS.keys()
     assert len(set(kinds.values())) == len(TESTS)
-    assert {templates.group(name) for name in templates.PAPER} == {templates.TABLE3}
+    assert {templates.group(name) for name in PAPER} == {templates.TABLE3}
 
 
 def test_semi_active_control_lies_between_constant_currents_in_drift_and_below_both_in_acceleration(

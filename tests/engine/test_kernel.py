@@ -121,7 +121,7 @@ for code, part in enumerate(compensators.KINDS):
 RUN = """
 from rths_engine.planning import templates
 from rths_engine.running.run import simulate
-print(simulate(templates.template("table3-04").model_copy(update={"duration": 0.5})).signals.tobytes().hex())
+print(simulate(templates.template("two-storeys").model_copy(update={"duration": 0.5})).signals.tobytes().hex())
 """
 
 

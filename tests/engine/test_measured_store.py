@@ -141,7 +141,7 @@ def test_a_channel_that_was_not_measured_is_named_beside_those_that_were(tmp_pat
 
 
 def test_a_runs_recording_is_a_measured_one(tmp_path: Path) -> None:
-    plan = template("table3-04").model_copy(update={"duration": 1.0})
+    plan = template("two-storeys").model_copy(update={"duration": 1.0})
     result = simulate(plan, MotionLibrary(None))
     recording.save(tmp_path / "run.h5", result)
     run, found = recording.load(tmp_path / "run.h5"), load(tmp_path / "run.h5")

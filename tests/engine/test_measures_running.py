@@ -15,7 +15,7 @@ from rths_engine.results.measures import of
 from rths_engine.results.metrics.frequency import RunningFrequency
 from rths_engine.results.running import RunningMeasures
 from rths_engine.running.run import Run
-from tests.engine.plans import LIBRARY
+from tests.engine.plans import LIBRARY, two_storeys
 
 # |running - whole|: rounding of sums in another order; the index's segments as results.sums promises
 ROUNDING, INDEX = 1e-7, {"fei_amplitude": 0.01, "fei_delay_ms": 0.3}
@@ -53,7 +53,7 @@ def agree(run: Run, last: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("template", "chunk"),
     [
-        ("table3-02", 97),
+        ("two-storeys", 97),
         ("table3-01", 5),
         ("linear-damper", 10**6),
         ("specimen-mr-damper", 640),
@@ -66,7 +66,7 @@ def test_running_measures_end_as_those_of_the_whole_record(template: str, chunk:
 
 
 def test_running_measures_at_any_moment_are_those_of_the_record_until_then() -> None:
-    plan = templates.template("table3-12")
+    plan = two_storeys((60, 1), 0.4)
     run = Run(plan, LIBRARY)
     running = RunningMeasures(plan, run.channels, run.history[0, 0])
     for _ in range(3):
@@ -75,7 +75,7 @@ def test_running_measures_at_any_moment_are_those_of_the_record_until_then() -> 
 
 
 def test_what_is_told_before_anything_moved_is_plain_json() -> None:
-    plan = templates.template("table3-02")
+    plan = templates.template("two-storeys")
     run = Run(plan, LIBRARY)
     running = RunningMeasures(plan, run.channels, run.history[0, 0])
     shown = json.loads(json.dumps(running.shown(), allow_nan=False))

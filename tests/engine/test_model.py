@@ -23,7 +23,7 @@ from rths_engine.running.run import Run, simulate
 from tests.engine.plans import LIBRARY
 from tests.engine.test_frame import paper_frame
 
-PLAN = templates.template("table3-04").model_copy(update={"duration": 0.1, "structure_physics": (MassError(share=0.1),)})
+PLAN = templates.template("two-storeys").model_copy(update={"duration": 0.1, "structure_physics": (MassError(share=0.1),)})
 FRAME = PLAN.model_copy(update={"structure": MomentFrame.model_validate(paper_frame())})
 
 

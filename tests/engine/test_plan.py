@@ -16,7 +16,7 @@ from tests.engine.plans import LIBRARY
 
 
 def table3() -> dict[str, Any]:
-    return templates.template("table3-04").as_dict()
+    return templates.template("two-storeys").as_dict()
 
 
 def changed(path: str, value: Any) -> dict[str, Any]:
@@ -38,12 +38,12 @@ def test_every_template_survives_yaml_and_json(name: str) -> None:
 
 
 def test_yaml_says_the_unit_of_each_number() -> None:
-    text = plan_to_yaml(templates.template("table3-04"))
+    text = plan_to_yaml(templates.template("two-storeys"))
     assert "stiffness: 36007000.0 # N/m = 36007 kN/m" in " ".join(text.split())
 
 
-def test_table_iii_stands_on_the_papers_first_period() -> None:
-    assert Model(templates.template("table3-01")).periods[0] == pytest.approx(1.48, rel=1e-9)
+def test_the_two_storeys_stand_on_the_papers_first_period() -> None:
+    assert Model(templates.template("two-storeys")).periods[0] == pytest.approx(1.48, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from rths_engine.preflight import Capacity, dry_run, preflight
 from rths_engine.running.run import simulate
 
 
-def short(name: str = "table3-04", seconds: float = 8.0, **limits: float) -> Plan:
+def short(name: str = "two-storeys", seconds: float = 8.0, **limits: float) -> Plan:
     """The first seconds of a template, with some limits of its second station changed."""
     plan = templates.template(name)
     stations = [*plan.stations]
@@ -51,7 +51,7 @@ def test_a_plan_that_completes_has_the_peaks_of_its_recording() -> None:
     ids=["velocity", "displacement", "force"],
 )
 def test_a_predicted_trip_is_the_trip_of_the_test_and_names_its_field(limit: str, bound: float) -> None:
-    plan = short("table3-04", 8.0, **{limit: bound})
+    plan = short("two-storeys", 8.0, **{limit: bound})
     found, trip = preflight(plan), simulate(plan).trip
     assert trip is not None
     assert found["trip"]["path"] == f"stations.1.limits.{limit}"

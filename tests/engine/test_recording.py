@@ -15,7 +15,7 @@ from rths_engine.recordings import run_file as recording
 from rths_engine.running.run import Run, simulate
 from tests.engine.plans import LIBRARY
 
-PLAN = templates.template("table3-04").model_copy(update={"duration": 2.0})
+PLAN = templates.template("two-storeys").model_copy(update={"duration": 2.0})
 
 
 def test_a_recording_gives_back_signals_plan_and_summary(tmp_path: Path) -> None:

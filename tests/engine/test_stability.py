@@ -14,7 +14,7 @@ from rths_engine.planning.plan import Plan, Station
 from rths_engine.planning.reading import read_plan
 from rths_engine.stability import ClosedLoop, delay_map, mapped, margin, published, stable, summary
 from rths_engine.stability import station as stations
-from tests.engine.plans import NO_LIMITS, building, make, quiet
+from tests.engine.plans import NO_LIMITS, building, make, quiet, two_storeys
 
 DT = 1 / 1024
 KINDS = [
@@ -115,7 +115,7 @@ def test_a_realisation_by_its_response_is_the_system_found_by_perturbation() -> 
 
 
 def test_more_delay_than_the_margin_is_unstable_and_less_is_not() -> None:
-    plan = templates.template("table3-04")
+    plan = templates.template("two-storeys")
     loop = ClosedLoop(plan)
     for j in range(2):
         bears = margin(loop, j)
@@ -125,7 +125,7 @@ def test_more_delay_than_the_margin_is_unstable_and_less_is_not() -> None:
 
 
 def test_an_unstable_plan_has_no_margin() -> None:
-    found = summary(templates.template("table3-01"))
+    found = summary(two_storeys((1, 1)))
     assert not found["stable"]
     assert [one["delay_margin_steps"] for one in found["stations"]] == [0.0, 0.0]
     assert found["least_damped"]["damping_ratio"] < 0
@@ -133,7 +133,7 @@ def test_an_unstable_plan_has_no_margin() -> None:
 
 
 def test_the_map_holds_the_radius_of_each_pair_of_delays() -> None:
-    plan = templates.template("table3-04")
+    plan = templates.template("two-storeys")
     loop = ClosedLoop(plan)
     found = delay_map(loop, points=5)
     for row, column in ((0, 0), (3, 1), (4, 4)):
@@ -155,7 +155,7 @@ def frame(equivalent_stiffness: float) -> Plan:
         {"mass": 663e3, "height": 4.57, "column": "W14x120", "beam": "W24x55", "brace_stiffness": 4e8},
         {"mass": 663e3, "height": 3.96, "column": "W14x120", "beam": "W18x40", "brace_stiffness": 4e8},
     ]
-    data = templates.template("table3-04").as_dict()
+    data = templates.template("two-storeys").as_dict()
     data["structure"] = {"kind": "moment_frame", "bays": [9.15] * 4, "storeys": storeys}
     for one in data["stations"]:
         one["equivalent_stiffness"] = equivalent_stiffness

@@ -15,14 +15,13 @@ from rths_engine.parts.specimens.mr_damper import MrDamper
 from rths_engine.parts.structures.moment_frame import FrameStorey, MomentFrame
 from rths_engine.parts.structures.sections import SECTIONS
 from rths_engine.planning.motion import FileMotion, RecordMotion
+from rths_engine.planning.paper import DAMPERS, FORCE_CAPACITY, HEIGHTS, PAPER, VELOCITY_CAPACITY, PaperRow
 from rths_engine.planning.plan import Noise, Plan, Station
 from rths_engine.planning.safety import Limits
-from rths_engine.planning.templates import DAMPERS, FORCE_CAPACITY, PAPER, VELOCITY_CAPACITY, PaperRow
 
 # Chen and Ricles (2012); each value's source: docs/table4.md
 FLOOR_MASS = 662.9e3  # kg, for T1 = 1.48 s
 BAYS = (9.15,) * 4  # m
-HEIGHTS = (4.57, 3.96)  # m
 COLUMN = "W14x120"
 BEAMS = ("W24x55", "W18x40")
 DURATION = 40.0  # s
@@ -56,18 +55,19 @@ LABORATORY = Laboratory(time_constant=(26.562e-3, 35.396e-3), delay_growth=0.069
 
 def name(simulation: int) -> str:
     """The name of the template of a simulation."""
-    return f"table4-{simulation:02d}"
+    return f"table3-{simulation:02d}"
 
 
 def plans(motion: PlannedRecord, laboratory: Laboratory = LABORATORY) -> dict[int, Plan]:
     """The plan of each of the twelve simulations under a ground motion."""
-    return {row.simulation: _plan(row, motion, laboratory) for row in PAPER.values()}
+    return {row.simulation: plan(row, motion, laboratory) for row in PAPER.values()}
 
 
-def _plan(row: PaperRow, motion: PlannedRecord, laboratory: Laboratory) -> Plan:
+def plan(row: PaperRow, motion: PlannedRecord, laboratory: Laboratory = LABORATORY) -> Plan:
+    """The plan of one simulation under a ground motion."""
     kp = f", kp = {row.kp:g}" if row.kp else ""
     return Plan(
-        name=f"Table IV, simulation {row.simulation} (α_es = {row.alpha_es[0]:g} and {row.alpha_es[1]:g}{kp})",
+        name=f"Table III, simulation {row.simulation} (α_es = {row.alpha_es[0]:g} and {row.alpha_es[1]:g}{kp})",
         notes="After Chen and Ricles (2012), EESD 41, 549-569: the 122-DOF frame with an emulated laboratory.",
         template=name(row.simulation),
         motion=motion,
