@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import Depends
 
 from app.dependencies import Library, OneSession
+from app.library.comparison import ComparisonService
 from app.library.drafts import DraftService
 from app.library.service import LibraryService
 
@@ -21,5 +22,11 @@ def draft_service(session: OneSession, motions: Library) -> DraftService:
     return DraftService(session, motions)
 
 
+def comparison_service(session: OneSession) -> ComparisonService:
+    """The service of differences between plans."""
+    return ComparisonService(session)
+
+
 KeptPlans = Annotated[LibraryService, Depends(library_service)]
 Drafts = Annotated[DraftService, Depends(draft_service)]
+Comparisons = Annotated[ComparisonService, Depends(comparison_service)]

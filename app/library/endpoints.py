@@ -10,12 +10,13 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import PlainTextResponse, Response
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.library.dependency import KeptPlans
+from app.library.dependency import Comparisons, KeptPlans
 from app.library.repository import Wanted
 from app.library.schemas import (
     Changes,
     Comment,
     Copy,
+    DifferencesOut,
     LibraryList,
     LibraryPlanDetail,
     Name,
@@ -150,3 +151,13 @@ def runs(
 ) -> RunsFromPlan:
     """The newest runs that were queued from any version of a plan."""
     return plans.runs(plan_id, limit, offset)
+
+
+@router.get("/differences", responses=told(404))
+def differences(
+    comparisons: Comparisons,
+    first: Annotated[str, Query(max_length=120)],
+    second: Annotated[str, Query(max_length=120)],
+) -> DifferencesOut:
+    """The fields in which two plans differ. Each plan is `version:ID:NUMBER`, `run:ID`, `draft:ID` or `template:NAME`."""
+    return comparisons.differences(first, second)

@@ -214,3 +214,29 @@ class DraftList(BaseModel):
     """Drafts, last saved first."""
 
     drafts: list[DraftOut]
+
+
+class ComparedOut(BaseModel):
+    """One of the compared plans: what it is called, and the page that shows it."""
+
+    title: str
+    page: str
+
+
+class DifferenceOut(_Stored):
+    """A field in which two plans differ. `values` are SI, null where a plan has no such field; `texts` are in `unit`."""
+
+    path: str
+    within: str
+    label: str
+    title: str = Field(description="the label with the names of the parts around it")
+    unit: str
+    values: tuple[Any, Any]
+    texts: tuple[str, str]
+
+
+class DifferencesOut(BaseModel):
+    """The compared plans, and the fields in which they differ in the order of a plan; none: the plans are equal."""
+
+    items: list[ComparedOut]
+    differences: list[DifferenceOut]

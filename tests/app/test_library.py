@@ -164,6 +164,32 @@ def test_runs_name_the_version_that_they_were_queued_from(client: TestClient) ->
     assert client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"][0]["library_id"] is None
 
 
+def test_two_plans_are_compared_field_by_field_in_the_units_shown(client: TestClient) -> None:
+    kept = keep(client)
+    stations = [dict(one) for one in plan()["stations"]]
+    stations[0]["limits"] = {**stations[0]["limits"], "velocity": 0.25}
+    more(client, kept, stations=stations)
+    run = client.post("/api/v1/runs", json={"plan": plan(stations=stations, seed=5)}).json()["runs"][0]
+    client.put("/api/v1/library/drafts/d1", json={"plan": {**plan(), "duration": "long"}, "revision": 0})
+
+    def between(first: str, second: str) -> Any:
+        answer = client.get("/api/v1/library/differences", params={"first": first, "second": second})
+        held("GET /api/v1/library/differences", answer)
+        return answer.json()
+
+    old, new = (f"version:{kept['id']}:{number}" for number in (1, 2))
+    found = between(old, new)
+    assert [one["title"] for one in found["items"]] == ["Brace, version 1", "Brace, version 2"]
+    (row,) = found["differences"]
+    assert (row["path"], row["unit"], row["texts"][1]) == ("stations.0.limits.velocity", "mm/s", "250")
+    assert [one["path"] for one in between(new, f"run:{run['id']}")["differences"]] == ["seed"]
+    assert [one["path"] for one in between(old, "draft:d1")["differences"]] == ["duration"]
+    assert [one["path"] for one in between("template:table3-04", old)["differences"]] == ["duration"]
+    assert between(old, old)["differences"] == []
+    for wrong in ("version:x", f"version:{kept['id']}:9", "run:x", "draft:x", "template:x", "x", f"version:{kept['id']}:a"):
+        assert "status" in between(wrong, old), wrong
+
+
 def test_plans_run_before_the_library_was_there_can_be_kept(earlier: TestClient) -> None:
     run = earlier.get("/api/v1/runs").json()["runs"][0]
     assert (run["library_id"], run["library_version"]) == (None, None)

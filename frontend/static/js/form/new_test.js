@@ -4,6 +4,7 @@ import { byId, el } from "../dom.js";
 import { planProblems } from "./bounds.js";
 import { liveCheck } from "./checker.js";
 import { exportYaml, importYaml } from "./exchange.js";
+import { asked, keeping, planOf } from "./keeping.js";
 import { person, remember } from "../person.js";
 import { PlanForm } from "./plan_form.js";
 import { Schema } from "./schema.js";
@@ -43,17 +44,29 @@ function told(checked, refused) {
   return problems;
 }
 
-/** Fill the form. @param {any} plan */
-function fill(plan) {
+const { draft, offer, source } = keeping({ read: () => form.read(), owner: () => who.value.trim(), show, restart: (from) => (from ? fillFrom(from) : clear()) });
+
+/** Show a plan in the form. @param {any} plan */
+function show(plan) {
   origin = { template: plan.template ?? null, digest: null };
   form.write(plan);
   check.now();
 }
 
-/** @param {string} name */
-async function fillFromTemplate(name) {
-  fill((await api.get(`/templates/${encodeURIComponent(name)}`)).plan);
+/** Fill the form anew; what was typed before stays a draft. @param {any} plan @param {import("./keeping.js").Origin | null} from */
+function fill(plan, from) {
+  draft.begin(from);
+  templates.value = from?.kind === "template" ? from.id : "";
+  show(plan);
 }
+
+/** @param {import("./keeping.js").Origin} from */
+async function fillFrom(from) {
+  const found = await planOf(from);
+  fill(found.plan, found.origin);
+}
+
+const clear = () => fillFrom({ kind: "template", id: DEFAULT_TEMPLATE });
 
 /** @param {Event} event */
 async function submit(event) {
@@ -67,7 +80,8 @@ async function submit(event) {
     if (own.length) return focusFirst(told(null, own));
     const checked = await api.post("/plans/check", form.read());
     told(checked, []);
-    const { runs } = await api.post("/runs", { plan: form.read(), submitted_by: who.value.trim() });
+    const { runs } = await api.post("/runs", { plan: form.read(), submitted_by: who.value.trim(), library: source() });
+    await draft.close("queued");
     location.assign(`/runs/${runs[0].id}`);
   } catch (error) {
     if (error instanceof ApiError && error.status < 500 && error.status > 0) focusFirst(told(null, planProblems(error)));
@@ -102,13 +116,10 @@ async function start() {
   const [schema, motions, offered] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates")]);
   form = new PlanForm(byId("plan"), new Schema(schema), motions.motions);
   templates.append(...templateGroups(offered.templates));
-  const asked = new URLSearchParams(location.search);
-  if (asked.get("from")) {
-    const { plan } = await api.get(`/runs/${encodeURIComponent(asked.get("from") ?? "")}`);
-    return fill(plan);
-  }
-  templates.value = asked.get("template") ?? DEFAULT_TEMPLATE;
-  await fillFromTemplate(templates.value);
+  const wanted = asked();
+  if (wanted.draft) return draft.open(wanted.draft);
+  await (wanted.origin ? fillFrom(wanted.origin) : clear());
+  await offer();
 }
 
 /** @param {unknown} error */
@@ -119,16 +130,20 @@ who.addEventListener("input", () => {
   who.removeAttribute("aria-invalid");
   byId("e-who").textContent = "";
 });
-byId("plan").addEventListener("input", () => check.soon());
-byId("plan").addEventListener("change", () => check.soon());
+for (const event of ["input", "change"]) {
+  byId("plan").addEventListener(event, () => {
+    check.soon();
+    draft.autosave();
+  });
+}
 byId("new-test").addEventListener("submit", submit);
-templates.addEventListener("change", () => templates.value && fillFromTemplate(templates.value).catch(complain));
+templates.addEventListener("change", () => templates.value && fillFrom({ kind: "template", id: templates.value }).catch(complain));
 byId("export").addEventListener("click", () => exportYaml(form.read()).catch(complain));
 byId("import").addEventListener("change", (/** @type {any} */ event) =>
   importYaml(event.target)
     .then((plan) => {
-      templates.value = "";
-      fill(plan);
+      fill(plan, null);
+      draft.autosave();
     })
     .catch(complain),
 );
