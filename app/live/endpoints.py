@@ -20,7 +20,7 @@ from rths_engine.foundation.errors import RecordingError
 
 router = APIRouter()
 FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
-SHORTEST_GAP_S = 1 / 30
+SHORTEST_GAP_S = 1 / 60
 WAITING_POLL_S = 0.25
 UNKNOWN_RUN, NOT_ALLOWED, UNREADABLE = 4404, 4403, 4409
 

@@ -1,7 +1,9 @@
 """Live frames: minimum, maximum and last sample of every channel in each bucket of substeps, float32, in the units shown.
 
-A frame is little-endian: `uint32 first_bucket, uint32 count`, then float32 `[count][channels][3]`. A `FrameStore` is the buffer
-of a run. It takes frames of any size, ignores buckets that it already has, and gives a reader the missing buckets as one frame.
+The command velocity of each station follows the recorded channels: its limit is checked in every controller step, and a
+viewer cannot derive its peak from buckets. A frame is little-endian: `uint32 first_bucket, uint32 count`, then float32
+`[count][channels][3]`. A `FrameStore` is the buffer of a run. It takes frames of any size, ignores buckets that it already has,
+and gives a reader the missing buckets as one frame.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import struct
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.results.channels import Channel
+from rths_engine.results.channels import CHANNELS, Channel, columns
 
 HEADER = struct.Struct("<II")
 MOST_BUCKETS = 16_384
@@ -24,25 +26,38 @@ def bucket_size(total: int) -> int:
 
 
 class Decimator:
-    """Makes frames from the growing signals of a run."""
+    """Makes frames from the growing signals of a run, sampled every `dt` (s). `channels`: those of its frames."""
 
-    def __init__(self, channels: tuple[Channel, ...], bucket: int):
-        self.bucket, self.sent = bucket, 0
-        self._factors = np.array([channel.factor for channel in channels])
+    def __init__(self, recorded: tuple[Channel, ...], bucket: int, dt: float):
+        self.bucket, self.sent, self.dt = bucket, 0, dt
+        self._commands = columns(recorded, "x_cmd")
+        self.channels = (*recorded, *(_velocity(recorded[column].number) for column in self._commands))
+        self._factors = np.array([channel.factor for channel in self.channels])
 
     def frame(self, signals: Array, done: int, ended: bool = False) -> bytes | None:
         """The buckets completed by rows [:done] since the last call; with `ended`, also the last, partial bucket."""
         first = self.sent * self.bucket
         whole = (done // self.bucket) * self.bucket
-        parts = [_extremes(signals[first:whole].reshape(-1, self.bucket, signals.shape[1]))] if whole > first else []
+        rows = self._with_velocities(signals, first, done if ended else whole)
+        parts = [_extremes(rows[: whole - first].reshape(-1, self.bucket, rows.shape[1]))] if whole > first else []
         if ended and done > whole:
-            parts.append(_extremes(signals[None, max(whole, first) : done]))
+            parts.append(_extremes(rows[None, max(whole - first, 0) :]))
         if not parts:
             return None
         values = (np.concatenate(parts) / self._factors[:, None]).astype("<f4")
         frame: bytes = HEADER.pack(self.sent, len(values)) + values.tobytes()
         self.sent += len(values)
         return frame
+
+    def _with_velocities(self, signals: Array, first: int, end: int) -> Array:
+        """Rows [first:end] with the command velocity of each station, as the safety check computes it; d_c starts at 0."""
+        if end <= first:
+            return np.empty((0, len(self.channels)))
+        commands = signals[max(0, first - 1) : end, self._commands]
+        before = commands[:-1] if first else np.vstack([np.zeros((1, len(self._commands))), commands[:-1]])
+        with np.errstate(over="ignore", invalid="ignore"):
+            velocities = (commands[-(end - first) :] - before) / self.dt
+        return np.hstack([signals[first:end], velocities])
 
 
 class FrameStore:
@@ -72,6 +87,10 @@ class FrameStore:
         if first >= end:
             return None
         return HEADER.pack(first, end - first) + bytes(self._data[first * self.row : end * self.row])
+
+
+def _velocity(station: int | None) -> Channel:
+    return Channel("v_cmd", station, CHANNELS["v_cmd"].label)
 
 
 def _extremes(buckets: Array) -> Array:

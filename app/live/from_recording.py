@@ -15,8 +15,9 @@ def replay(path: Path, attempt: int) -> tuple[dict[str, Any], FrameStore]:
     recording = load(path)
     done = len(recording.signals)
     bucket = bucket_size(recording.total)
-    store = FrameStore(len(recording.channels))
-    frame = Decimator(recording.channels, bucket).frame(recording.signals, done, ended=True)
+    decimator = Decimator(recording.channels, bucket, recording.dt)
+    store = FrameStore(len(decimator.channels))
+    frame = decimator.frame(recording.signals, done, ended=True)
     if frame is not None:
         store.append(frame)
-    return schema(attempt, recording.dt, bucket, recording.total, recording.channels), store
+    return schema(attempt, recording.dt, bucket, recording.total, decimator.channels), store

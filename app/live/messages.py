@@ -8,8 +8,14 @@ from rths_engine.results.channels import Channel
 
 
 def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...]) -> dict[str, Any]:
-    """The layout of frames: substeps of `dt` (s), `bucket` substeps in each of `buckets` buckets, and the channels."""
-    shown = [{"key": c.key, "role": c.role, "number": c.number, "label": c.label, "unit": c.shown_label} for c in channels]
+    """The layout of frames: substeps of `dt` (s), `bucket` substeps in each of `buckets` buckets, and the channels.
+
+    `factor` is the SI value of one shown unit.
+    """
+    shown = [
+        {"key": c.key, "role": c.role, "number": c.number, "label": c.label, "unit": c.shown_label, "factor": c.factor}
+        for c in channels
+    ]
     return {"type": "schema", "attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
 
 

@@ -52,8 +52,8 @@ class _Telling:
         self.elapsed, self.measured = 0.0, 0
         self.measures = RunningMeasures(run.model, run.channels, run.history[0, 0])
         bucket = bucket_size(run.total)
-        self.decimator = Decimator(run.channels, bucket)
-        line.show(schema(attempt, run.dt, bucket, run.total, run.channels))
+        self.decimator = Decimator(run.channels, bucket, run.dt)
+        line.show(schema(attempt, run.dt, bucket, run.total, self.decimator.channels))
 
     def run_to_end(self) -> bool:
         """Run the test to its end or until it is cancelled; returns whether it was cancelled."""

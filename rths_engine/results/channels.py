@@ -67,6 +67,9 @@ CHANNELS: dict[str, Role] = {
     "v_floor": Role("Floor velocity", "v", "m/s", "mm/s", "floor", "velocity of a floor relative to the ground"),
     "a_floor": Role("Floor acceleration", "a", "m/s^2", "g", "floor", "acceleration of a floor"),
     "force_ext": Role("External force", "p", "N", "kN", "floor", "sum of the external forces on a floor"),
+    "v_cmd": Role(
+        "Command velocity", "v_c", "m/s", "mm/s", "station", "change of d_c in one controller step over the step", derived=True
+    ),
     "error": Role("Tracking error", "e", "m", "mm", "station", "d_c - d_m", derived=True),
     "ti": Role(
         "Tracking indicator", "TI", "m^2", "mm^2", "station", "0.5 (A - TA) of d_m over d_c; grows under lag", derived=True

@@ -11,11 +11,13 @@ from app.live.hub import Hub
 from rths_engine.results.channels import Channel
 
 CHANNELS = (Channel("x_cmd", 1, "A"), Channel("d_alpha", 1, "B"))
+SENT = 3  # both, and the command velocity
+DT = 1 / 1024
 
 
 def unpacked(frame: bytes) -> tuple[int, np.ndarray]:
     first, count = HEADER.unpack_from(frame)
-    return first, np.frombuffer(frame, "<f4", offset=HEADER.size).reshape(count, len(CHANNELS), 3)
+    return first, np.frombuffer(frame, "<f4", offset=HEADER.size).reshape(count, SENT, 3)
 
 
 @given(
@@ -25,7 +27,7 @@ def test_each_bucket_keeps_its_minimum_maximum_and_last_sample_however_it_comes(
     total: int, bucket: int, cuts: list[int], seed: int
 ) -> None:
     signals = np.random.default_rng(seed).normal(size=(total, 2))
-    decimator, store = Decimator(CHANNELS, bucket), FrameStore(2)
+    decimator, store = Decimator(CHANNELS, bucket, DT), FrameStore(SENT)
     for done in [*sorted(cut for cut in cuts if cut < total), total]:
         frame = decimator.frame(signals, done, ended=done == total)
         assert frame is None or store.append(frame)
@@ -33,8 +35,10 @@ def test_each_bucket_keeps_its_minimum_maximum_and_last_sample_however_it_comes(
     assert whole is not None
     first, values = unpacked(whole)
     assert first == 0 and len(values) == -(-total // bucket)
+    velocity = np.diff(signals[:, 0], prepend=0.0) / DT  # as the safety check takes it
+    every = np.column_stack([signals, velocity]) / [1e-3, 1.0, 1e-3]
     for k, got in enumerate(values):
-        part = signals[k * bucket : (k + 1) * bucket] / [1e-3, 1.0]
+        part = every[k * bucket : (k + 1) * bucket]
         expected = np.stack([part.min(axis=0), part.max(axis=0), part[-1]], axis=1)
         assert np.array_equal(got, expected.astype("<f4"))
 
@@ -46,22 +50,22 @@ def test_a_run_of_any_length_has_a_bounded_number_of_buckets(total: int) -> None
 
 def test_a_store_ignores_what_it_has_and_refuses_gaps_and_rubbish() -> None:
     signals = np.arange(40.0).reshape(20, 2)
-    store = FrameStore(2)
-    whole = Decimator(CHANNELS, 1).frame(signals, 20)
-    early = Decimator(CHANNELS, 1).frame(signals, 5)
+    store = FrameStore(SENT)
+    whole = Decimator(CHANNELS, 1, DT).frame(signals, 20)
+    early = Decimator(CHANNELS, 1, DT).frame(signals, 5)
     assert whole is not None and early is not None
     assert store.append(early) and store.append(early) and store.append(whole)
     assert store.since(0) == whole
     assert store.since(20) is None
     tail = store.since(17)
-    assert tail is not None and not FrameStore(2).append(tail)
+    assert tail is not None and not FrameStore(SENT).append(tail)
     assert not store.append(whole[:-1]) and not store.append(b"") and store.count == 20
 
 
 def test_the_hub_begins_anew_with_a_new_attempt_and_ignores_the_old_one() -> None:
     hub = Hub()
-    schema = {"type": "schema", "channels": [{}, {}]}
-    frame = Decimator(CHANNELS, 1).frame(np.ones((4, 2)), 4)
+    schema = {"type": "schema", "channels": [{}] * SENT}
+    frame = Decimator(CHANNELS, 1, DT).frame(np.ones((4, 2)), 4)
     assert frame is not None
     hub.take("run", 1, schema)
     hub.frame("run", 1, frame)

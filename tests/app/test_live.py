@@ -44,8 +44,8 @@ class Told:
         with self._service() as runs:
             runs.start(self.id, "scripted")
         bucket = bucket_size(self.total)
-        self.decimator = Decimator(self.result.channels, bucket)
-        self.say(schema(self.attempt, self.result.dt, bucket, self.total, self.result.channels))
+        self.decimator = Decimator(self.result.channels, bucket, self.result.dt)
+        self.say(schema(self.attempt, self.result.dt, bucket, self.total, self.decimator.channels))
 
     def say(self, message: dict[str, Any]) -> None:
         self.worker.send_json({"run_id": self.id, "attempt": self.attempt, "message": message})
@@ -70,7 +70,8 @@ class Told:
 
     @property
     def whole(self) -> bytes:
-        frame = Decimator(self.result.channels, bucket_size(self.total)).frame(self.result.signals, self.total, ended=True)
+        decimator = Decimator(self.result.channels, bucket_size(self.total), self.result.dt)
+        frame = decimator.frame(self.result.signals, self.total, ended=True)
         assert frame is not None
         return frame[8:]
 

@@ -24,6 +24,7 @@ from tests.browser.service import until
 CHANNELS = (Channel("x_cmd", 1, "A"), Channel("d_alpha", 1, "B"))
 RUN = "0" * 36
 TOTAL = 900
+ROW = 3 * 3 * 4  # bytes of a bucket: both channels and the command velocity
 
 
 @pytest.fixture
@@ -59,8 +60,8 @@ def tell(link: Link) -> tuple[Telling, Callable[[int], None]]:
     """What is told of a run, and how to tell more of it."""
     telling = link.open(RUN, 1)
     signals = np.random.default_rng(1).normal(size=(TOTAL, 2))
-    decimator = Decimator(CHANNELS, 1)
-    telling.take(schema(1, 1e-3, 1, TOTAL, CHANNELS))
+    decimator = Decimator(CHANNELS, 1, 1e-3)
+    telling.take(schema(1, 1e-3, 1, TOTAL, decimator.channels))
 
     def more(done: int) -> None:
         telling.take(decimator.frame(signals, done))
@@ -73,7 +74,7 @@ def seen(port: int, first: int, enough: int) -> bytes:
     """The buckets' bytes that a viewer gets from bucket `first` to bucket `enough`."""
     buckets = b""
     with connect(f"ws://127.0.0.1:{port}/api/v1/runs/{RUN}/live?from={first}") as viewer:
-        while len(buckets) < (enough - first) * 24:
+        while len(buckets) < (enough - first) * ROW:
             message = viewer.recv(timeout=20)
             if isinstance(message, bytes):
                 buckets += message[8:]

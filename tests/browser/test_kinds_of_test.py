@@ -101,28 +101,36 @@ def _controller(plan: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
+# the charts of the first screen, then the charts below it
 RUNS = {
-    "specimen-mr-damper": ("light", ["Force against displacement", "Displacement", "Measured force", "Tracking error"]),
+    "specimen-mr-damper": (
+        "light",
+        ["Force against displacement", "Displacement", "Measured force", "Tracking error", "Command velocity"],
+    ),
     "actuator-sweep": (
         "dark",
         [
+            "Force against displacement",
             "Displacement",
-            "Synchronisation subspace",
             "Tracking error",
-            "Measured force",
             "Tracking indicator",
+            "Synchronisation subspace",
+            "Measured force",
+            "Command velocity",
         ],
     ),
     "semi-active": (
         "phone",
         [
-            "Displacement",
             "Force against displacement",
-            "Current",
+            "Displacement",
             "Tracking error",
-            "Synchronisation subspace",
             "Tracking indicator",
             "Adaptation Δα",
+            "Synchronisation subspace",
+            "Measured force",
+            "Command velocity",
+            "Current",
             "Energy error",
             "Floor displacement relative to the ground",
             "Ground acceleration",

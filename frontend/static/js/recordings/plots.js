@@ -3,7 +3,7 @@ import uPlot from "/static/vendor/uplot/uPlot.esm.js";
 import { el } from "../dom.js";
 import { samplePlot } from "../files/sample_plot.js";
 import { number, significant } from "../format.js";
-import { loopPath } from "../run/loop_chart.js";
+import { loopPath } from "../run/loop_path.js";
 import { axis, fit, padded, themed } from "../run/plot_style.js";
 import { meanOf } from "./column_facts.js";
 

@@ -1,14 +1,19 @@
 // @ts-check
+import { extremes } from "./store.js";
+
 /** @typedef {import("./store.js").Store} Store */
 
-/** The signals reduced to a chart's pixels: the minimum and maximum of each pixel column, in their order in time. */
+/**
+ * The signals reduced to a chart's pixels: the minimum and maximum of each pixel column, in their order in time. A column without
+ * any finite sample is a gap: uPlot takes only null for a missing value, so a series with a gap becomes a plain array.
+ */
 export class Envelope {
   /** @param {number} series */
   constructor(series) {
     this.points = 0;
     this.time = new Float64Array(0);
     this.values = Array.from({ length: series }, () => new Float32Array(0));
-    /** @type {(Float64Array | Float32Array)[]} */
+    /** @type {(Float64Array | Float32Array | (number | null)[])[]} */
     this.views = [];
   }
 
@@ -27,25 +32,31 @@ export class Envelope {
       this.time[2 * column] = (upper - width / 2) * store.step;
       this.time[2 * column + 1] = upper * store.step;
     }
-    channels.forEach((channel, series) => this.#column(store, channel, this.values[series], first, end, width));
     this.points = 2 * used;
-    this.views = [this.time.subarray(0, this.points), ...this.values.map((values) => values.subarray(0, this.points))];
+    this.views = [
+      this.time.subarray(0, this.points),
+      ...channels.map((channel, series) => {
+        const whole = this.#column(store, channel, this.values[series], first, end, width);
+        const values = this.values[series].subarray(0, this.points);
+        return whole ? values : Array.from(values, (value) => (Number.isFinite(value) ? value : null));
+      }),
+    ];
   }
 
-  /** @param {Store} store @param {number} channel @param {Float32Array} out @param {number} first @param {number} end @param {number} width */
+  /** Fill one series; returns whether every column has a finite sample. @param {Store} store @param {number} channel @param {Float32Array} out @param {number} first @param {number} end @param {number} width */
   #column(store, channel, out, first, end, width) {
     const [min, max, last] = [store.min[channel], store.max[channel], store.last[channel]];
+    let whole = true;
     for (let start = first, i = 0; start < end; start += width, i += 2) {
       const upper = Math.min(start + width, end);
-      let [low, high] = [min[start], max[start]];
-      for (let k = start + 1; k < upper; k++) {
-        if (min[k] < low) low = min[k];
-        if (max[k] > high) high = max[k];
-      }
+      const [low, high] = extremes(min, max, start, upper);
+      const missing = !(high >= low);
       const rising = last[upper - 1] - low > high - last[upper - 1];
-      out[i] = rising ? low : high;
-      out[i + 1] = rising ? high : low;
+      out[i] = missing ? NaN : rising ? low : high;
+      out[i + 1] = missing ? NaN : rising ? high : low;
+      if (missing) whole = false;
     }
+    return whole;
   }
 
   /** @param {number} size */

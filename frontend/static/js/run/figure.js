@@ -2,7 +2,7 @@
 import { el } from "../dom.js";
 import { reading } from "../format.js";
 
-/** @typedef {{index: number, label: string, unit: string, colour: string, width?: number}} Series */
+/** @typedef {{index: number, label: string, unit: string, colour: string, width?: number, dash?: number[]}} Series */
 
 const KEYS = "Arrow keys move the cursor. Plus and minus zoom. Escape shows the whole test.";
 
@@ -19,14 +19,20 @@ export class Figure {
       el("span", { class: one.label ? "entry" : "entry alone" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
     );
     this.at = el("span", { class: "at muted" });
+    this.entries = el("div", { class: "values" }, ...entries);
     this.plot = el("div", { class: "plot", role: "img", tabindex: "0", "aria-label": this.describe("no data yet") });
     this.element = el(
       "figure",
       { class: "chart" },
       el("figcaption", {}, el("strong", {}, unit ? `${title}, ${unit}` : title), this.at),
-      el("div", { class: "values" }, ...entries),
+      this.entries,
       this.plot,
     );
+  }
+
+  /** Add words below the values, such as a limit. @param {string} words */
+  note(words) {
+    this.entries.append(el("span", { class: "figure-note muted" }, words));
   }
 
   /** Show values and update the plot's description for screen readers. @param {number | null} time @param {number[]} values @param {boolean} atCursor */

@@ -12,15 +12,14 @@ export function themed(name) {
   return found;
 }
 
-const FONT = "11px system-ui, sans-serif";
-
-/** @param {string} [label] @param {number} [size] */
-export function axis(label, size) {
+/** @param {string} [label] @param {number} [size] @param {number} [font] size of the font in pixels */
+export function axis(label, size, font = 11) {
+  const letters = `${font}px system-ui, sans-serif`;
   return {
     label,
     size,
-    font: FONT,
-    labelFont: FONT,
+    font: letters,
+    labelFont: letters,
     labelSize: 16,
     gap: 3,
     space: label ? 50 : 24,
@@ -38,6 +37,16 @@ export function tickLabels(ticks) {
   const decimals = Math.max(0, 1 - Math.floor(Math.log10(step)));
   if (step < 1e-3 || size >= 1e6) return ticks.map((tick) => (tick === 0 ? "0" : String(Number(tick.toPrecision(4)).toExponential())));
   return ticks.map((tick) => String(Number(tick.toFixed(decimals))));
+}
+
+/** Round places on an axis, about `count` of them. @param {[number, number]} range @param {number} count */
+export function tickPlaces([low, high], count) {
+  const rough = (high - low) / Math.max(2, count);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5].find((one) => one * power >= rough) ?? 10);
+  const places = [];
+  for (let k = Math.ceil(low / step); k * step <= high; k++) places.push(k * step);
+  return places;
 }
 
 /** A range around the data that is never empty. @param {number} low @param {number} high @returns {[number, number]} */

@@ -1,12 +1,17 @@
 // @ts-check
 import { api, explain } from "../api.js";
-import { byId, el, renew } from "../dom.js";
+import { byId, renew } from "../dom.js";
 import { person } from "../person.js";
+import { actions, cancelling } from "./actions.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
 import { floorCount, metricsTables } from "./metrics.js";
+import { printsAll } from "./printing.js";
+import { Stage } from "./stage.js";
 import { Store } from "./store.js";
+import { Transport } from "./transport.js";
+import { View } from "./view.js";
 
 const POLL_MS = 2000;
 const id = byId("run").dataset.id;
@@ -17,12 +22,8 @@ let run = null;
 let paper = null;
 /** @type {{measures: import("./measures.js").Measure[], channels: Record<string, any>}} */
 let declared = { measures: [], channels: {} };
-/** @type {Store | null} */
-let store = null;
-/** @type {import("./view.js").View | null} */
-let view = null;
-/** @type {import("./tiles.js").Tiles | null} */
-let tiles = null;
+/** @type {{store: Store, view: View, transport: Transport, tiles: import("./tiles.js").Tiles} | null} */
+let shown = null;
 let attempt = 0;
 
 async function load() {
@@ -44,6 +45,7 @@ function show() {
   renew(byId("facts"), ...facts(run, declared.measures));
   showProgress(run);
   showActions();
+  showEnd();
   const measured = ended(run.state) && run.recording && (run.stations?.length || floorCount(run, declared.measures));
   byId("metrics").hidden = !measured;
   if (measured) {
@@ -52,34 +54,30 @@ function show() {
   }
 }
 
+/** Tell the view whether the test has ended, and why. */
+function showEnd() {
+  if (!shown) return;
+  shown.view.ended = ended(run.state);
+  shown.view.trip = run.trip;
+  shown.transport.show();
+  shown.view.redraw();
+}
+
 function showTiles() {
-  tiles?.show(run);
-  if (run.stations.length) tiles?.fold();
+  shown?.tiles.show(run);
+  if (run.stations.length) shown?.tiles.fold();
 }
 
 /** @param {any} at */
 function showProgress(at) {
   const { simulated_s = 0, duration_s = 0 } = at;
-  byId("advance").hidden = ended(at.state) && simulated_s === null;
-  byId("progress").value = duration_s ? simulated_s / duration_s : 0;
+  byId("clock").hidden = ended(at.state) && simulated_s === null;
   byId("clock").textContent = at.state === "queued" ? "Waiting in the queue" : clock({ ...at, simulated_s, duration_s });
 }
 
 function showActions() {
-  const download = (/** @type {string} */ file, /** @type {string} */ label) =>
-    el("a", { href: `/api/v1/runs/${id}/${file}`, class: "button quiet", ...(file === "report.html" ? {} : { download: true }) }, label);
-  const cancel = el("button", { type: "button", class: "danger", on: { click: () => stop(cancel) } }, "Cancel this test");
-  renew(
-    byId("actions"),
-    ...(ended(run.state) ? [] : [cancel]),
-    ...(run.recording
-      ? [download("recording.h5", "Recording, HDF5"), download("recording.csv", "Recording, CSV"), download("measures.csv", "Measures, CSV"), download("report.html", "Report")]
-      : []),
-    download("plan.yaml", "Plan, YAML"),
-    ...(run.test === "specimen" || run.test === "actuator" ? [] : [el("a", { href: `/stability/${id}`, class: "button quiet" }, "Stability")]),
-    ...(run.recording ? [el("a", { href: `/diagnoses?run=${id}`, class: "button quiet" }, "Diagnose this run")] : []),
-    el("a", { href: `/new?from=${id}`, class: "button quiet" }, "Edit and run again"),
-  );
+  renew(byId("actions"), ...actions(run));
+  renew(byId("stop"), ...cancelling(run, stop));
 }
 
 /** @param {HTMLButtonElement} button */
@@ -96,26 +94,35 @@ async function stop(button) {
   }
 }
 
+/** Build the page of an attempt. @param {import("./store.js").Schema} schema */
+function build(schema) {
+  shown?.view.close();
+  shown?.transport.close();
+  const store = new Store(schema);
+  const view = new View(store);
+  new Stage(byId("stage"), view, run.plan, declared.channels);
+  const tiles = buildCharts(byId("charts"), view, run.plan, declared);
+  shown = { store, view, tiles, transport: new Transport(view) };
+  if (ended(run.state)) showTiles();
+  showEnd();
+}
+
 /** @type {import("./live.js").Viewer} */
 const viewer = {
-  received: () => store?.count ?? 0,
+  received: () => shown?.store.count ?? 0,
   schema(schema) {
     const states = run.state;
     run = { ...run, ...schema.run };
-    if (!store || attempt !== schema.attempt || store.buckets !== schema.buckets) {
+    if (attempt !== schema.attempt || shown?.store.buckets !== schema.buckets) {
       attempt = schema.attempt;
-      store = new Store(schema);
-      view?.close();
-      ({ view, tiles } = buildCharts(byId("charts"), store, run.plan, declared));
-      byId("chart-controls").hidden = false;
-      if (ended(run.state)) showTiles();
-      showWindow();
+      build(schema);
     }
     if (run.state !== states) show();
   },
   frame(frame) {
-    if (!store?.take(frame)) return false;
-    view?.redraw();
+    if (!shown?.store.take(frame)) return false;
+    shown.view.redraw();
+    shown.transport.show();
     return true;
   },
   progress(progress) {
@@ -125,7 +132,7 @@ const viewer = {
     }
     Object.assign(run, progress);
     showProgress(progress);
-    if (progress.measures) tiles?.show(progress.measures);
+    if (progress.measures) shown?.tiles.show(progress.measures);
   },
   end(last) {
     run = { ...run, ...last };
@@ -146,16 +153,10 @@ async function poll() {
   if (run.state === "queued") setTimeout(poll, POLL_MS);
 }
 
-function showWindow() {
-  if (!view) return;
-  view.window = Number(byId("window").value) || null;
-  view.zoomTo(null);
-}
-
-byId("window").addEventListener("change", showWindow);
-byId("reset").addEventListener("click", () => view?.zoomTo(null));
-document.addEventListener("themechange", () => view?.redraw());
+document.addEventListener("themechange", () => shown?.view.redraw());
 document.addEventListener("aborted", () => load().catch(complain));
+if (matchMedia("(max-width: 700px)").matches) byId("facts-fold").open = false;
+printsAll(() => shown?.view.drawAll());
 
 try {
   declared = await api.get("/schema");

@@ -1,26 +1,43 @@
 // @ts-check
 import uPlot from "/static/vendor/uplot/uPlot.esm.js";
+import { el } from "../dom.js";
+import { significant } from "../format.js";
 import { Envelope } from "./envelope.js";
 import { Figure } from "./figure.js";
 import { axis, fit, padded, themed } from "./plot_style.js";
+import { drawLimits, drawTrip } from "./time_marks.js";
+import { zoomKey } from "./zoom_keys.js";
 
 /** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
+
+/**
+ * `limit` in both directions: a line once the signal comes near it. `bare`: no labels on the time axis, for a chart above another
+ * on the same axis. @typedef {{limit?: number | null, bare?: boolean}} Options
+ */
+
+const SEEN = 0.5; // of a limit: from here on the axis includes the limit
+const NARROW = 640; // pixels of a box that leaves little room for the labels of an axis
 
 /** A chart of signals against time, drawn as the minimum and maximum of every pixel column. */
 export class TimeChart {
   visible = false;
 
-  /** @param {View} view @param {string} title @param {string} unit @param {Series[]} series */
-  constructor(view, title, unit, series) {
+  /** @param {View} view @param {string} title @param {string} unit @param {Series[]} series @param {Options} [options] */
+  constructor(view, title, unit, series, { limit = null, bare = false } = {}) {
     this.view = view;
     this.series = series;
     this.channels = series.map((one) => one.index);
+    this.limit = limit;
+    this.bare = bare;
     this.figure = new Figure(title, unit, series, true);
+    if (limit) this.figure.note(`limit ± ${significant(limit)} ${unit}`);
     this.envelope = new Envelope(series.length);
     this.box = this.figure.plot;
+    this.veil = el("div", { class: "veil", hidden: true });
     /** @type {uPlot | null} */
     this.plot = null;
-    this.box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.#key(event));
+    this.box.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.plot && zoomKey(event, this.plot, view));
+    this.box.addEventListener("blur", () => this.plot?.setCursor({ left: -10, top: -10 }));
     view.add(this.figure.element, this);
   }
 
@@ -29,32 +46,55 @@ export class TimeChart {
     const [from, to] = this.view.range();
     const columns = Math.max(50, Math.round(this.plot.bbox.width));
     this.envelope.fill(this.view.store, this.channels, from, to, columns);
-    this.plot.setData(this.envelope.views);
+    this.plot.setData(/** @type {any} */ (this.envelope.views));
+    this.follow();
+  }
+
+  /** Dim what lies after the moment of a replay. */
+  follow() {
+    const { head } = this.view;
+    this.veil.hidden = head === null;
+    if (head === null) return;
+    const [from, to] = this.view.range();
+    const share = Math.min(1, Math.max(0, (head - from) / (to - from)));
+    this.veil.style.left = `${(100 * share).toFixed(3)}%`;
   }
 
   readout() {
-    const { store } = this.view;
-    const plot = this.plot;
-    const left = plot?.cursor.left ?? -1;
-    const at = plot && left >= 0 ? Math.max(0, Math.round(plot.posToVal(left, "x") / store.step) - 1) : -1;
-    const k = at >= 0 && at < store.count ? at : store.count - 1;
+    const { store, cursor, head } = this.view;
+    const k = store.at(this.view.pointed());
     const values = this.channels.map((channel) => (k < 0 ? NaN : store.last[channel][k]));
-    this.figure.show(k < 0 ? null : store.time(k), values, k === at && at >= 0);
+    this.figure.show(k < 0 ? null : store.time(k), values, cursor !== null || head !== null);
+  }
+
+  /** Take the chart out of the page. */
+  close() {
+    this.view.remove(this.figure.element);
+    this.plot?.destroy();
+    this.figure.element.remove();
+  }
+
+  /** The y axis: what is shown, and the limit once the signal has come near it. @param {number} low @param {number} high @returns {[number, number]} */
+  #range(low, high) {
+    const { limit } = this;
+    const seen = limit && Math.max(-low, high) >= SEEN * limit;
+    return seen ? padded(Math.min(low, -limit), Math.max(high, limit)) : padded(low, high);
   }
 
   #create() {
     const view = this.view;
+    const font = Math.max(11, Math.round(parseFloat(getComputedStyle(this.box).fontSize) * 0.8));
+    const below = axis(this.bare ? undefined : "Time, s", this.bare ? 6 : font * 1.6, font);
+    const beside = { ...axis(undefined, this.box.clientWidth < NARROW ? font * 4 : font * 4.6, font), space: 1.5 * font };
     const plot = new uPlot(
       {
         width: this.box.clientWidth,
         height: this.box.clientHeight,
+        padding: [6, 10, 0, 0],
         legend: { show: false },
-        scales: { x: { time: false, range: () => view.range() }, y: { range: (_, low, high) => padded(low, high) } },
-        axes: [axis("Time, s", 34), axis(undefined, 52)],
-        series: [
-          {},
-          ...this.series.map((one) => ({ stroke: () => themed(one.colour), width: one.width ?? 1.25, points: { show: false } })),
-        ],
+        scales: { x: { time: false, range: () => view.range() }, y: { range: (_, low, high) => this.#range(low, high) } },
+        axes: [this.bare ? { ...below, values: () => [], ticks: { show: false } } : below, beside],
+        series: [{}, ...this.series.map((one) => ({ stroke: () => themed(one.colour), width: one.width ?? 1.25, dash: one.dash, points: { show: false } }))],
         cursor: {
           sync: { key: "time", setSeries: false },
           points: { show: false },
@@ -62,16 +102,29 @@ export class TimeChart {
           drag: { x: true, y: false, setScale: false },
           bind: { dblclick: () => () => (view.zoomTo(null), null) },
         },
-        hooks: { setSelect: [(u) => this.#selected(u)], setCursor: [() => this.readout()] },
+        hooks: {
+          setSelect: [(u) => this.#selected(u)],
+          setCursor: [(u) => this.#pointed(u)],
+          drawAxes: [(u) => this.limit && drawLimits(u, this.limit)],
+          draw: [(u) => view.trip && drawTrip(u, view.trip.time_s)],
+        },
       },
       [new Float64Array(0), ...this.series.map(() => new Float32Array(0))],
       this.box,
     );
+    plot.over.append(this.veil);
     fit(this.box, (width, height) => {
+      if (width === plot.width && height === plot.height) return;
       plot.setSize({ width, height });
       view.redraw();
     });
     return plot;
+  }
+
+  /** @param {uPlot} u */
+  #pointed(u) {
+    const { left = -1 } = u.cursor;
+    this.view.point(left < 0 ? null : Math.max(0, u.posToVal(left, "x")));
   }
 
   /** @param {any} u */
@@ -81,28 +134,5 @@ export class TimeChart {
     const range = [u.posToVal(left, "x"), u.posToVal(left + width, "x")];
     u.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
     this.view.zoomTo(/** @type {[number, number]} */ (range));
-  }
-
-  /** @param {KeyboardEvent} event */
-  #key(event) {
-    const plot = this.plot;
-    if (!plot || event.ctrlKey || event.metaKey || event.altKey) return;
-    const [from, to] = this.view.range();
-    const width = this.box.querySelector(".u-over").clientWidth;
-    const { left: cursor = -1 } = plot.cursor;
-    const left = cursor >= 0 ? cursor : width / 2;
-    const zoom = (/** @type {number} */ factor) => {
-      const centre = plot.posToVal(left, "x");
-      this.view.zoomTo([Math.max(0, centre - (centre - from) * factor), Math.min(this.view.store.end, centre + (to - centre) * factor)]);
-    };
-    const step = event.shiftKey ? 20 : 2;
-    if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
-      const next = Math.min(width, Math.max(0, left + (event.key === "ArrowLeft" ? -step : step)));
-      plot.setCursor({ left: next, top: 10 });
-    } else if (event.key === "+" || event.key === "=") zoom(0.5);
-    else if (event.key === "-") zoom(2);
-    else if (event.key === "Escape") this.view.zoomTo(null);
-    else return;
-    event.preventDefault();
   }
 }
