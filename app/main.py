@@ -39,6 +39,7 @@ from app.pages.table4 import router as table4_page
 from app.plans.endpoints import router as plans
 from app.preflight.endpoints import router as preflight
 from app.preflight.process import DryRuns
+from app.publishing.endpoints import router as publishing
 from app.runs.endpoints import router as runs
 from app.stability.endpoints import router as stability
 from app.table4.endpoints import router as table4
@@ -82,6 +83,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         live,
     ):
         app.include_router(router, max_body_size=configured.upload_limit)
+    app.include_router(publishing, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")

@@ -6,7 +6,8 @@ import json
 from argparse import Namespace
 
 from app.cli.run_input import model_at
-from app.reports.diagnosis import report_html
+from app.cli.written import check, write
+from app.reports.diagnosis import document
 from app.reports.diagnosis_names import Names, capital
 from app.reports.digits import chance, words
 from app.shown import VERDICTS
@@ -29,6 +30,7 @@ def diagnose(given: Namespace) -> None:
         if path and not path.parent.is_dir():
             problem = f"there is no folder {path.parent}"
             raise PlanError(Issue(option, problem, str(path), f"create it first: mkdir -p '{path.parent}'"))
+    check(given.report)
     planned = None if given.plan == LINEAR else model_at(given.plan).plan
     heldout = [opening.load(path) for path in given.holdout]
     more = [opening.load(path) for path in given.more]
@@ -42,7 +44,8 @@ def diagnose(given: Namespace) -> None:
     if given.json:
         files.write(given.json, json.dumps(found.as_dict(), indent=2, allow_nan=False) + "\n")
     if given.report:
-        files.write(given.report, report_html(plan.name, _facts(given), found, pictures(diagnosis), plan.as_dict()))
+        report = document(plan.name, _facts(given), found, pictures(diagnosis), plan.as_dict())
+        write(report, given.report)
     print(_text(found, Names.of(plan.as_dict())))
 
 

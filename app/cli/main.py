@@ -116,7 +116,7 @@ def parser() -> argparse.ArgumentParser:
     )
     diagnose.add_argument("--level", type=float, default=0.01, metavar="P", help="false-alarm rate (default %(default)s)")
     diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the verdict as one JSON object")
-    diagnose.add_argument("--report", type=Path, metavar="OUT.html", help="write the report as one HTML file")
+    diagnose.add_argument("--report", type=Path, metavar="OUT", help="write the report: OUT.html or OUT.pdf")
 
     prove = _command(
         commands, "prove", "app.cli.prove:prove", "score diagnoses on generated recordings with known left-out physics"

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
-from fastapi.responses import HTMLResponse, Response
+from fastapi.responses import Response
 
 from app.dependencies import Configured
-from app.diagnoses import exports
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.schemas import Asked, DiagnosisDetail, DiagnosisList, DiagnosisOut, Simulations
 from app.openapi import told
@@ -64,12 +63,6 @@ def verdict(diagnosis_id: str, diagnoses: Diagnoses) -> Verdict:
 def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> Pictures:
     """The plots, `rths-diagnosis-pictures/1`: recording, simulations before and after, residuals; decimated, in SI units."""
     return diagnoses.result(diagnosis_id)[2]
-
-
-@router.get("/{diagnosis_id}/report.html", response_class=HTMLResponse, responses=told(409))
-def report(diagnosis_id: str, diagnoses: Diagnoses) -> HTMLResponse:
-    """The report of a diagnosis as one self-contained HTML page."""
-    return HTMLResponse(exports.report(*diagnoses.result(diagnosis_id)))
 
 
 @router.post("/{diagnosis_id}/cancel", responses=told(409))

@@ -1,16 +1,14 @@
-"""The report of a diagnosis, and the facts at its head."""
+"""The facts at the head of a diagnosis, on its page and in its report."""
 
 from __future__ import annotations
 
 from app.models import Diagnosis
-from app.reports.diagnosis import Facts, report_html
-from rths_engine.diagnosis.schema import Pictures, Verdict
 
 LONGEST_NOTES = 400  # characters
 
 
-def facts(diagnosis: Diagnosis) -> Facts:
-    """The facts above a report: recording, plan, false-alarm rate, submission and computation time."""
+def facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    """The facts above a diagnosis: recording, plan, false-alarm rate, submission and computation time."""
     heldout = ", ".join(one.name for one in diagnosis.heldout)
     took = (diagnosis.finished_at - diagnosis.started_at).total_seconds() if _timed(diagnosis) else None  # type: ignore[operator]
     found = [
@@ -24,11 +22,6 @@ def facts(diagnosis: Diagnosis) -> Facts:
         ("Code version", diagnosis.code_version),
     ]
     return [(name, text) for name, text in found if text]
-
-
-def report(diagnosis: Diagnosis, verdict: Verdict, pictures: Pictures) -> str:
-    """The report of a diagnosis as a stand-alone HTML file."""
-    return report_html(diagnosis.name, [*facts(diagnosis), ("Identifier", diagnosis.id)], verdict, pictures, diagnosis.plan)
 
 
 def _short(text: str) -> str:

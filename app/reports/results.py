@@ -1,90 +1,86 @@
-"""The tables of measures in the report of a test."""
+"""The measures of a test as tables of its report: a row for each measure, a column for each station or floor."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from typing import Any
 
+from app.reports.document import Block, Head, Table, Text
 from rths_engine.planning.paper import PAPER
 from rths_engine.recordings.run_file import Recording
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 
 PAPERS = "Chen and Ricles (2012)"
-UNSTABLE = "unstable: a limit stopped the test"
+UNSTABLE = "Chen and Ricles (2012) report this simulation as unstable: a limit stopped the test."
+AT_ONCE = 4  # stations in one table
+FLOORS_AT_ONCE = 8
+MEANING = Head("Meaning", share=3.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One row: its name, its cells, and whether they are published values. `instead` is text across the row."""
-
-    name: str
-    cells: list[str]
-    published: bool = False
-    instead: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A table with one measure per column; `first` is the heading of the column of names."""
-
-    caption: str
-    first: str
-    measures: Sequence[Measure]
-    rows: list[Row]
-
-
-@dataclass(frozen=True, slots=True)
-class Results:
-    """The results of a test: tables of stations and of floors, and the measures of the whole test."""
-
-    stations: list[Table]
-    floors: Table | None
-    whole: Sequence[tuple[Measure, str]]
-
-
-def results(recording: Recording) -> Results:
+def results(recording: Recording) -> list[Block]:
     """The measures of the recording's kind of test. A dash marks a measure that the recording's summary does not contain."""
     test, summary = recording.plan.test, recording.summary
     measures = of(StationMeasure, test)
-    tables = []
+    blocks: list[Block] = []
     if summary["stations"]:
         paper = PAPER.get(recording.plan.template or "")
-        caption = "Measures of each station" + (", with the published values of this simulation" if paper else "")
-        tables = [
-            _stations(caption, recording, [one for one in measures if not one.further], published=bool(paper)),
-            _stations("Further measures of each station", recording, [one for one in measures if one.further]),
-        ]
-    whole = [(one, _text(one, summary.get(one.key))) for one in of(RunMeasure, test)]
-    return Results(tables, _floors(recording), whole)
+        further = [one for one in measures if one.further]
+        blocks += _stations("Measures of each station", recording, [one for one in measures if not one.further], bool(paper))
+        if paper and not any(getattr(paper, one.key, None) for one in measures):
+            blocks.append(Text([UNSTABLE], "note"))
+        blocks += _stations("Further measures of each station", recording, further, False)
+    return [*blocks, *_floors(recording), *_whole(recording)]
 
 
-def _stations(caption: str, recording: Recording, measures: Sequence[Measure], published: bool = False) -> Table:
-    rows = []
-    for index, station in enumerate(recording.summary["stations"]):
-        rows.append(Row(f"{index + 1} · {station['name']}", [_text(one, station.get(one.key)) for one in measures]))
-        if published and index < 2:
-            rows.append(_paper(recording.plan.template or "", index, measures))
-    return Table(caption, "Station", measures, rows)
+def _stations(caption: str, recording: Recording, measures: Sequence[Measure], published: bool) -> list[Table]:
+    """Tables of at most AT_ONCE stations. Published measures follow the column of their station."""
+    stations = list(enumerate(recording.summary["stations"], start=1))
+    tables = []
+    for first in range(0, len(stations), AT_ONCE):
+        columns: list[tuple[str, Mapping[str, Any]]] = []
+        for number, station in stations[first : first + AT_ONCE]:
+            columns.append((f"{number} · {station['name']}", {one.key: _text(one, station.get(one.key)) for one in measures}))
+            paper = _paper(recording.plan.template or "", number, measures) if published else {}
+            if paper:
+                columns.append((PAPERS, paper))
+        heads = [Head("Measure", share=1.6), *(Head(name, number=True) for name, _ in columns), MEANING]
+        rows = [[one.heading, *(cells[one.key] for _, cells in columns), one.meaning] for one in measures]
+        tables.append(Table(caption if not first else f"{caption}, continued", heads, rows))
+    return tables
 
 
-def _paper(template: str, index: int, measures: Sequence[Measure]) -> Row:
-    pairs = [getattr(PAPER[template], one.key, None) for one in measures]
-    if not any(pairs):
-        return Row(PAPERS, [], published=True, instead=UNSTABLE)
-    return Row(PAPERS, [_minus(f"{pair[index]:z.1f}") if pair else "–" for pair in pairs], published=True)
+def _paper(template: str, number: int, measures: Sequence[Measure]) -> dict[str, str]:
+    """The published measures of a station; empty where the paper gives none."""
+    pairs = {one.key: getattr(PAPER[template], one.key, None) for one in measures}
+    if number > 2 or not any(pairs.values()):
+        return {}
+    return {key: _minus(f"{pair[number - 1]:z.1f}") if pair else "–" for key, pair in pairs.items()}
 
 
-def _floors(recording: Recording) -> Table | None:
+def _floors(recording: Recording) -> list[Table]:
+    """Tables of at most FLOORS_AT_ONCE floors."""
     measures = of(FloorMeasure, recording.plan.test)
     columns = [recording.summary.get(one.key) or [] for one in measures]
     count = max(map(len, columns), default=0)
     padded = [[*column, *[None] * (count - len(column))] for column in columns]
-    rows = [
-        Row(f"Floor {number}", [_text(one, value) for one, value in zip(measures, values, strict=True)])
-        for number, values in enumerate(zip(*padded, strict=True), start=1)
-    ]
-    return Table("Measures of each floor", "Floor", measures, rows) if rows else None
+    tables = []
+    for first in range(0, count, FLOORS_AT_ONCE):
+        part = range(first, min(count, first + FLOORS_AT_ONCE))
+        heads = [Head("Measure", share=1.6), *(Head(f"Floor {floor + 1}", number=True) for floor in part), MEANING]
+        rows = [
+            [one.heading, *(_text(one, values[floor]) for floor in part), one.meaning]
+            for one, values in zip(measures, padded, strict=True)
+        ]
+        tables.append(Table("Measures of each floor", heads, rows))
+    return tables
+
+
+def _whole(recording: Recording) -> list[Table]:
+    measures = of(RunMeasure, recording.plan.test)
+    rows = [[one.heading, _text(one, recording.summary.get(one.key)), one.meaning] for one in measures]
+    heads = [Head("Measure", share=1.6), Head("Test", number=True), MEANING]
+    return [Table("Measures of the whole test", heads, rows)] if rows else []
 
 
 def _text(one: Measure, value: float | None) -> str:

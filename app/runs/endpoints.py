@@ -6,14 +6,14 @@ from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
-from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse, Response, StreamingResponse
+from fastapi.responses import FileResponse, PlainTextResponse, Response, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from app.dependencies import Configured
 from app.jobs.states import State
 from app.openapi import file, told
 from app.runs.dependency import Runs
-from app.runs.exports import csv_parts, measures_text, recording_path, report
+from app.runs.exports import csv_parts, measures_text, recording_path
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
 from rths_engine.foundation.errors import Issue, PlanError
@@ -114,12 +114,6 @@ def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}-measures.csv"'}
     return PlainTextResponse(measures_text(run), media_type="text/csv", headers=headers)
-
-
-@router.get("/runs/{run_id}/report.html", response_class=HTMLResponse, responses=told(409))
-def report_html(run_id: str, runs: Runs, configured: Configured) -> HTMLResponse:
-    """The report of a run as one HTML file without external files."""
-    return HTMLResponse(report(runs.get(run_id), configured))
 
 
 @router.get("/runs/{run_id}/plan.yaml", response_class=Response, responses=file("application/yaml"))

@@ -1,4 +1,4 @@
-"""Downloads of a run: recording as HDF5 or CSV, measures as CSV, and the report."""
+"""Downloads of a run: recording as HDF5 or CSV, and measures as CSV."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from app.config import Settings
 from app.measures import rows as measured
 from app.models import Run
 from app.problems import Conflict
-from app.runs.schemas import RunDetail, RunOut
+from app.runs.schemas import RunOut
 from rths_engine.foundation.arrays import Array
-from rths_engine.parts.ground_motions import MotionLibrary
-from rths_engine.recordings.run_file import load, rows
+from rths_engine.recordings.run_file import rows
 from rths_engine.results.channels import Channel
 
 ROWS = 4096
@@ -61,12 +60,3 @@ def measures_text(run: Run) -> str:
     for what, one, value in measured(RunOut.of(run).model_dump(), run.test):
         writer.writerow([what, one.key, one.label, "" if value is None else f"{value:.9g}", one.shown])
     return text.getvalue()
-
-
-def report(run: Run, settings: Settings) -> str:
-    """The report of a run as one HTML file. Raises Conflict while there is no recording."""
-    from app.reports.service import report_html
-
-    return report_html(
-        RunDetail.of(run).model_dump(mode="json"), load(recording_path(run, settings)), MotionLibrary(settings.motions)
-    )

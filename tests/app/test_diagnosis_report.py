@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from app.reports.diagnosis import report_html
+from app.reports import html
+from app.reports.diagnosis import document
 from app.reports.diagnosis_names import ALONE, Names
 from app.reports.diagnosis_tables import OTHERWISE, tables
 from app.reports.digits import NONE, words
@@ -20,6 +21,10 @@ from tests.engine import recorded_specimens as made
 PLAN = {"test": "specimen", "stations": [{"name": "Damper"}]}
 RATE = {"value": 0.005, "count": 400, "wilson95": [0.001, 0.018]}
 CERTIFICATE = {"kind": "specimen", "false_alarm": RATE, "false_discovery": RATE, "power": RATE, "seed": 7, "commit": ""}
+
+
+def report_html(title: str, facts: list[tuple[str, str]], verdict: Verdict, pictures: Pictures, plan: dict[str, Any]) -> str:
+    return html.interactive(document(title, facts, verdict, pictures, plan))
 
 
 @pytest.fixture(scope="module")

@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 
 from app.cli.main import main
-from app.reports.service import report_html
 from app.runs.exports import csv_parts
 from rths_engine.planning import templates
 from rths_engine.planning.examples import EXAMPLES
 from rths_engine.planning.model import Model
 from rths_engine.planning.reading import plan_to_yaml
 from rths_engine.recordings.run_file import Recording
-from tests.app.test_reports import RUN, Page, recorded, shortened
+from tests.app.test_reports import RUN, Page, recorded, report_html, shortened
 
 WANTED = {
     "specimen-mr-damper": ["Drive", "Station 1: MR damper"],
@@ -47,7 +46,7 @@ def test_a_report_has_the_sections_of_its_kind_of_test_and_no_empty_plot(
     name: str, reports: dict[str, tuple[Recording, Page]]
 ) -> None:
     _, page = reports[name]
-    assert headings(page) == ["Results", *WANTED[name], "Test plan", "Repeating this test"]
+    assert headings(page) == ["Results", "Notes", *WANTED[name], "Test plan", "Test record", "Repeating this test"]
     assert page.specs
     assert all(trace["x"]["bdata"] for spec in page.specs for trace in spec["traces"])
 
@@ -124,4 +123,4 @@ def test_a_specimen_that_trips_is_reported_as_far_as_it_came(tmp_path: Path) -> 
     recording = recorded(tmp_path, plan.model_copy(update={"stations": (weak,)}))
     page = Page(report_html(RUN, recording))
     assert recording.status == "tripped" and 12.0 < recording.summary["simulated_s"] < 20.0  # in the second level
-    assert "Tripped" in page.text and headings(page)[1] == "Drive"
+    assert "Tripped" in page.text and headings(page)[2] == "Drive"

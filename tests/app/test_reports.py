@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.reports import html
+from app.reports.of_run import document
 from app.reports.packed import packed
 from app.reports.plan_tables import groups
-from app.reports.service import report_html
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, spectral_acceleration
 from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.planning import templates
@@ -38,6 +39,11 @@ RUN: dict[str, Any] = {
     "reason": "Stopped by A. Student at 1.00 s.",
     "recording": {"sha256": "ab" * 32, "size": 1},
 }
+
+
+def report_html(run: dict[str, Any], recording: Recording, motions: MotionLibrary | None = None) -> str:
+    """The interactive report, whose plots carry their data."""
+    return html.interactive(document(run, recording, motions))
 
 
 def recorded(
@@ -104,32 +110,42 @@ def test_the_report_names_the_test_its_end_and_who_asked_for_it(fourth: tuple[Re
         assert fact in text
 
 
+def row_of(page: Page, heading: str) -> list[str]:
+    """The cells of the first row with this heading, the meaning of the measure last."""
+    cells = [text for tag, text in page.texts if tag in ("th", "td")]
+    at = cells.index(heading)
+    return cells[at : at + 7]
+
+
 def test_the_measures_stand_beside_those_of_the_paper(fourth: tuple[Recording, str]) -> None:
     recording, html = fourth
-    cells = [text for tag, text in Page(html).texts if tag in ("th", "td")]
-    at = cells.index("1 · Storey 1 damper")
-    first = recording.summary["stations"][0]
-    assert cells[at + 1] == f"{first['mte_mm']:.2f}"
-    assert cells[at + 6] == f"{first['peak_force_kN']:.1f}"
-    assert cells[at + 7 : at + 12] == ["Chen and Ricles (2012)", "0.8", "1.4", "11.8", "−2.6"]
-    assert f"{recording.summary['floors_peak_mm'][1]:.1f}" in cells
+    page = Page(html)
+    assert row_of(page, "1 · Storey 1 damper")[:4] == [
+        "1 · Storey 1 damper", "Chen and Ricles (2012)", "2 · Storey 2 damper", "Chen and Ricles (2012)"
+    ]  # fmt: skip
+    first, second = recording.summary["stations"]
+    assert row_of(page, "MTE, mm")[1:6] == [
+        f"{first['mte_mm']:.2f}", "0.8", f"{second['mte_mm']:.2f}", "1.6", "maximum tracking error"
+    ]  # fmt: skip
+    assert row_of(page, "MEE, kN·m")[2] == "−2.6"
+    assert row_of(page, "Peak force, kN")[1:3] == [f"{first['peak_force_kN']:.1f}", "–"]
+    assert f"{recording.summary['floors_peak_mm'][1]:.1f}" in row_of(page, "Floor peak, mm")
 
 
 def test_the_further_measures_have_a_table_with_a_dash_where_there_is_none(tmp_path: Path) -> None:
     recording = recorded(tmp_path, shortened("two-storeys"))
     del recording.summary["stations"][0]["delay_ms"]  # as in a recording from before it was measured
     recording.summary["stations"][0]["energy_error_percent"] = None
-    page = Page(report_html(RUN, recording))
-    cells = [text for tag, text in page.texts if tag in ("th", "td")]
-    at, first = len(cells) - cells[::-1].index("1 · Storey 1 damper"), recording.summary["stations"][0]
-    assert cells[at : at + 2] == [f"{first['fei_delay_ms']:.2f}".replace("-0.00", "0.00"), f"{first['fei_amplitude']:.4f}"]
-    assert (cells[at + 2], cells[at + 5]) == ("–", "–")
-    assert f"Input energy {recording.summary['input_energy_kNm']:.1f} kN·m" in page.text
+    page, first = Page(report_html(RUN, recording)), recording.summary["stations"][0]
+    assert row_of(page, "FEI delay, ms")[1] == f"{first['fei_delay_ms']:.2f}".replace("-0.00", "0.00")
+    assert row_of(page, "FEI amplitude")[1] == f"{first['fei_amplitude']:.4f}"
+    assert row_of(page, "Delay, ms")[1] == row_of(page, "HSEE, %")[1] == "–"
+    assert f"Input energy, kN·m {recording.summary['input_energy_kNm']:.1f}" in page.text
 
 
 def test_an_unstable_simulation_of_the_paper_is_called_so(tmp_path: Path) -> None:
     text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-01")))).text
-    assert text.count("unstable: a limit stopped the test") == 2
+    assert text.count("report this simulation as unstable: a limit stopped the test") == 1
 
 
 def test_a_plan_of_another_template_has_no_row_of_the_paper(tmp_path: Path) -> None:
@@ -246,14 +262,14 @@ def test_the_report_needs_no_address_outside_itself(fourth: tuple[Recording, str
 
 
 def test_the_report_is_plotly_once_and_less_than_2_mb_besides(fourth: tuple[Recording, str]) -> None:
-    from app.reports.page import plotly
+    from app.reports.html import plotly
 
     assert fourth[1].count(plotly()) == 1
     assert len(fourth[1].encode()) - len(plotly().encode()) < 2e6
 
 
 def test_many_stations_share_the_points_of_the_plots(tmp_path: Path) -> None:
-    from app.reports.page import plotly
+    from app.reports.html import plotly
 
     station = templates.template("two-storeys").stations[0]
     stations = tuple(station.model_copy(update={"name": f"S{j}", "dampers": 1}) for j in range(12))

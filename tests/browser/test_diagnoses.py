@@ -119,7 +119,7 @@ def test_a_linear_plan_is_chosen_by_keyboard_and_the_results_are_read_on_a_narro
 
 def test_the_report_is_drawn_without_a_service(diagnosed: str, opened: Opener, service: Service, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
-    path.write_text(service.http.get(f"/api/v1/diagnoses/{diagnosed}/report.html").text, encoding="utf-8")
+    path.write_text(service.http.get(f"/api/v1/diagnoses/{diagnosed}/report.html?interactive=true").text, encoding="utf-8")
     context: Any = opened("/table4").context
     page = context.new_page()
     page.goto(path.as_uri())

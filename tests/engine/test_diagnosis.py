@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from app.reports.diagnosis import report_html
+from app.reports import html
+from app.reports.diagnosis import document
 from rths_engine.diagnosis.noise import FREQUENCY, coloured
 from rths_engine.diagnosis.pictures import pictures
 from rths_engine.diagnosis.verdict import diagnose
@@ -72,7 +73,7 @@ def test_a_law_outside_the_library_is_called_unknown_and_described() -> None:
     assert found.next_test is not None and found.next_test.tells and found.next_test.amplitude
     (surface,) = pictures(diagnosis).components[0].detail.surfaces  # type: ignore[union-attr]
     assert sum(map(sum, surface.samples)) > 900 and surface.output.unit == "N"
-    report = report_html("Cogging", [], found, pictures(diagnosis), plan().as_dict())
+    report = html.light(document("Cogging", [], found, pictures(diagnosis), plan().as_dict()))
     assert "Unexplained force over displacement and velocity" in report and found.next_test.tells in report
 
 

@@ -1,0 +1,1 @@
+"""Reports and data packages: what leaves the laboratory, of runs and diagnoses."""
