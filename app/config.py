@@ -43,6 +43,7 @@ class Settings:
     hosts: tuple[str, ...] = ()
     embedded_worker: bool = True
     worker_concurrency: int = 2
+    sweep_processes: int = field(default_factory=lambda: os.cpu_count() or 1)
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     upload_limit: int = 20 * MEGABYTE
     measurements_limit: int = 1100 * MEGABYTE
@@ -115,6 +116,9 @@ VARIABLES: dict[str, Variable] = {
         default="none",
     ),
     "worker_concurrency": Variable("RTHS_WORKERS", int, "tests that run at the same time"),
+    "sweep_processes": Variable(
+        "RTHS_SWEEP_PROCESSES", int, "processes of a worker that execute sweeps", default="one for each processor core"
+    ),
     "database_url": Variable("RTHS_DATABASE_URL", str, "URL of a PostgreSQL database", default="SQLite in the data folder"),
     "worker_token": Variable(
         "RTHS_WORKER_TOKEN", str, "token of workers that cannot read the data folder", default="the file `worker-token` there"

@@ -42,6 +42,7 @@ from app.preflight.process import DryRuns
 from app.publishing.endpoints import router as publishing
 from app.runs.endpoints import router as runs
 from app.stability.endpoints import router as stability
+from app.sweeps.endpoints import router as sweeps
 from app.table4.endpoints import router as table4
 from app.worker.embedded import EmbeddedWorker
 from rths_engine import __version__
@@ -67,6 +68,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     openapi.install(app)
     for router in (
         runs,
+        sweeps,
         motions,
         plans,
         preflight,

@@ -22,6 +22,16 @@ MAPPING = {
         {"column": "Force (kN)", "role": "f_meas", "number": 1, "unit": "kN"},
     ],
 }
+SWEEP = {
+    "schema": "rths-sweep/1",
+    "name": "Delay of the actuators against damping",
+    "plan": TEMPLATE,
+    "method": "grid",
+    "fields": [
+        {"path": "stations.*.actuator.alpha", "range": {"from": 10, "to": 40, "count": 4}},
+        {"path": "structure.damping_ratio", "values": [1, 2, 5], "unit": "%"},
+    ],
+}
 DRIVE = {"drive": {"amplitude": 0.02, "shape": {"kind": "sine", "frequency": 0.5}}, "controller_rate": 1024.0}
 
 
@@ -50,6 +60,7 @@ FIELDS: dict[str, Any] = {
     "level": 0.01,
     "filename": "sine.csv",
     "mapping": MAPPING,
+    "sweep": SWEEP,
 }
 REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/runs": lambda: {"plan": plan(), "submitted_by": "Ana Ruiz"},
@@ -73,6 +84,12 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "PUT /api/v1/library/drafts/{draft_id}": lambda: {"plan": DRAFT, "revision": 0, "owner": "Ana Ruiz", "writer": "tab 1"},
     "POST /api/v1/library/drafts/{draft_id}/close": lambda: {"closed_as": "discarded"},
     "POST /api/v1/stability": plan,
+    "POST /api/v1/sweeps": lambda: {"sweep": SWEEP, "submitted_by": "Ana Ruiz"},
+    "POST /api/v1/sweeps/preview": lambda: SWEEP,
+    "POST /api/v1/sweeps/fields": plan,
+    "POST /api/v1/sweeps/{sweep_id}/cancel": lambda: BY,
+    "POST /api/v1/sweeps/{sweep_id}/resume": lambda: BY,
+    "POST /api/v1/sweeps/{sweep_id}/points/{point}/run": lambda: BY,
     "POST /api/v1/table4": lambda: BY,
     "POST /api/v1/recordings/preview": lambda: {"file": SHA256, "mapping": MAPPING},
     "POST /api/v1/mappings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Damper rig", "saved_by": "Ana Ruiz"},

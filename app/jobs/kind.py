@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import ClassVar, Generic, NamedTuple, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import sqlalchemy as sa
 
@@ -46,12 +46,18 @@ class Kind(ABC, Generic[Row, Given, Result]):
     """Added to the niceness of the process: kinds with a lower value get the processor first."""
     kept_warm: ClassVar[bool] = False
     """Whether processes start with the worker and stay for the next job; otherwise each job gets a new process."""
+    started_early: ClassVar[bool] = True
+    """Whether processes that are kept warm start with the worker; otherwise they start with their first job."""
+    ahead: ClassVar[int] = 0
+    """Jobs that a worker takes from the queue while all processes are busy, so that no process waits for the next poll."""
     keeps_when_cancelled: ClassVar[bool] = False
     """Whether a cancelled job stores its result so far; otherwise its process is killed at once."""
     ordered: ClassVar[bool] = False
     """Whether people order the jobs of this kind: its table is Ordered, and a delivery starts the first that may start."""
     waits_while_held: ClassVar[bool] = False
     """Whether jobs of this kind wait while the queue is held."""
+    told: ClassVar[bool] = True
+    """Whether the starts and ends of jobs are events for people; not for jobs that are only shares of a larger one."""
     watched_live: ClassVar[bool] = False
     """Whether the process sends frames and messages to viewers."""
 
@@ -74,6 +80,10 @@ class Kind(ABC, Generic[Row, Given, Result]):
     @abstractmethod
     def store(self, job: Row, result: Result) -> Ending:
         """Write a result into the columns of its job. The caller changes the state and commits."""
+
+    def store_part(self, job: Row, part: Any) -> None:
+        """Store a part of the result while the job runs. Parts of one attempt come once each, and in their order."""
+        raise NotImplementedError(f"a {self.name} has no parts")
 
     def place(self, order: Given, settings: Settings) -> None:
         """Move the files of a result to their final paths, just before the commit. After an OSError the job fails."""

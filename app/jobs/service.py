@@ -159,6 +159,14 @@ class JobService(Generic[Row, Result]):
         """Whether someone asked to cancel a running job."""
         return self.rows.cancel_requested(job_id)
 
+    def keep(self, job_id: str, attempt: int, parts: Sequence[Any]) -> None:
+        """Store parts of the result of an attempt; nothing happens if the job has ended or was taken over."""
+        job = self._current(job_id, attempt)
+        if job is None:
+            return
+        for part in parts:
+            self.kind.store_part(job, part)
+
     def finish(self, job_id: str, attempt: int, result: Result) -> bool:
         """Store the result of an attempt. False if it is not stored: the job has ended, is cancelled or was taken over."""
         job = self._current(job_id, attempt)
@@ -202,6 +210,8 @@ class JobService(Generic[Row, Result]):
         self._tell(EventKind(state), job, reason)
 
     def _tell(self, kind: EventKind, job: Row, sentence: str) -> None:
+        if not self.kind.told:
+            return
         title = self.kind.title(job)
         called = f"{self.kind.name.capitalize()} {job.number}{', ' if title else ''}{title}"
         EventLog(self.session).add(kind, f"{called}: {sentence}", self.kind.name, job.id, title)

@@ -40,6 +40,13 @@ class Progress:
 
 
 @dataclass(frozen=True, slots=True)
+class Part:
+    """A part of the result, for `Kind.store_part`: stored while the job runs, so that it is kept however the job ends."""
+
+    result: Any
+
+
+@dataclass(frozen=True, slots=True)
 class Done:
     """The result of a job, for `Kind.store`."""
 
@@ -81,6 +88,10 @@ class Line:
     def progress(self, doing: str, share: float) -> None:
         """Send the progress of the job: the present step in words, and the share that is done, 0 to 1."""
         self.send(Progress(doing, min(1.0, max(0.0, float(share)))))
+
+    def part(self, result: Any) -> None:
+        """Send a part of the result; the worker stores it at once."""
+        self.send(Part(result))
 
     def cancelled(self, within_s: float = 0.0) -> bool:
         """Whether the job was cancelled; waits up to `within_s` seconds for a cancel."""

@@ -53,6 +53,7 @@ class EmbeddedWorker:
             "RTHS_DATA": str(settings.data.resolve()),
             "RTHS_DATABASE_URL": settings.database_url,
             "RTHS_WORKERS": str(settings.worker_concurrency),
+            "RTHS_SWEEP_PROCESSES": str(settings.sweep_processes),
             "RTHS_WORKER_TOKEN": settings.worker_token,
         }
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)

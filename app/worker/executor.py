@@ -6,7 +6,7 @@ import logging
 import threading
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from sqlalchemy.orm import Session, sessionmaker
@@ -16,7 +16,7 @@ from app.db import unit_of_work
 from app.jobs.kind import Kind
 from app.jobs.order import Order
 from app.jobs.service import JobService
-from app.worker.child import Done, Failed, Progress
+from app.worker.child import Done, Failed, Part, Progress
 from app.worker.link import Link, Telling
 from app.worker.pool import JobProcess, Outcome, Pool, ProcessDied
 
@@ -28,7 +28,7 @@ AnyKind = Kind[Any, Any, Any]
 
 @dataclass(slots=True)
 class Running:
-    """A job in its process, and the progress that is not yet stored."""
+    """A job in its process, and the progress and the parts of its result that are not yet stored."""
 
     kind: AnyKind
     order: Order
@@ -36,11 +36,15 @@ class Running:
     telling: Telling | None
     progress: Progress | None = None
     written_at: float = -PROGRESS_S
+    parts: list[Any] = field(default_factory=list)
+    storing: threading.Lock = field(default_factory=threading.Lock)
 
     def take(self, message: Any) -> None:
-        """Take a message of the process, progress or a message for viewers. Never waits: it is stored or sent later."""
+        """Take a message of the process: progress, a part, or one for viewers. Never waits: it is stored or sent later."""
         if isinstance(message, Progress):
             self.progress = message
+        elif isinstance(message, Part):
+            self.parts.append(message.result)
         elif self.telling is not None:
             self.telling.take(message)
 
@@ -77,7 +81,17 @@ class Executor:
         for one in running:
             self._look(one)
 
+    def _keep(self, one: Running) -> None:
+        """Store the parts that the process has sent, each once."""
+        with one.storing:
+            parts = one.parts[:]
+            if parts:
+                with unit_of_work(self.maker) as session:
+                    JobService(session, one.kind).keep(one.order.job_id, one.order.attempt, parts)
+                del one.parts[: len(parts)]
+
     def _look(self, one: Running) -> None:
+        self._keep(one)
         order, news = one.order, one.news()
         with unit_of_work(self.maker) as session:
             jobs = JobService(session, one.kind)
@@ -129,7 +143,11 @@ class Executor:
         with self._lock:
             self.running[order.job_id] = running
         try:
-            self._end(kind, order, process.execute(order, running.take))
+            try:
+                outcome = process.execute(order, running.take)
+            finally:
+                self._keep(running)
+            self._end(kind, order, outcome)
         except OSError as error:
             self._end(kind, order, Failed(f"The result of the {kind.noun} was not stored: {error.strerror or error}."))
         finally:

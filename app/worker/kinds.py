@@ -7,5 +7,6 @@ from typing import Any
 from app.diagnoses.job import DIAGNOSES
 from app.jobs.kind import Kind
 from app.runs.job import RUNS
+from app.sweeps.job import SHARDS
 
-KINDS: tuple[Kind[Any, Any, Any], ...] = (RUNS, DIAGNOSES)
+KINDS: tuple[Kind[Any, Any, Any], ...] = (RUNS, DIAGNOSES, SHARDS)

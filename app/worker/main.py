@@ -80,7 +80,7 @@ def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any,
     for kind in kinds:
         DBOS.register_queue(
             kind.queue,
-            worker_concurrency=kind.at_a_time(settings),
+            worker_concurrency=kind.at_a_time(settings) + kind.ahead,
             polling_interval_sec=POLLING_S,
             on_conflict="always_update",
         )

@@ -125,13 +125,16 @@ class JobProcess:
 
 
 class Pool:
-    """The processes of one kind of job. Without `kept_warm`, a process starts when taken and ends when given back."""
+    """The processes of one kind of job. Without `kept_warm`, a process starts when taken and ends when given back.
+
+    With it, processes start here, or without `started_early` when first taken, and are kept.
+    """
 
     def __init__(self, kind: Kind[Any, Any, Any], size: int):
         self.kind = kind
         self._idle: queue.LifoQueue[JobProcess | None] = queue.LifoQueue()
         for _ in range(size):
-            self._idle.put(JobProcess(kind) if kind.kept_warm else None)
+            self._idle.put(JobProcess(kind) if kind.kept_warm and kind.started_early else None)
 
     def take(self) -> JobProcess:
         """A process that is ready; waits until one is free."""

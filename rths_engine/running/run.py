@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,11 +30,16 @@ class Run:
     """One execution of a plan. `signals[:done]` are the recorded samples in SI, with columns as in `channels`.
 
     The run starts as planned, or from `initial`: displacements (m) and velocities (m/s) of the loop's degrees of freedom.
-    Raises PlanError or MotionError, before anything runs, when the plan cannot run.
+    `noise` makes the sensor noise of a plan; a sweep keeps it, because its points often share one seed. Raises PlanError or
+    MotionError, before anything runs, when the plan cannot run.
     """
 
     def __init__(
-        self, planned: Plan | Model, motions: MotionLibrary, initial: tuple[Sequence[float], Sequence[float]] | None = None
+        self,
+        planned: Plan | Model,
+        motions: MotionLibrary,
+        initial: tuple[Sequence[float], Sequence[float]] | None = None,
+        noise: Callable[[Plan, int], Array] | None = None,
     ):
         self.model = model = Model.of(planned)
         self.plan = plan = model.plan
@@ -56,7 +61,7 @@ class Run:
         self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
         times = np.arange(self._steps + 1) * dt
         drive = np.repeat(plan.drive.sample(times)[:, None], stations, axis=1)
-        self._setup, parts = setup(model, _inputs(plan, self.motion, times), drive, _noise(plan, self.total))
+        self._setup, parts = setup(model, _inputs(plan, self.motion, times), drive, (noise or sensor_noise)(plan, self.total))
         memory = np.zeros((stations, loop.MEMORY))
         plastic = np.zeros((len(built.members.dofs), 3))
         x, v, carry = starting.state(model, self._setup.inputs[0] @ self._setup.loads)
@@ -136,7 +141,7 @@ def _summed(rows: Array, columns: NDArray[np.int64]) -> Array:
     return np.hstack([inputs, rows[:, len(columns) :]])
 
 
-def _noise(plan: Plan, total: int) -> Array:
+def sensor_noise(plan: Plan, total: int) -> Array:
     """Sensor noise (substeps, stations, 2): displacement (m) and force (N), from the seed of the plan."""
     scale = np.array([(station.noise.displacement, station.noise.force) for station in plan.stations]).reshape(-1, 2)
     noise: Array = np.zeros((total, len(scale), 2))

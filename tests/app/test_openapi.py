@@ -19,7 +19,7 @@ from app.openapi_examples import RECORDING, REQUESTS, RUN, SHA256
 from tests.app.conftest import plan, unpack_earlier
 from tests.engine import measurements
 
-WITH_ROWS = {"run_id": "runs", "recording_id": "recordings", "diagnosis_id": "diagnoses"}
+WITH_ROWS = {"run_id": "runs", "recording_id": "recordings", "diagnosis_id": "diagnoses", "sweep_id": "sweeps"}
 WRONG_BODIES: tuple[tuple[bytes, str], ...] = (
     (b"{", "application/json"),
     (b"\xff", "application/json"),

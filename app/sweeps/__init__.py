@@ -1,0 +1,1 @@
+"""Sweeps: preview, submit, list, cancel, resume and results."""

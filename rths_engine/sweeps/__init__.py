@@ -1,0 +1,1 @@
+"""Sweeps: many tests that differ in chosen fields of one plan, their execution, and the table of their measures."""
