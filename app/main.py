@@ -40,6 +40,8 @@ from app.plans.endpoints import router as plans
 from app.preflight.endpoints import router as preflight
 from app.preflight.process import DryRuns
 from app.publishing.endpoints import router as publishing
+from app.queue.endpoints import router as queue
+from app.rigs.endpoints import router as rigs
 from app.runs.endpoints import router as runs
 from app.stability.endpoints import router as stability
 from app.sweeps.endpoints import router as sweeps
@@ -69,6 +71,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     for router in (
         runs,
         sweeps,
+        queue,
+        rigs,
         motions,
         plans,
         preflight,

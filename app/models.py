@@ -8,6 +8,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.ext.associationproxy import AssociationProxy, association_proxy
 from sqlalchemy.orm import Mapped, mapped_column, relationship
+from sqlalchemy.orm.attributes import set_committed_value
 
 from app.db import Base, Tags
 from app.events.tables import Event as Event
@@ -74,6 +75,12 @@ class Run(Ordered, Job, Base):
         values.setdefault("test", values.get("plan", {}).get("test", "hybrid"))  # an earlier plan without it is hybrid
         super().__init__(**values)
 
+    def on(self, rig: Rig) -> Run:
+        """Plan this run for a rig."""
+        self.rig_id = rig.id
+        set_committed_value(self, "rig", rig)
+        return self
+
     @property
     def rig_name(self) -> str:
         return self.rig.name if self.rig else self.rig_id
@@ -82,8 +89,8 @@ class Run(Ordered, Job, Base):
 class Rig(Base):
     """A rig on which tests run. `tests_at_a_time` is null where any number of tests may run at once.
 
-    `actuators` holds the capacities of the actuators, one for each station in their order: `name`, `stroke_m`, `velocity_m_s`
-    and `force_N`.
+    `actuators` holds the capacities of the actuators, one for each station in their order: `name`, `stroke` (m), `velocity`
+    (m/s) and `force` (N); null where a capacity is not known.
     """
 
     __tablename__ = "rig"

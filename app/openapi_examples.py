@@ -12,7 +12,13 @@ TEMPLATE = "linear-damper"
 RUN = "6f1c2f0e-3d5b-4c7a-9a51-0c8f2f6f7d10"
 RECORDING = "b2a4f4c8-5a0e-4a43-8d0c-51b7a0f4a9e3"
 SHA256 = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08"
+WAITING = "1d4c7b52-8f0e-4a57-8d6b-2f3a9c5e7b64"
 BY = {"by": "Ana Ruiz"}
+RIG = {
+    "name": "Shaker",
+    "kind": "physical",
+    "actuators": [{"name": "North", "stroke": 0.25, "velocity": 0.5, "force": 1.0e6}],
+}
 MAPPING = {
     "schema": "rths-mapping/1",
     "test": "specimen",
@@ -58,6 +64,9 @@ FIELDS: dict[str, Any] = {
     "imported_by": "Ana Ruiz",
     "duration_s": 40.0,
     "level": 0.01,
+    "rig_id": "emulated",
+    "rig_name": "Emulated laboratory",
+    "kind": "emulated",
     "filename": "sine.csv",
     "mapping": MAPPING,
     "sweep": SWEEP,
@@ -66,7 +75,15 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/runs": lambda: {"plan": plan(), "submitted_by": "Ana Ruiz"},
     "POST /api/v1/runs/{run_id}/cancel": lambda: BY,
     "POST /api/v1/abort": lambda: BY,
+    "POST /api/v1/queue/hold": lambda: BY | {"reason": "oil leak"},
     "POST /api/v1/queue/release": lambda: BY,
+    "POST /api/v1/queue/order": lambda: {"runs": [WAITING], "to": "top"},
+    "POST /api/v1/queue/priority": lambda: {"runs": [WAITING], "priority": 1},
+    "POST /api/v1/queue/cancel": lambda: BY | {"runs": [RUN]},
+    "POST /api/v1/runs/{run_id}/undo-cancel": lambda: BY,
+    "POST /api/v1/runs/{run_id}/retry": lambda: BY,
+    "POST /api/v1/rigs": lambda: RIG,
+    "PUT /api/v1/rigs/{rig_id}": lambda: RIG,
     "POST /api/v1/plans/check": plan,
     "POST /api/v1/plans/preflight": lambda: {
         "plan": plan(),

@@ -31,6 +31,7 @@ class DurableQueue:
         self.client = DBOSClient(system_database_engine=engine, application_name=APPLICATION)
 
     def enqueue(self, session: Session, kind: Kind[Any, Any, Any], ids: Sequence[str]) -> None:
+        """Queue a turn for each id: the id of a job, or of a further turn of an ordered kind."""
         for job_id in ids:
             options: EnqueueOptions = {
                 "workflow_name": kind.workflow,

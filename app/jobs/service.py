@@ -5,7 +5,7 @@ from __future__ import annotations
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from typing import Any, Generic, Protocol
 
 from sqlalchemy.orm import Session
@@ -20,6 +20,7 @@ from app.jobs.states import State
 from app.problems import Conflict, NotFound
 
 MOST_ATTEMPTS = 3
+UNDO = timedelta(minutes=10)  # how long the cancel of a queued job can be undone
 NOBODY = "unnamed"
 
 
@@ -77,6 +78,24 @@ class JobService(Generic[Row, Result]):
             self._end(job, State.CANCELLED, f"Cancelled by {named(by)} before it started.")
         else:
             job.cancel_requested_by = named(by)
+        return job
+
+    def undo_cancel(self, job_id: str, by: str) -> Row:
+        """Put a job back at its place in the queue that was cancelled there. Raises Conflict for any other job."""
+        job = self.locked(job_id)
+        noun = self.kind.noun
+        if job.state is not State.CANCELLED:
+            raise Conflict(f"The {noun} is {job.state}, not cancelled. There is no cancel to undo.")
+        if job.started_at is not None:
+            raise Conflict(f"The {noun} was running when it was cancelled. Retry it instead.")
+        if job.finished_at is None or datetime.now(UTC) - job.finished_at > UNDO:
+            minutes = UNDO // timedelta(minutes=1)
+            raise Conflict(f"The cancel of the {noun} is more than {minutes} minutes old. Retry the {noun} instead.")
+        self._move(job, State.QUEUED)
+        job.reason, job.finished_at = None, None
+        self._tell(EventKind.REQUEUED, job, f"Back in the queue: {named(by)} undid the cancel.")
+        assert self.queue is not None
+        self.queue.enqueue(self.session, self.kind, [str(uuid.uuid4())])  # its first turn may have passed
         return job
 
     def cancel_running(self, by: str) -> list[Row]:

@@ -19,20 +19,20 @@ class State(StrEnum):
 
     @property
     def ended(self) -> bool:
-        return not TRANSITIONS[self]
+        return self not in {State.QUEUED, State.RUNNING}
 
     @staticmethod
     def values(kind: type[State]) -> list[str]:
         return [state.value for state in kind]
 
 
-# running -> queued: the worker of the job has died
+# running -> queued: the worker of the job has died; cancelled -> queued: the cancel of a job that had not started was undone
 TRANSITIONS: dict[State, frozenset[State]] = {
     State.QUEUED: frozenset({State.RUNNING, State.CANCELLED, State.FAILED}),
     State.RUNNING: frozenset({State.QUEUED, State.COMPLETED, State.TRIPPED, State.CANCELLED, State.FAILED}),
     State.COMPLETED: frozenset(),
     State.TRIPPED: frozenset(),
-    State.CANCELLED: frozenset(),
+    State.CANCELLED: frozenset({State.QUEUED}),
     State.FAILED: frozenset(),
 }
 

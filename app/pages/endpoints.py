@@ -16,6 +16,7 @@ from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
 from app.pages.run_list import LIMIT, RunFilter
 from app.plans.dependency import Plans
+from app.queue.dependency import Queued
 from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
 from rths_engine.foundation.errors import RthsError
@@ -27,15 +28,15 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/")
-def lab(request: Request, runs: Runs) -> HTMLResponse:
+def lab(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
     """The Lab page: the queue, the running tests and the recent runs."""
-    return page(request, "lab.html", **_lab(request, runs))
+    return page(request, "lab.html", **_lab(request, runs, queued))
 
 
 @router.get("/lab")
-def lab_now(request: Request, runs: Runs) -> HTMLResponse:
+def lab_now(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
     """The changing part of the Lab page."""
-    return page(request, "lab_now.html", **_lab(request, runs))
+    return page(request, "lab_now.html", **_lab(request, runs, queued))
 
 
 @router.get("/new")
@@ -76,13 +77,12 @@ def _progress(hub: Hub, run_id: str) -> dict[str, Any]:
     return (live.progress if live else None) or {}
 
 
-def _lab(request: Request, runs: Runs) -> dict[str, Any]:
+def _lab(request: Request, runs: Runs, queued: Queued) -> dict[str, Any]:
     oldest = Page(sort="number", descending=False, limit=QUEUED_SHOWN)
     running, _ = runs.listed(Filter(states=(State.RUNNING,)), oldest)
-    queued, queued_total = runs.listed(Filter(states=(State.QUEUED,)), oldest)
     ended = tuple(state for state in State if state.ended)
     recent, _ = runs.listed(Filter(states=ended), Page(sort="finished_at", limit=RECENT_SHOWN))
-    queue = runs.queue_state()
-    lists = {"running": running, "queued": queued, "queued_total": queued_total, "recent": recent}
+    queue = queued.state(QUEUED_SHOWN)
+    lists = {"running": running, "queued": queue.waiting, "queued_total": queue.queued, "recent": recent}
     live = {run.id: _progress(request.app.state.hub, run.id) for run in running}
     return {**lists, "live": live, "queue": queue, "worker_alive": queue.worker_alive}

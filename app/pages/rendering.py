@@ -68,12 +68,11 @@ def kind(test: str) -> str:
     return {"structure": "structure alone"}.get(test, test)
 
 
-def pace(plan: dict[str, Any]) -> str:
-    """The planned pace in words."""
-    planned = plan.get("pace", {})
-    if planned.get("kind") != "real_time":
+def pace(factor: float | None) -> str:
+    """The planned pace in words; None is a test without one."""
+    if factor is None:
         return "as fast as possible"
-    return "real time" if planned["factor"] == 1 else f"{planned['factor']:g} × real time"
+    return "real time" if factor == 1 else f"{factor:g} × real time"
 
 
 def listed_measures() -> list[Measure]:

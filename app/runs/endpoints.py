@@ -1,4 +1,4 @@
-"""REST endpoints of runs and the queue."""
+"""REST endpoints of runs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app.openapi import file, told
 from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, measures_text, recording_path
 from app.runs.repository import Filter, Page
-from app.runs.schemas import Person, QueueOut, RunDetail, RunList, RunOut, Submission, Submitted
+from app.runs.schemas import Person, RunDetail, RunList, RunOut, Submission, Submitted
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning import plan_yaml
 
@@ -65,9 +65,9 @@ def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
     if (body.plan is None) == (body.plans is None):
         raise PlanError(Issue("plan", "needs either one plan as 'plan' or a list of plans as 'plans'"))
     if body.plans is None:
-        stored = runs.submit([body.plan], body.submitted_by, prefix="", library=body.library)
+        stored = runs.submit([body.plan], body.submitted_by, "", body.library, body.rig, body.priority)
     else:
-        stored = runs.submit(body.plans, body.submitted_by, library=body.library)
+        stored = runs.submit(body.plans, body.submitted_by, library=body.library, rig=body.rig, priority=body.priority)
     return Submitted(runs=[RunOut.of(run) for run in stored])
 
 
@@ -88,6 +88,18 @@ def one(run_id: str, runs: Runs) -> RunDetail:
 def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
     """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored."""
     return RunOut.of(runs.cancel(run_id, person.by))
+
+
+@router.post("/runs/{run_id}/undo-cancel", responses=told(409))
+def undo_cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+    """Undo the cancel of a queued test within 10 minutes: it is back at its place in the queue."""
+    return RunOut.of(runs.undo_cancel(run_id, person.by))
+
+
+@router.post("/runs/{run_id}/retry", status_code=201, responses=told(409))
+def retry(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+    """Queue the plan of a run that has ended again, on the same rig. The new run names the first one in `retry_of`."""
+    return RunOut.of(runs.retry(run_id, person.by))
 
 
 @router.get("/runs/{run_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))
@@ -122,22 +134,3 @@ def plan_text(run_id: str, runs: Runs) -> PlainTextResponse:
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}.yaml"'}
     return PlainTextResponse(plan_yaml.write(runs.plan_of(run)), media_type="application/yaml", headers=headers)
-
-
-@router.post("/abort")
-def abort(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> dict[str, Any]:
-    """Hold the queue and stop every running test. This is not the laboratory's emergency stop."""
-    return {"held": True, "stopping": [run.id for run in runs.abort(person.by)]}
-
-
-@router.get("/queue")
-def queue(runs: Runs) -> QueueOut:
-    """The state of the queue: held or not, number of queued tests, running tests, and the last heartbeat of a worker."""
-    return runs.queue_state()
-
-
-@router.post("/queue/release")
-def release(runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
-    """Release the queue after a hold or an abort, so that queued tests start."""
-    runs.release(person.by)
-    return runs.queue_state()

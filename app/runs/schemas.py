@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from app.jobs.states import State
 from app.measures import fields
-from app.models import Run
+from app.models import EMULATED, Run
 from app.openapi import PLAN, PlanData
 from app.text import Storable
 from rths_engine.results.measure import FloorMeasure, RunMeasure, StationMeasure
@@ -33,6 +33,8 @@ class Submission(BaseModel):
     plans: list[Annotated[Any, PLAN]] | None = Field(None, max_length=500)
     submitted_by: Storable = Field("", max_length=80)
     library: FromLibrary | None = None
+    rig: Storable = Field(EMULATED, max_length=36, description="id of the rig; by default the emulated laboratory")
+    priority: int = Field(0, ge=-1, le=2, description="2 urgent, 1 high, 0 normal, -1 low")
 
 
 class Person(BaseModel):
@@ -80,6 +82,10 @@ class _Known(BaseModel):
     template: str | None
     library_id: str | None
     library_version: int | None
+    rig_id: str
+    rig_name: str
+    priority: int
+    retry_of: str | None = Field(description="id of the first run of this plan that was retried")
     submitted_by: str
     submitted_at: datetime
     started_at: datetime | None
@@ -133,16 +139,3 @@ class Submitted(BaseModel):
     """The runs that were queued."""
 
     runs: list[RunOut]
-
-
-class QueueOut(BaseModel):
-    """State of the queue and of the workers."""
-
-    held: bool
-    held_by: str | None
-    held_at: datetime | None
-    held_reason: str
-    queued: int
-    running: list[RunOut]
-    worker_seen_at: datetime | None
-    worker_alive: bool

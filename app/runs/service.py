@@ -1,4 +1,4 @@
-"""Rules of runs: submit, list, cancel, abort and release. No SQL, no HTTP."""
+"""Rules of runs: submit, list, cancel and retry. No SQL, no HTTP."""
 
 from __future__ import annotations
 
@@ -9,35 +9,38 @@ from typing import Any
 from sqlalchemy.orm import Session
 
 from app.checking import Checked, checked
-from app.jobs.hold import Hold
-from app.jobs.service import JobService, Queue, named
-from app.jobs.states import State
-from app.jobs.workers import Workers, alive
-from app.models import Run
+from app.jobs.service import JobService, Queue
+from app.models import EMULATED, Rig, Run
+from app.problems import Conflict
+from app.rigs.service import RigService
 from app.runs.job import RUNS
 from app.runs.order import Outcome
 from app.runs.repository import MEASURES, SORTS, Filter, Page, RunRepository
-from app.runs.schemas import FromLibrary, QueueOut, RunOut
+from app.runs.schemas import FromLibrary
 from rths_engine import __version__
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.plan import MOST_STATIONS, Plan
 from rths_engine.planning.reading import read_plan
 
-ABORTED = "running tests aborted"
-
 
 class RunService:
-    """Rules of runs: submit, list, cancel and abort. No SQL, no HTTP."""
+    """Rules of runs: submit, list, cancel and retry. No SQL, no HTTP."""
 
     def __init__(self, session: Session, motions: MotionLibrary, queue: Queue | None = None):
         self.runs = RunRepository(session)
         self.jobs: JobService[Run, Outcome] = JobService(session, RUNS, queue)
-        self.hold = Hold(session)
+        self.rigs = RigService(session)
         self.session, self.motions = session, motions
 
     def submit(
-        self, plans: Sequence[Any], submitted_by: str, prefix: str = "plans.{}", library: FromLibrary | None = None
+        self,
+        plans: Sequence[Any],
+        submitted_by: str,
+        prefix: str = "plans.{}",
+        library: FromLibrary | None = None,
+        rig: str = EMULATED,
+        priority: int = 0,
     ) -> list[Run]:
         """Check, store and queue all plans. Raises PlanError with every issue, and then stores nothing.
 
@@ -51,11 +54,14 @@ class RunService:
                 f"{library.id}, version {library.version}",
             )
             raise PlanError(Issue("library", "is not a version of a plan in the library", given, fix))
+        on = self.rigs.for_tests(rig)
         issues: list[Issue] = []
         runs: list[Run] = []
         for index, data in enumerate(plans):
             try:
-                runs.append(_run_of(checked(data, self.motions)))
+                found = checked(data, self.motions)
+                self.rigs.check(found.plan, on)
+                runs.append(_run_of(found, on, priority))
             except RthsError as error:
                 issues += [_under(prefix.format(index), issue) for issue in error.issues]
         if issues:
@@ -90,34 +96,28 @@ class RunService:
             near = difflib.get_close_matches(sort, names, 1)
             raise RthsError(Issue("sort", "is not a column to sort by", sort, f"try {near[0]}" if near else ", ".join(names)))
 
-    def queue_state(self) -> QueueOut:
-        state, seen = self.hold.state, Workers(self.session).last_beat()
-        return QueueOut(
-            held=state.held,
-            held_by=state.held_by,
-            held_at=state.held_at,
-            held_reason=state.held_reason,
-            queued=self.runs.count(State.QUEUED),
-            running=[RunOut.of(run) for run in self.runs.in_states(State.RUNNING)],
-            worker_seen_at=seen,
-            worker_alive=alive(seen),
-        )
-
     def cancel(self, run_id: str, by: str) -> Run:
         """Cancel a queued run now; ask the worker to stop a running run. Raises IllegalTransition for a run that has ended."""
         return self.jobs.cancel(run_id, by)
 
-    def abort(self, by: str) -> list[Run]:
-        """Hold the queue and stop every running test. A run that a worker is about to start ends too: the queue is held."""
-        self.hold.set(named(by), ABORTED)
-        return self.jobs.cancel_running(by)
+    def undo_cancel(self, run_id: str, by: str) -> Run:
+        """Put a run back at its place in the queue that was cancelled there. Raises Conflict for any other run."""
+        return self.jobs.undo_cancel(run_id, by)
 
-    def release(self, by: str) -> None:
-        self.hold.release(named(by))
+    def retry(self, run_id: str, by: str) -> Run:
+        """Queue the plan of a run that has ended again, on the same rig. Raises Conflict for a run that has not ended."""
+        first = self.get(run_id)
+        if not first.state.ended:
+            raise Conflict(f"Run {first.number} has not ended: it is {first.state}. Only a run that has ended can be retried.")
+        (run,) = self.submit([first.plan], by, prefix="plan", rig=first.rig_id, priority=first.priority)
+        run.name, run.retry_of = first.name, first.retry_of or first.id
+        run.library_id, run.library_version = first.library_id, first.library_version
+        return run
 
 
-def _run_of(checked: Checked) -> Run:
+def _run_of(checked: Checked, rig: Rig, priority: int) -> Run:
     plan = checked.plan
+    floors = len(checked.model.periods)
     return Run(
         name=plan.name,
         template=plan.template,
@@ -126,7 +126,11 @@ def _run_of(checked: Checked) -> Run:
         code_version=__version__,
         seed=plan.seed,
         duration_s=checked.duration_s,
-    )
+        priority=priority,
+        pace=plan.pace.factor if plan.pace.kind == "real_time" else None,
+        samples=checked.steps * plan.substeps,
+        size=f"{plan.test}, {floors} modes, {len(plan.stations)} stations",
+    ).on(rig)
 
 
 def _under(prefix: str, issue: Issue) -> Issue:

@@ -159,7 +159,7 @@ def test_a_result_is_stored_once_whatever_attempt_comes_late(bench: Bench) -> No
     bench.do("fail", 2, "too late")
     assert (bench.seen["state"], bench.seen["verdict"]) == ("completed", RESULT.verdict.as_dict())
     assert bench.seen["sentence"] == "The recording agrees with the plan's models up to noise."
-    assert bench.do("start", "third") is None
+    assert bench.do("start", "third").started is None
 
 
 def test_a_result_that_comes_after_its_cancel_is_not_kept(bench: Bench) -> None:
@@ -173,14 +173,14 @@ def test_a_result_that_comes_after_its_cancel_is_not_kept(bench: Bench) -> None:
 def test_a_diagnosis_cancelled_while_its_worker_was_dead_is_not_taken_up(bench: Bench) -> None:
     bench.do("start", "dead")
     bench.client.post(f"{URL}/{bench.diagnosis}/cancel", json={"by": "Bo"})
-    assert bench.do("start", "here") is None
+    assert bench.do("start", "here").started is None
     assert bench.seen["state"] == "cancelled" and "Bo" in bench.seen["reason"]
 
 
 def test_a_diagnosis_that_kills_its_workers_is_given_up(bench: Bench) -> None:
     for _ in range(MOST_ATTEMPTS):
-        assert bench.do("start", "doomed") is not None
-    assert bench.do("start", "wiser") is None
+        assert bench.do("start", "doomed").started is not None
+    assert bench.do("start", "wiser").started is None
     assert bench.seen["state"] == "failed" and f"died {MOST_ATTEMPTS} times" in bench.seen["reason"]
 
 

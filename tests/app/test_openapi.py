@@ -15,11 +15,17 @@ from jsonschema import Draft202012Validator
 
 from app.config import Settings
 from app.main import create_app
-from app.openapi_examples import RECORDING, REQUESTS, RUN, SHA256
+from app.openapi_examples import RECORDING, REQUESTS, RUN, SHA256, WAITING
 from tests.app.conftest import plan, unpack_earlier
 from tests.engine import measurements
 
-WITH_ROWS = {"run_id": "runs", "recording_id": "recordings", "diagnosis_id": "diagnoses", "sweep_id": "sweeps"}
+WITH_ROWS = {
+    "run_id": "runs",
+    "recording_id": "recordings",
+    "diagnosis_id": "diagnoses",
+    "sweep_id": "sweeps",
+    "rig_id": "rigs",
+}
 WRONG_BODIES: tuple[tuple[bytes, str], ...] = (
     (b"{", "application/json"),
     (b"\xff", "application/json"),
@@ -117,7 +123,8 @@ def test_the_examples_are_requests_that_are_taken(earlier: TestClient) -> None:
     """Those that name a row get one of this laboratory's."""
     run = next(one for one in earlier.get("/api/v1/runs").json()["runs"] if one["name"] == "Damper with play")
     recording = earlier.get("/api/v1/recordings").json()["recordings"][0]
-    real = {RUN: run["id"], RECORDING: recording["id"], SHA256: recording["raw_sha256"]}
+    waiting = earlier.get("/api/v1/queue").json()["waiting"][0]["id"]
+    real = {RUN: run["id"], WAITING: waiting, RECORDING: recording["id"], SHA256: recording["raw_sha256"]}
     for route in REQUESTS:
         method, path = route.split(" ")
         (content,) = operation(route)["requestBody"]["content"].items()

@@ -1,0 +1,64 @@
+"""REST endpoints of the queue of tests."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query
+
+from app.openapi import told
+from app.queue.dependency import Queued
+from app.queue.schemas import MOST_RUNS, Cancelled, CancelledOut, HoldIn, Move, NewPriority, QueueOut
+from app.runs.schemas import Person
+
+router = APIRouter(prefix="/api/v1", tags=["queue"])
+NOBODY = Person()
+
+
+@router.get("/queue")
+def queue(queued: Queued, limit: Annotated[int, Query(ge=1, le=MOST_RUNS)] = 200) -> QueueOut:
+    """The queue: held or not, running tests, and waiting tests in their order with reason, expected start and end."""
+    return queued.state(limit)
+
+
+@router.post("/queue/order", responses=told(404, 409))
+def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
+    """Move queued runs before or after another queued run, or to the top or the bottom of the queue.
+
+    They take the priority of their new neighbour, because higher priorities start first.
+    """
+    queued.move(move)
+    return queued.state()
+
+
+@router.post("/queue/priority", responses=told(404, 409))
+def priority(asked: Annotated[NewPriority, Body()], queued: Queued) -> QueueOut:
+    """Give queued runs a priority. Runs of a higher priority start first, whatever their position."""
+    queued.prioritise(asked.runs, asked.priority)
+    return queued.state()
+
+
+@router.post("/queue/cancel")
+def cancel(asked: Annotated[Cancelled, Body()], queued: Queued) -> CancelledOut:
+    """Cancel several queued or running runs. Runs that have ended are left as they are, each with its reason."""
+    return queued.cancel(asked.runs, asked.by)
+
+
+@router.post("/queue/hold")
+def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
+    """Hold the queue: queued tests do not start, running tests go on. The reason is shown until the release."""
+    queued.hold_it(asked.by, asked.reason)
+    return queued.state()
+
+
+@router.post("/queue/release")
+def release(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
+    """Release the queue after a hold or an abort, so that queued tests start."""
+    queued.release(person.by)
+    return queued.state()
+
+
+@router.post("/abort")
+def abort(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> dict[str, Any]:
+    """Hold the queue and stop every running test. This is not the laboratory's emergency stop."""
+    return {"held": True, "stopping": [run.id for run in queued.abort(person.by)]}

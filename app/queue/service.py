@@ -1,0 +1,92 @@
+"""Rules of the queue of tests: its order, hold, abort and release, and what people see of it. No SQL, no HTTP."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sqlalchemy.orm import Session
+
+from app.jobs.hold import Hold
+from app.jobs.service import JobService, named
+from app.models import Run
+from app.problems import Conflict
+from app.queue.outlook import outlook
+from app.queue.placing import moved
+from app.queue.repository import QueueRepository
+from app.queue.schemas import CancelledOut, Move, QueueOut, Refusal
+from app.runs.job import RUNS
+from app.runs.order import Outcome
+from rths_engine.foundation.errors import Issue, RthsError
+
+ABORTED = "running tests aborted"
+
+
+class QueueService:
+    """Rules of the queue of tests. No SQL, no HTTP."""
+
+    def __init__(self, session: Session):
+        self.session, self.rows, self.hold = session, QueueRepository(session), Hold(session)
+        self.jobs: JobService[Run, Outcome] = JobService(session, RUNS)
+
+    def state(self, limit: int = 200) -> QueueOut:
+        """The queue with its first `limit` waiting tests."""
+        return outlook(self.session, self.rows, self.hold.state, limit)
+
+    def move(self, asked: Move) -> None:
+        """Move queued runs as a block, in the order given. Raises Conflict for a run that does not wait any more."""
+        given = [name for name in ("before", "after", "to") if getattr(asked, name) is not None]
+        if len(given) != 1:
+            fix = "give one of 'before', 'after' and 'to'"
+            raise RthsError(Issue("", "needs one new place", ", ".join(given) or None, fix))
+        self.hold.locked()
+        line = self.rows.waiting()
+        runs = list(dict.fromkeys(asked.runs))
+        self._check_waiting(runs, {one.id for one in line})
+        others = [one for one in line if one.id not in set(runs)]
+        index = 0 if asked.to == "top" else len(others)
+        if anchor := asked.before or asked.after:
+            places = {one.id: place for place, one in enumerate(others)}
+            if anchor in runs:
+                raise RthsError(Issue(given[0], "needs a run that is not moved itself", anchor))
+            self._check_waiting([anchor], set(places))
+            index = places[anchor] + (asked.after is not None)
+        beside = others[max(0, index - 1 if asked.after or asked.to == "bottom" else index)] if others else line[0]
+        self.rows.place(moved(line, runs, index, beside.priority, self.rows.last_number()))
+
+    def prioritise(self, runs: Sequence[str], priority: int) -> None:
+        """Give queued runs a priority. Raises Conflict for a run that does not wait any more."""
+        self.hold.locked()
+        self._check_waiting(runs, {one.id for one in self.rows.waiting()})
+        self.rows.prioritise(runs, priority)
+
+    def cancel(self, runs: Sequence[str], by: str) -> CancelledOut:
+        """Cancel queued and running runs. Others are left as they are, each with its reason."""
+        cancelled, refused = [], []
+        for run in dict.fromkeys(runs):
+            job = self.jobs.rows.locked(run)
+            if job is None:
+                refused.append(Refusal(id=run, reason=f"There is no run {run}."))
+            elif job.state.ended:
+                refused.append(Refusal(id=run, reason=f"Run {job.number} has already ended: it is {job.state}."))
+            else:
+                self.jobs.cancel(run, by)
+                cancelled.append(run)
+        return CancelledOut(cancelled=cancelled, refused=refused)
+
+    def hold_it(self, by: str, reason: str) -> None:
+        """Hold the queue: no queued test starts; running tests go on."""
+        self.hold.set(named(by), reason.strip())
+
+    def release(self, by: str) -> None:
+        self.hold.release(named(by))
+
+    def abort(self, by: str) -> list[Run]:
+        """Hold the queue and stop every running test. A run that a worker is about to start stays in the queue."""
+        self.hold.set(named(by), ABORTED)
+        return self.jobs.cancel_running(by)
+
+    def _check_waiting(self, runs: Sequence[str], waiting: set[str]) -> None:
+        for run in runs:
+            if run not in waiting:
+                job = self.jobs.get(run)
+                raise Conflict(f"Run {job.number}, {job.name}, does not wait in the queue any more: it is {job.state}.")

@@ -1,0 +1,60 @@
+"""JSON forms of rigs."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.text import Storable
+from rths_engine.planning.plan import MOST_STATIONS
+
+
+class RigKind(StrEnum):
+    """An emulated rig is a model in this program; a physical rig exists once."""
+
+    EMULATED = "emulated"
+    PHYSICAL = "physical"
+
+
+class ActuatorCapacity(BaseModel):
+    """The capacities of one actuator; null where a capacity is not known, and then not checked."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    name: Storable = Field("", max_length=80)
+    stroke: float | None = Field(None, gt=0, le=10, description="largest displacement to either side, m")
+    velocity: float | None = Field(None, gt=0, le=10, description="largest velocity, m/s")
+    force: float | None = Field(None, gt=0, le=1e9, description="largest force, N")
+
+
+class RigIn(BaseModel):
+    """A rig as it is added or changed."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: Storable = Field(min_length=1, max_length=80)
+    kind: RigKind = RigKind.PHYSICAL
+    tests_at_a_time: int | None = Field(
+        None, ge=1, le=1000, description="number of tests at the same time; null: any number, or 1 on a physical rig"
+    )
+    actuators: list[ActuatorCapacity] = Field(
+        [], max_length=MOST_STATIONS, description="capacities of the actuators; station 1 of a plan moves the first"
+    )
+    retired: bool = Field(False, description="a retired rig takes no more tests")
+
+
+class RigOut(RigIn):
+    """A rig, and how many tests run on it and wait for it."""
+
+    model_config = ConfigDict(from_attributes=True)
+
+    id: str
+    running: int
+    queued: int
+
+
+class RigList(BaseModel):
+    """All rigs; the emulated laboratory of this program is the first."""
+
+    rigs: list[RigOut]
