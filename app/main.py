@@ -36,6 +36,7 @@ from app.pages.recordings import router as recordings_page
 from app.pages.settings import router as settings_page
 from app.pages.stability import router as stability_page
 from app.pages.table4 import router as table4_page
+from app.pages.wall import router as wall_page
 from app.plans.endpoints import router as plans
 from app.preflight.endpoints import router as preflight
 from app.preflight.process import DryRuns
@@ -99,6 +100,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(recordings_page)
     app.include_router(diagnoses_page)
     app.include_router(table4_page)
+    app.include_router(wall_page)
     app.include_router(settings_page)
     app.include_router(pages.router)
     app.add_middleware(Head)

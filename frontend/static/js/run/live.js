@@ -17,7 +17,7 @@ const FIRST_DELAY_MS = 300;
 const LONGEST_DELAY_MS = 8000;
 const REFUSED = 4400; // the service's own close codes start here: a new connection would get the same answer
 
-/** Follow the live feed of one run until its end, and reconnect when the connection is lost. @param {string} runId @param {Viewer} viewer */
+/** Follow the live feed of one run until its end or until it is closed, and reconnect when the connection is lost. @param {string} runId @param {Viewer} viewer */
 export function follow(runId, viewer) {
   let delay = FIRST_DELAY_MS;
   let ended = false;
@@ -25,6 +25,7 @@ export function follow(runId, viewer) {
   let socket;
 
   const connect = () => {
+    if (ended) return;
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     socket = new WebSocket(`${scheme}://${location.host}/api/v1/runs/${runId}/live?from=${viewer.received()}`);
     socket.binaryType = "arraybuffer";
@@ -56,4 +57,10 @@ export function follow(runId, viewer) {
   };
 
   connect();
+  return {
+    close() {
+      ended = true;
+      socket.close();
+    },
+  };
 }

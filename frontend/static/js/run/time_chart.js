@@ -90,11 +90,11 @@ export class TimeChart {
       {
         width: this.box.clientWidth,
         height: this.box.clientHeight,
-        padding: [6, 10, 0, 0],
+        padding: [Math.max(6, 0.55 * font), Math.max(10, font), 0, 0],
         legend: { show: false },
         scales: { x: { time: false, range: () => view.range() }, y: { range: (_, low, high) => this.#range(low, high) } },
         axes: [this.bare ? { ...below, values: () => [], ticks: { show: false } } : below, beside],
-        series: [{}, ...this.series.map((one) => ({ stroke: () => themed(one.colour), width: one.width ?? 1.25, dash: one.dash, points: { show: false } }))],
+        series: [{}, ...this.series.map((one) => ({ stroke: () => themed(one.colour), width: (one.width ?? 1.25) * Math.max(1, font / 12), dash: one.dash, points: { show: false } }))],
         cursor: {
           sync: { key: "time", setSeries: false },
           points: { show: false },
