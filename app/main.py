@@ -31,6 +31,7 @@ from app.measured.mapping_endpoints import router as mappings
 from app.motions.endpoints import router as motions
 from app.notifications.endpoints import router as notifications
 from app.pages.batches import router as batches_page
+from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
 from app.pages.recordings import router as recordings_page
 from app.pages.settings import router as settings_page
@@ -99,6 +100,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(batches_page)
     app.include_router(recordings_page)
     app.include_router(diagnoses_page)
+    app.include_router(compare_page)
     app.include_router(table4_page)
     app.include_router(wall_page)
     app.include_router(settings_page)

@@ -38,14 +38,16 @@ def signals(
     from_s: Seconds = None,
     to_s: Seconds = None,
     points: Annotated[int, Query(ge=10, le=4000)] = 800,
+    from_start: bool = False,
 ) -> Response:
     """The signals of one station and one floor of all items, decimated to their extremes, as binary data.
 
     The body has a uint32 length, a JSON head of that length and little-endian float32 values. The head lists the series in the
     order of their values: `item`, `role`, `form`, `start_s`, `step_s` and `count`. `form` is `envelope` (smallest and largest
-    value of at most `points` equal parts) or `samples` (every n-th sample, for loops).
+    value of at most `points` equal parts) or `samples` (every n-th sample, for loops). With `from_start`, the times of an
+    imported recording count from its first sample.
     """
-    body = comparisons.signals(items, Shown(station, floor, from_s, to_s, points))
+    body = comparisons.signals(items, Shown(station, floor, from_s, to_s, points, from_start))
     return Response(body, media_type="application/octet-stream")
 
 

@@ -15,6 +15,7 @@ from rths_engine.results.channels import CHANNELS, key
 OF_PLAN = ("motion", "forces", "start", "drive", "motion_physics")  # fields of a plan that excite the test
 SAME = 0.05  # RMS of the difference of two recorded excitations over that of the first: as in recordings.excitation.same
 MOVED = ("x_cmd", "x_meas")  # of a test without structure, in this order
+NAMED = 3  # items of the largest group that a sentence names
 MOST = 200_000  # samples of a signal whose frequency is looked for
 
 
@@ -30,7 +31,15 @@ def grouped(texts: Sequence[str], labels: Sequence[str], unit: str = "") -> str:
     found: dict[str, list[str]] = {}
     for text, label in zip(texts, labels, strict=True):
         found.setdefault(text, []).append(label)
+    most = max(found, key=lambda text: len(found[text]))
+    if len(found) > 1 and len(found[most]) > NAMED:
+        found[most] = [f"the other {len(found.pop(most))} items"]  # the largest group comes last
     return ", ".join(f"{text} {unit}".rstrip() + f" in {joined(some)}" for text, some in found.items())
+
+
+def lower(label: str) -> str:
+    """A label inside a sentence."""
+    return label[:1].lower() + label[1:]
 
 
 def joined(words: Sequence[str]) -> str:
@@ -51,7 +60,7 @@ def _pair(first: Item, second: Item) -> Iterator[str]:
         lacking = first if first.plan is None and _exciting(first) is None else second
         yield f"the excitation of {lacking.label} is not known, so it cannot be compared with that of {first.label}"
         return
-    what = CHANNELS[name.partition(".")[0]].label.lower()
+    what = lower(CHANNELS[name.partition(".")[0]].label)
     time, ours = _samples(first, name)
     other_time, theirs = _samples(second, name)
     common = (time >= other_time[0]) & (time <= other_time[-1]) if len(other_time) else np.zeros(len(time), bool)
@@ -87,8 +96,10 @@ def _samples(item: Item, name: str) -> tuple[Array, Array]:
 
 
 def _frequencies(first: Item, second: Item, name: str) -> str:
-    found = [short(_dominant(_samples(one, name)[1], one.recording.dt), 3) for one in (first, second)]
-    return f"its strongest frequency is {found[1]} Hz, that of {first.label} {found[0]} Hz"
+    ours, theirs = (short(_dominant(_samples(one, name)[1], one.recording.dt), 3) for one in (first, second))
+    if ours == theirs:
+        return f"the strongest frequency of both is {ours} Hz"
+    return f"its strongest frequency is {theirs} Hz, that of {first.label} {ours} Hz"
 
 
 def _dominant(values: Array, dt: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from app.compare.excitations import by_plan, by_signals, grouped, joined
+from app.compare.excitations import by_plan, by_signals, grouped, joined, lower
 from app.compare.items import Item
 from app.compare.schemas import NoteOut
 from app.reports.digits import short
@@ -60,7 +60,7 @@ def _channels(items: Sequence[Item]) -> Iterator[NoteOut]:
         for name in sorted((name for name in known if name.partition(".")[0] == role), key=_number):
             without = tuple(one.label for one in items if not one.recording.has(name) and _could_have(one, name))
             if without:
-                lacking.setdefault(without, []).append(f"{CHANNELS[role].label.lower()} ({name})")
+                lacking.setdefault(without, []).append(f"{lower(CHANNELS[role].label)} ({name})")
     for without, channels in lacking.items():
         verb = "have" if len(without) > 1 else "has"
         yield NoteOut(about="channels", sentence=f"{joined(without)} {verb} no {', no '.join(channels)}.")
