@@ -32,6 +32,8 @@ CONTENT = {
     "/recordings": "tbody tr",
     "/recordings/{recording}": "#plots canvas",
     "/recordings/batches/{batch}": "tbody tr",
+    "/compare": "#choose tbody tr",
+    "/compare?items=run:{run},recording:{recording}": ".compared tbody tr",
     "/diagnoses": "tbody tr",
     "/diagnoses/{diagnosis}": "#detail-1 + .panels figure:last-child svg.main-svg",
 }

@@ -27,6 +27,7 @@ export function actions(run) {
     link(`${address}/plan.yaml`, "Plan, YAML", true),
     ...(driven ? [] : [link(`/stability/${run.id}`, "Stability")]),
     ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run")] : []),
+    ...(run.recording ? [link(`/compare/previous/${run.id}`, "Compare with the previous run"), link(`/compare?items=run:${run.id}`, "Compare with other runs")] : []),
     link(`/new?from=${run.id}`, "Edit and run again"),
   ];
 }
