@@ -29,7 +29,7 @@ def compare() -> dict[str, Any]:
     """Seconds of each request, of the page until it is drawn, and processor seconds of the service for all signals."""
     with tempfile.TemporaryDirectory(prefix="rths-bench-") as folder, running(Path(folder)) as service:
         service.warm_up()
-        plan = service.plan("table3-04", duration=40.0)
+        plan = service.plan("two-storeys", duration=40.0)
         ids = [run["id"] for run in service.post("/runs", {"plans": [{**plan, "seed": k} for k in range(RUNS)]})["runs"]]
         for run in ids:
             service.wait(run, "completed", within_s=300)

@@ -41,9 +41,9 @@ def fast(service: Service) -> str:
 @pytest.fixture(scope="module")
 def hybrids(service: Service) -> list[str]:
     limits = {"displacement": 0.2, "velocity": 0.45, "force": 1e6}
-    plan = service.plan("table3-04", duration=1.0)
+    plan = service.plan("two-storeys", duration=1.0)
     second = {**plan, "stations": [plan["stations"][0], {**plan["stations"][1], "limits": limits}]}
-    return [f"run:{service.completed(duration=1.0)}", done(service, second)]
+    return [done(service, plan), done(service, second)]
 
 
 @pytest.fixture(scope="module")
