@@ -13,6 +13,7 @@ from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
 from app import db, openapi, pages, problems
+from app.annotations.endpoints import router as run_annotations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
@@ -91,6 +92,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         live,
     ):
         app.include_router(router, max_body_size=configured.upload_limit)
+    app.include_router(run_annotations, max_body_size=configured.upload_limit)
     app.include_router(publishing, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)

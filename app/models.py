@@ -182,6 +182,23 @@ _add_columns(Run, FloorMeasure, sa.JSON)
 _add_columns(Run, RunMeasure, sa.Double)
 
 
+class Annotation(Base):
+    """A note of a person at a time of a run, or over a span, on one station or (null) on the whole test."""
+
+    __tablename__ = "annotation"
+
+    row: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    run_number: Mapped[int] = mapped_column(sa.ForeignKey("run.number", ondelete="CASCADE"), index=True)
+    from_s: Mapped[float] = mapped_column(sa.Double)
+    to_s: Mapped[float | None] = mapped_column(sa.Double)
+    station: Mapped[int | None]
+    text: Mapped[str] = mapped_column(sa.Text)
+    by: Mapped[str] = mapped_column(sa.String(80))
+    created_at: Mapped[datetime]
+    edited_at: Mapped[datetime | None]
+
+
 class RawFile(Base):
     """An uploaded file of measurements, stored unchanged under its checksum."""
 

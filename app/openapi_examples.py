@@ -38,6 +38,7 @@ SWEEP = {
         {"path": "structure.damping_ratio", "values": [1, 2, 5], "unit": "%"},
     ],
 }
+ANNOTATION = {"from_s": 5.79, "station": 1, "text": "The command saturates for two cycles", "by": "Ana Ruiz"}
 DRIVE = {"drive": {"amplitude": 0.02, "shape": {"kind": "sine", "frequency": 0.5}}, "controller_rate": 1024.0}
 
 
@@ -112,6 +113,8 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/mappings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Damper rig", "saved_by": "Ana Ruiz"},
     "PATCH /api/v1/mappings/{mapping_id}": lambda: {"name": "Damper rig, 100 kN"},
     "POST /api/v1/recordings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Sine test", "imported_by": "Ana Ruiz"},
+    "POST /api/v1/runs/{run_id}/annotations": lambda: ANNOTATION,
+    "PUT /api/v1/runs/{run_id}/annotations/{annotation_id}": lambda: ANNOTATION,
     "PUT /api/v1/laboratory": lambda: {
         "name": "Structures Laboratory",
         "address": "12 Harbour Road, Wellington",

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from fastapi import Depends
 
+from app.annotations.dependency import Annotations
 from app.dependencies import Configured
 from app.diagnoses.dependency import Diagnoses
 from app.laboratory.dependency import OneLaboratory
@@ -13,9 +14,11 @@ from app.publishing.service import Publishing
 from app.runs.dependency import Runs
 
 
-def publishing(runs: Runs, diagnoses: Diagnoses, laboratory: OneLaboratory, configured: Configured) -> Publishing:
+def publishing(
+    runs: Runs, annotations: Annotations, diagnoses: Diagnoses, laboratory: OneLaboratory, configured: Configured
+) -> Publishing:
     """The service of reports in the session of the request."""
-    return Publishing(runs, diagnoses, laboratory, configured)
+    return Publishing(runs, annotations, diagnoses, laboratory, configured)
 
 
 Reports = Annotated[Publishing, Depends(publishing)]

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from app.annotations.schemas import AnnotationOut
+from app.annotations.service import AnnotationService
 from app.config import Settings
 from app.diagnoses.exports import facts
 from app.diagnoses.service import DiagnosisService
 from app.laboratory.service import Laboratory
 from app.reports import diagnosis, of_run
 from app.reports.document import Document, Letterhead
-from app.reports.of_run import Surroundings
+from app.reports.of_run import Annotation, Surroundings
 from app.runs.exports import recording_path
 from app.runs.schemas import RunDetail
 from app.runs.service import RunService
@@ -22,6 +24,7 @@ class Publishing:
     """Makes the reports of runs and diagnoses."""
 
     runs: RunService
+    annotations: AnnotationService
     diagnoses: DiagnosisService
     laboratory: Laboratory
     settings: Settings
@@ -30,8 +33,10 @@ class Publishing:
         """The report of a run. Raises NotFound, or Conflict while there is no recording."""
         run = self.runs.get(run_id)
         recording = load(recording_path(run, self.settings))
-        around = Surroundings(letterhead(self.laboratory), self.laboratory.identity.signatures)
-        return of_run.document(RunDetail.of(run).model_dump(mode="json"), recording, self.runs.motions, around)
+        noted = [_annotation(one) for one in self.annotations.listed(run_id).annotations]
+        around = Surroundings(letterhead(self.laboratory), self.laboratory.identity.signatures, noted)
+        said = {**RunDetail.of(run).model_dump(mode="json"), "rig": run.rig_name, "notes": run.notes, "tags": run.tags}
+        return of_run.document(said, recording, self.runs.motions, around)
 
     def of_diagnosis(self, diagnosis_id: str) -> Document:
         """The report of a diagnosis. Raises NotFound, or Conflict where it has no result."""
@@ -39,6 +44,11 @@ class Publishing:
         rows = [*facts(found), ("Identifier", found.id)]
         signatures = self.laboratory.identity.signatures
         return diagnosis.document(found.name, rows, verdict, pictures, found.plan, letterhead(self.laboratory), signatures)
+
+
+def _annotation(one: AnnotationOut) -> Annotation:
+    written = (one.edited_at or one.created_at).isoformat()
+    return Annotation(one.from_s, one.to_s, one.station, one.text, one.by, written)
 
 
 def letterhead(laboratory: Laboratory) -> Letterhead:
