@@ -1,0 +1,1 @@
+"""The control room for real-time hybrid simulation, from Python: `rths.client`."""
