@@ -45,7 +45,11 @@ from app.preflight.process import DryRuns
 from app.publishing.endpoints import router as publishing
 from app.queue.endpoints import router as queue
 from app.rigs.endpoints import router as rigs
+from app.runs.edit_endpoints import router as run_edits
+from app.runs.editing import RunEditing
 from app.runs.endpoints import router as runs
+from app.runs.table_endpoints import router as run_table
+from app.runs.view_endpoints import router as run_views
 from app.stability.endpoints import router as stability
 from app.sweeps.endpoints import router as sweeps
 from app.table4.endpoints import router as table4
@@ -72,6 +76,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     problems.install(app)
     openapi.install(app)
     for router in (
+        run_table,
+        run_views,
+        run_edits,
         runs,
         sweeps,
         queue,
@@ -121,6 +128,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.sessions = db.sessions(engine)
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(app.state.queue.purge)
+    await asyncio.to_thread(_purge, app)
     worker = EmbeddedWorker(settings) if settings.embedded_worker else None
     if worker:
         worker.start()
@@ -132,6 +140,12 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.to_thread(app.state.dry_runs.close)
         app.state.queue.close()
         engine.dispose()
+
+
+def _purge(app: FastAPI) -> None:
+    """Remove the runs whose time to be restored is over."""
+    with db.unit_of_work(app.state.sessions) as session:
+        RunEditing(session).purge(app.state.settings.recordings)
 
 
 def _docs() -> HTMLResponse:

@@ -75,6 +75,9 @@ FIELDS: dict[str, Any] = {
 REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/runs": lambda: {"plan": plan(), "submitted_by": "Ana Ruiz"},
     "POST /api/v1/runs/{run_id}/cancel": lambda: BY,
+    "PATCH /api/v1/runs/{run_id}": lambda: {"name": "Brace, second calibration", "tags": ["calibration"], "notes": "New oil."},
+    "POST /api/v1/runs/bulk": lambda: {"action": "tag", "runs": [RUN], "tags": ["calibration"]},
+    "POST /api/v1/runs/views": lambda: {"name": "Calibrations", "query": "where=tag%3Dcalibration", "by": "Ana Ruiz"},
     "POST /api/v1/abort": lambda: BY,
     "POST /api/v1/queue/hold": lambda: BY | {"reason": "oil leak"},
     "POST /api/v1/queue/release": lambda: BY,

@@ -14,13 +14,14 @@ _UNSTORABLE = re.compile("[\x00\ud800-\udfff]")
 _PROBLEM = "has a character that can't be stored (NUL or half of a surrogate pair)"
 
 
-def _storable(text: str) -> str:
+def storable(text: str) -> str:
+    """The text. Raises ValueError where it has a character that cannot be stored."""
     if _UNSTORABLE.search(text):
         raise ValueError(_PROBLEM)
     return text
 
 
-Storable = Annotated[str, AfterValidator(_storable)]
+Storable = Annotated[str, AfterValidator(storable)]
 
 
 def cleaned(data: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -12,23 +13,13 @@ from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.models import LibraryPlan, PlanVersion, Run, RunStation
 from app.runs import values
-from rths_engine.results.measure import RunMeasure, StationMeasure
-from rths_engine.results.measures import of
+from app.runs.columns import known
+from app.runs.conditions import contains
+from app.runs.query import Order, RunQuery
+from app.runs.shelves import Shelf, on_shelf, searched
+from rths_engine.planning.plan import MOST_STATIONS
 
 assert values  # the import makes values follow from runs
-SORTS = {
-    "number": Run.number,
-    "name": Run.name,
-    "state": Run.state,
-    "submitted_by": Run.submitted_by,
-    "submitted_at": Run.submitted_at,
-    "finished_at": Run.finished_at,
-    "elapsed_s": Run.elapsed_s,
-    "simulated_s": Run.simulated_s,
-    "template": Run.template,
-    **{one.key: getattr(Run, one.key) for one in of(RunMeasure)},
-}
-MEASURES = tuple(one.key for one in of(StationMeasure))
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +32,7 @@ class Filter:
     template: str = ""
     since: datetime | None = None
     until: datetime | None = None
+    shelf: Shelf = Shelf.SHOWN
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +52,12 @@ class RunRepository(JobRepository[Run]):
         super().__init__(session, Run)
 
     def listed(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
-        query = self._filtered(wanted)
-        total = self.session.scalar(sa.select(sa.func.count()).select_from(query.subquery())) or 0
-        column, _, station = page.sort.partition(":")
-        order = self._measure(column, int(station)) if station else SORTS[column]
-        ordered = (order.desc() if page.descending else order.asc()).nulls_last()
-        query = query.order_by(ordered, Run.number.desc())
-        return list(self.session.scalars(query.limit(page.limit).offset(page.offset))), total
+        """The runs of a page, and the number of all runs that the filter keeps. Raises RthsError for an unknown column."""
+        query = RunQuery(self.session, on_shelf(wanted.shelf), self._conditions(wanted))
+        column = known(page.sort, "sort", (), self.most_stations() or MOST_STATIONS)
+        found = query.page(Order(column, page.descending), page.limit, page.offset)
+        runs = {run.number: run for run in self.session.scalars(sa.select(Run).where(Run.number.in_(found.numbers)))}
+        return [runs[number] for number in found.numbers], found.total if found.exact else query.count()
 
     def most_stations(self) -> int:
         """Largest station number of all runs with measures; 0 before the first test has ended."""
@@ -81,28 +72,16 @@ class RunRepository(JobRepository[Run]):
         query = sa.select(PlanVersion.number).join(LibraryPlan, LibraryPlan.number == PlanVersion.plan_number)
         return self.session.scalar(query.where(LibraryPlan.id == library_id, PlanVersion.number == version)) is not None
 
-    def _filtered(self, wanted: Filter) -> sa.Select[Run]:
-        query = sa.select(Run).where(Run.archived.is_(False), Run.deleted_at.is_(None))
-        if wanted.states:
-            query = query.where(Run.state.in_(wanted.states))
-        if wanted.text:
-            like = f"%{_escaped(wanted.text)}%"
-            query = query.where(Run.name.ilike(like, escape="\\") | Run.id.ilike(like, escape="\\"))
-        if wanted.submitted_by:
-            query = query.where(Run.submitted_by.ilike(f"%{_escaped(wanted.submitted_by)}%", escape="\\"))
-        if wanted.template:
-            query = query.where(Run.template == wanted.template)
-        if wanted.since:
-            query = query.where(Run.submitted_at >= wanted.since)
-        if wanted.until:
-            query = query.where(Run.submitted_at < wanted.until)
-        return query
-
     @staticmethod
-    def _measure(name: str, station: int) -> sa.ScalarSelect[float]:
-        column = getattr(RunStation, name)
-        return sa.select(column).where(RunStation.run_number == Run.number, RunStation.number == station).scalar_subquery()
-
-
-def _escaped(text: str) -> str:
-    return text.replace("\\", "\\\\").replace("%", "\\%").replace("_", "\\_")
+    def _conditions(wanted: Filter) -> Iterator[sa.ColumnElement[bool]]:
+        yield from searched(wanted.text)
+        if wanted.states:
+            yield Run.state.in_(wanted.states)
+        if wanted.submitted_by:
+            yield contains(Run.submitted_by, wanted.submitted_by)
+        if wanted.template:
+            yield Run.template == wanted.template
+        if wanted.since:
+            yield Run.submitted_at >= wanted.since
+        if wanted.until:
+            yield Run.submitted_at < wanted.until

@@ -99,6 +99,10 @@ class _Known(BaseModel):
     simulated_s: float | None
     duration_s: float
     stations: list[StationOut]
+    tags: list[str]
+    notes: str
+    archived: bool
+    deleted_at: datetime | None
 
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,12 +14,12 @@ from app.problems import Conflict
 from app.rigs.service import RigService
 from app.runs.job import RUNS
 from app.runs.order import Outcome
-from app.runs.repository import MEASURES, SORTS, Filter, Page, RunRepository
+from app.runs.repository import Filter, Page, RunRepository
 from app.runs.schemas import FromLibrary
 from rths_engine import __version__
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
-from rths_engine.planning.plan import MOST_STATIONS, Plan
+from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 
 
@@ -80,21 +79,7 @@ class RunService:
         return read_plan(run.plan)
 
     def listed(self, wanted: Filter, page: Page) -> tuple[list[Run], int]:
-        self._check_sort(page.sort)
         return self.runs.listed(wanted, page)
-
-    def _check_sort(self, sort: str) -> None:
-        """Raise RthsError for a column that does not exist, and for a station that no stored run has."""
-        column, colon, station = sort.partition(":")
-        if colon and column in MEASURES:
-            most = self.runs.most_stations() or MOST_STATIONS
-            if not (station.isascii() and station.isdecimal() and 1 <= int(station[:9]) <= most):
-                problem = f"needs a station number from 1 to {most} after the colon; no stored run has more stations"
-                raise RthsError(Issue("sort", problem, sort, f"try {column}:1"))
-        elif sort not in SORTS:
-            names = [*SORTS, *(f"{name}:STATION" for name in MEASURES)]
-            near = difflib.get_close_matches(sort, names, 1)
-            raise RthsError(Issue("sort", "is not a column to sort by", sort, f"try {near[0]}" if near else ", ".join(names)))
 
     def cancel(self, run_id: str, by: str) -> Run:
         """Cancel a queued run now; ask the worker to stop a running run. Raises IllegalTransition for a run that has ended."""
