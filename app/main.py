@@ -34,6 +34,7 @@ from app.notifications.endpoints import router as notifications
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
+from app.pages.plans import router as plans_page
 from app.pages.recordings import router as recordings_page
 from app.pages.settings import router as settings_page
 from app.pages.stability import router as stability_page
@@ -108,6 +109,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(stability_page)
     app.include_router(batches_page)
     app.include_router(recordings_page)
+    app.include_router(plans_page)
     app.include_router(diagnoses_page)
     app.include_router(compare_page)
     app.include_router(table4_page)

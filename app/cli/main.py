@@ -167,9 +167,41 @@ def parser() -> argparse.ArgumentParser:
     worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
 
     _data(_command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema"))
+    _library(commands)
     _data(_command(commands, "motions", "app.cli.plans:motions", "list the ground-motion records"))
     _command(commands, "version", "app.cli.plans:version", "print the version")
     return top
+
+
+def _library(commands: Commands) -> None:
+    top = commands.add_parser("library", help="list, show, save and compare plans in the library of a data folder")
+    actions = top.add_subparsers(dest="action", metavar="ACTION", required=True)
+
+    listed = _command(actions, "list", "app.cli.library:listed", "list the plans in the library")
+    listed.add_argument("text", nargs="?", default="", metavar="TEXT", help="only plans with this text in name, tag or comment")
+    listed.add_argument("--tag", default="", metavar="TAG", help="only plans with this tag")
+    listed.add_argument("--archived", action="store_true", help="list the archived plans instead")
+
+    show = _command(actions, "show", "app.cli.library:show", "print a version of a plan as YAML")
+    show.add_argument("plan", metavar="PLAN[@VERSION]", help="name in the library; without a version, the newest")
+    show.add_argument("--history", action="store_true", help="print number, time, author and comment of every version instead")
+
+    save = _command(
+        actions, "save", "app.cli.library:save", "save a plan to the library, as a new plan or as the next version of a plan"
+    )
+    save.add_argument("plan", metavar="PLAN.yaml", help="file with the plan; - reads standard input")
+    save.add_argument("--name", metavar="NAME", help="name in the library (default: the name in the plan)")
+    save.add_argument("--comment", default="", metavar="TEXT", help="what changed in this version")
+    save.add_argument("--tag", action="append", default=[], metavar="TAG", help="tag of a new plan; can be repeated")
+    save.add_argument("--by", metavar="PERSON", help="author (default: the user of this computer)")
+
+    diff = _command(
+        actions, "diff", "app.cli.library:diff", "compare two plans field by field; the exit code is 1 where they differ"
+    )
+    for name in ("first", "second"):
+        diff.add_argument(name, metavar=f"{name.upper()}", help="PLAN, PLAN@VERSION or a YAML file")
+    for command in (listed, show, save, diff):
+        _data(command)
 
 
 def _command(commands: Commands, name: str, function: str, about: str) -> argparse.ArgumentParser:

@@ -40,7 +40,7 @@ def model_of_plan(path: str) -> Model:
 
 def model_at(path: str) -> Model:
     """The model of the plan in a YAML file; - is standard input. Raises PlanError with every issue."""
-    return model_from_yaml(_text(path))
+    return model_from_yaml(text_of(path))
 
 
 def _beside(model: Model, path: str) -> Model:
@@ -62,7 +62,7 @@ def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> N
         raise RthsError(Issue(option, f"the folder {folder.resolve()} can't be written to", str(out), "choose another folder"))
 
 
-def _text(path: str) -> str:
+def text_of(path: str) -> str:
     """The text of a plan, at most one character more than a plan may have."""
     try:
         with nullcontext(sys.stdin) if path == STANDARD_INPUT else Path(path).open(encoding="utf-8") as file:

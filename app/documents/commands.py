@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 
 from app.cli.main import parser
 from app.documents.markdown import code, table
@@ -10,22 +11,27 @@ from app.documents.markdown import code, table
 
 def commands() -> str:
     """Every command, in one line each."""
-    return table(["command", "does"], [(code(_usage(one)), str(one.description)) for one in _subparsers().choices.values()])
+    return table(["command", "does"], [(code(_usage(one)), str(one.description)) for _, one in _all(parser())])
 
 
 def options() -> str:
     """Every option and argument of every command."""
     parts = []
-    for name, command in _subparsers().choices.items():
+    for name, command in _all(parser()):
         rows = [(code(_written(one)), _help(one)) for one in command._actions if one.dest != "help"]
-        text = f"### rths {name}\n\n{command.description}\n\n`{_usage(command)}`"
+        text = f"### rths{name}\n\n{command.description}\n\n`{_usage(command)}`"
         parts.append(f"{text}\n\n{table(['option', 'meaning'], rows)}" if rows else text)
     return "\n\n".join(parts)
 
 
-def _subparsers() -> argparse._SubParsersAction[argparse.ArgumentParser]:
-    (found,) = (one for one in parser()._actions if isinstance(one, argparse._SubParsersAction))
-    return found
+def _all(top: argparse.ArgumentParser, name: str = "") -> Iterator[tuple[str, argparse.ArgumentParser]]:
+    """Every command below `top` that is no group of commands, with the name that follows `rths`."""
+    for action in top._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for own, command in action.choices.items():
+                yield from _all(command, f"{name} {own}")
+            return
+    yield name, top
 
 
 def _usage(command: argparse.ArgumentParser) -> str:

@@ -22,8 +22,9 @@ FORMS = "version:ID:NUMBER, run:ID, draft:ID or template:NAME"
 
 @dataclass(frozen=True, slots=True)
 class _Item:
-    """A plan to compare: what it is called, the page that shows it, and the plan."""
+    """A plan to compare: what it is called, in short and in full, the page that shows it, and the plan."""
 
+    label: str
     title: str
     page: str
     plan: Mapping[str, Any]
@@ -38,9 +39,10 @@ class ComparisonService:
     def differences(self, first: str, second: str) -> DifferencesOut:
         """The fields in which two plans differ. Raises RthsError for an item that is not of FORMS, and NotFound."""
         items = [self._item("first", first), self._item("second", second)]
-        found = [one for one in differences([one.plan for one in items]) if not _only_unchecked(one)]
-        rows = [DifferenceOut.model_validate(one) for one in found]
-        return DifferencesOut(items=[ComparedOut(title=one.title, page=one.page) for one in items], differences=rows)
+        rows = [DifferenceOut.model_validate(one) for one in between(items[0].plan, items[1].plan)]
+        return DifferencesOut(
+            items=[ComparedOut(label=one.label, title=one.title, page=one.page) for one in items], differences=rows
+        )
 
     def _item(self, where: str, text: str) -> _Item:
         kind, _, rest = text.partition(":")
@@ -57,26 +59,26 @@ class ComparisonService:
         version = self.rows.version(plan, int(number)) if plan else None
         if plan is None or version is None:
             raise NotFound(f"The library has no version {number} of a plan {plan_id}.")
-        return _Item(f"{plan.name}, version {number}", f"/plans/{plan_id}", version.plan)
+        return _Item(f"Version {number}", f"{plan.name}, version {number}", f"/plans/{plan_id}", version.plan)
 
     def _run(self, _: str, run_id: str) -> _Item:
         run = self.rows.run(run_id)
         if run is None:
             raise NotFound(f"There is no run {run_id}.")
-        return _Item(f"Run {run.number}: {run.name}", f"/runs/{run_id}", run.plan)
+        return _Item(f"Run {run.number}", f"Run {run.number}: {run.name}", f"/runs/{run_id}", run.plan)
 
     def _draft(self, _: str, draft_id: str) -> _Item:
         draft = self.drafts.get(draft_id)
         if draft is None:
             raise NotFound(f"There is no draft {draft_id}.")
-        return _Item(f"Draft {draft.name}".rstrip(), f"/new?draft={draft_id}", draft.plan)
+        return _Item("Draft", f"Draft {draft.name}".rstrip(), f"/new?draft={draft_id}", draft.plan)
 
     def _template(self, _: str, name: str) -> _Item:
         if name not in templates.names():
             raise NotFound(f"There is no template '{name}'. Templates: {', '.join(templates.names())}.")
-        return _Item(f"Template {name}", f"/new?template={name}", templates.template(name).as_dict())
+        return _Item(f"Template {name}", f"Template {name}", f"/new?template={name}", templates.template(name).as_dict())
 
 
-def _only_unchecked(one: FieldDifference) -> bool:
-    """Whether one plan has the checksum of its record and the other, which was not checked yet, has none."""
-    return one.path == CHECKSUM and None in one.values
+def between(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[FieldDifference]:
+    """The fields in which two plans differ. A checksum that only one has is none: the other was not checked yet."""
+    return [one for one in differences([first, second]) if one.path != CHECKSUM or None not in one.values]

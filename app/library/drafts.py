@@ -20,6 +20,7 @@ from app.problems import Conflict, NotFound
 from app.text import refuse_unstorable
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.differences import titles
 from rths_engine.planning.plan_yaml import DEEPEST
 
 MOST_PROBLEMS = 20  # kept with a draft
@@ -104,7 +105,7 @@ class DraftService:
             "plan": plan,
             "owner": named(owner),
             "name": name.strip()[:200] if isinstance(name, str) else "",
-            "problems": [issue.as_dict() for issue in self._problems(plan)[:MOST_PROBLEMS]],
+            "problems": [_worded(issue, plan) for issue in self._problems(plan)[:MOST_PROBLEMS]],
         }
 
     def _problems(self, plan: dict[str, Any]) -> tuple[Issue, ...]:
@@ -121,6 +122,15 @@ class DraftService:
             ids = {draft.origin_id for draft in drafts if draft.origin_kind == kind and draft.origin_id}
             names |= {(kind, one): name for one, name in self.rows.names(kind, ids).items()}
         return [_out(draft, names) for draft in drafts]
+
+
+def _worded(issue: Issue, plan: dict[str, Any]) -> dict[str, Any]:
+    """The issue with the label and the unit of its field, or of the nearest field around it."""
+    known, path = titles(plan), issue.where
+    while path and path not in known:
+        path = path.rpartition(".")[0]
+    title, unit = known.get(path, (issue.where, ""))
+    return {**issue.as_dict(), "title": title, "unit": unit if path == issue.where else ""}
 
 
 def _conflict(draft: PlanDraft, revision: int) -> Conflict:

@@ -187,6 +187,13 @@ class Closing(_Asked):
     closed_as: Literal["discarded", "queued"] = "discarded"
 
 
+class DraftProblem(Issue):
+    """Something in a draft that is not valid, with the label of its field, and the unit of the value and the bound."""
+
+    title: str
+    unit: str
+
+
 class DraftOut(_Stored):
     """A draft without its plan. `problems` says what is not valid (the first 20 problems)."""
 
@@ -195,7 +202,7 @@ class DraftOut(_Stored):
     name: str = Field(description="the name in the plan, where it has one")
     revision: int
     writer: str
-    problems: list[Issue]
+    problems: list[DraftProblem]
     origin: Origin | None
     origin_title: str = Field("", description="what the draft started from, in words")
     created_at: datetime
@@ -217,8 +224,9 @@ class DraftList(BaseModel):
 
 
 class ComparedOut(BaseModel):
-    """One of the compared plans: what it is called, and the page that shows it."""
+    """One of the compared plans: what it is called, in short and in full, and the page that shows it."""
 
+    label: str
     title: str
     page: str
 

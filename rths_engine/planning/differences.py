@@ -38,7 +38,7 @@ class FieldDifference:
     @property
     def title(self) -> str:
         """The label with the names of the parts around it."""
-        return f"{self.within}: {self.label}" if self.within else self.label
+        return _titled(self.within, self.label)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +60,18 @@ def differences(plans: Sequence[Mapping[str, Any]], leave_out: Sequence[str] = (
     """
     found = [dict(_of_model(plan, Plan, "", "", "", plan.get("test", "hybrid"), leave_out)) for plan in plans]
     return [row for path in _order(found) if (row := _row(path, [one.get(path) for one in found], found))]
+
+
+def titles(plan: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
+    """Map each path of a plan (JSON form, which need not be valid) to its title and its SI unit, empty for none."""
+    leaves = _of_model(plan, Plan, "", "", "", plan.get("test", "hybrid"))
+    return {
+        path: (_titled(leaf.within, leaf.label), units.pretty(declared(leaf.info).get("unit", "1"))) for path, leaf in leaves
+    }
+
+
+def _titled(within: str, label: str) -> str:
+    return f"{within}: {label}" if within else label
 
 
 def _row(path: str, leaves: Sequence[_Leaf | None], plans: Sequence[Mapping[str, _Leaf]]) -> FieldDifference | None:

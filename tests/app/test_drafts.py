@@ -34,16 +34,27 @@ def test_an_invalid_plan_is_kept_as_typed_and_says_what_is_wrong(client: TestCli
         **plan(),
         "name": " Brace B ",
         "duration": "4o s",
-        "stations": [{"actuator": {"alpha": 0.2, "kind": "first_order"}}],
+        "stations": [{"actuator": {"alpha": 0.2, "kind": "first_order_delay"}}],
     }
     saved = put(client, typed, origin={"kind": "template", "id": "table3-04"}).json()
     assert (saved["name"], saved["revision"], saved["owner"]) == ("Brace B", 1, "Ana Ruiz")
-    assert "duration" in {one["where"] for one in saved["problems"]}
+    (alpha,) = [one for one in saved["problems"] if one["where"] == "stations.0.actuator.alpha"]
+    assert (alpha["title"], alpha["value"]) == ("Station 1: Actuator: Delay constant α", "0.2")
+    (duration,) = [one for one in saved["problems"] if one["where"] == "duration"]
+    assert (duration["title"], duration["unit"], duration["value"]) == ("Duration", "s", "4o s")
     assert saved["origin_title"] == "template table3-04"
     again = client.get(f"{URL}/d1")
     held(f"GET {ONE}", again)
     assert again.json() == {**saved, "plan": typed}
     assert put(client, plan(), 1).json()["problems"] == []
+
+
+@pytest.mark.parametrize(
+    "typed", [{}, {"stations": "not yet"}, {"stations": [1, None, {}]}, {"motion": {"kind": 4}, "known": 3}]
+)
+def test_any_mapping_is_a_draft_and_its_problems_have_titles(client: TestClient, typed: dict[str, Any]) -> None:
+    answer = put(client, typed)
+    assert answer.status_code == 200 and all(one["title"] or not one["where"] for one in answer.json()["problems"])
 
 
 def test_a_save_of_another_window_is_never_overwritten(client: TestClient) -> None:

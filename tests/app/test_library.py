@@ -184,7 +184,7 @@ def test_two_plans_are_compared_field_by_field_in_the_units_shown(client: TestCl
     assert (row["path"], row["unit"], row["texts"][1]) == ("stations.0.limits.velocity", "mm/s", "250")
     assert [one["path"] for one in between(new, f"run:{run['id']}")["differences"]] == ["seed"]
     assert [one["path"] for one in between(old, "draft:d1")["differences"]] == ["duration"]
-    assert [one["path"] for one in between("template:table3-04", old)["differences"]] == ["duration"]
+    assert [one["path"] for one in between("template:two-storeys", old)["differences"]] == ["duration"]
     assert between(old, old)["differences"] == []
     for wrong in ("version:x", f"version:{kept['id']}:9", "run:x", "draft:x", "template:x", "x", f"version:{kept['id']}:a"):
         assert "status" in between(wrong, old), wrong

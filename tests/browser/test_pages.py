@@ -24,6 +24,8 @@ LOOKS: dict[str, dict[str, Any]] = {
 CONTENT = {
     "/": "#recent-title + div tbody tr",
     "/new": ".good",
+    "/plans": "#plans tbody tr",
+    "/plans/{plan}": "#versions tbody tr",
     "/runs": "tbody tr",
     "/runs/{run}": "#metrics tbody tr",
     "/stability/two-storeys": "#map .plot-container",
@@ -69,8 +71,13 @@ def diagnosis(service: Service) -> str:
 
 
 @pytest.fixture(scope="module")
-def shown(run: str, recording: str, batch: str, diagnosis: str) -> dict[str, str]:
-    return {"run": run, "recording": recording, "batch": batch, "diagnosis": diagnosis}
+def plan(service: Service) -> str:
+    return str(service.post("/library/plans", {"plan": service.plan(), "name": "Kept", "tags": ["steel"]})["id"])
+
+
+@pytest.fixture(scope="module")
+def shown(run: str, recording: str, batch: str, diagnosis: str, plan: str) -> dict[str, str]:
+    return {"plan": plan, "run": run, "recording": recording, "batch": batch, "diagnosis": diagnosis}
 
 
 @pytest.mark.parametrize("look", LOOKS)

@@ -6,7 +6,7 @@ import { savedAt } from "./words.js";
 
 /**
  * A draft as the service lists it.
- * @typedef {{id: string, name: string, owner: string, saved_at: string, problems: import("../api.js").Problem[],
+ * @typedef {{id: string, name: string, owner: string, saved_at: string, problems: import("./words.js").DraftProblem[],
  *   origin: import("./draft.js").Origin | null, origin_title: string, onlyHere?: boolean}} Listed
  */
 

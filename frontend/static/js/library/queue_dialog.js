@@ -1,0 +1,90 @@
+// @ts-check
+import { api, explain } from "../api.js";
+import { byId, el } from "../dom.js";
+import { significant } from "../format.js";
+import { person, remember } from "../person.js";
+
+/**
+ * What the dry run of a plan says.
+ * @typedef {{name: string, label: string, against: string, against_label: string, peak: number | null, bound: number, share: number | null, shown_label: string, factor: number}} Use
+ * @typedef {{verdict: string, sentence: string, uses: Use[], duration_s: number, expected_elapsed_s: number | null, notes: string[]}} Preflight
+ */
+
+const SHOWN = 4; // largest shares of limits
+const LEAST = 0.01; // share that is worth a line
+
+const dialog = byId("queue-dialog");
+const who = byId("queue-who");
+const found = byId("queue-preflight");
+const wrong = byId("queue-wrong");
+const queue = byId("queue-now");
+/** @type {{plan: any, library: {id: string, version: number}}} */
+let asked;
+let asking = new AbortController();
+
+/** Show what a version would do, and queue it. @param {string} id @param {string} name @param {number} version */
+export async function queueVersion(id, name, version) {
+  asking.abort();
+  asking = new AbortController();
+  const { plan } = await api.get(`/library/plans/${id}/versions/${version}`);
+  asked = { plan, library: { id, version } };
+  byId("queue-what").textContent = `${name}, version ${version}`;
+  who.value = person();
+  wrong.textContent = "";
+  queue.textContent = "Queue the test";
+  found.replaceChildren(el("p", { class: "muted", "aria-busy": "true" }, "Simulating the test …"));
+  dialog.showModal();
+  queue.focus();
+  await foresee(asking.signal);
+}
+
+/** @param {AbortSignal} signal */
+async function foresee(signal) {
+  try {
+    const seen = await api.post("/plans/preflight", { plan: asked.plan }, signal);
+    found.replaceChildren(...outlook(seen));
+    if (seen.verdict === "trips") queue.textContent = "Queue the test although it would trip";
+  } catch (error) {
+    if (!signal.aborted) found.replaceChildren(el("p", { class: "note bad" }, `No preflight: ${explain(error)}`));
+  }
+}
+
+/** @param {Preflight} seen */
+function outlook({ verdict, sentence, uses, notes }) {
+  const limits = uses.filter((one) => one.against === "limit" && (one.share ?? 0) >= LEAST);
+  limits.sort((a, b) => (b.share ?? 0) - (a.share ?? 0));
+  const parts = limits.slice(0, SHOWN).flatMap(({ name, label, peak, bound, factor, shown_label, share }) => [
+    el("dt", {}, `${name}: ${label}`),
+    el("dd", {}, `${significant((peak ?? 0) / factor)} of ${significant(bound / factor)} ${shown_label} (${significant(100 * (share ?? 0), 2)} %)`),
+  ]);
+  return [
+    el("p", { class: { completes: "good", trips: "note bad" }[verdict] ?? "note" }, sentence),
+    parts.length > 0 && el("p", { class: "muted" }, "Largest shares of the safety limits"),
+    parts.length > 0 && el("dl", { class: "shares" }, ...parts),
+    ...notes.map((note) => el("p", { class: "muted" }, note)),
+  ].filter((one) => one !== false);
+}
+
+/** @param {Event} event */
+async function submit(event) {
+  event.preventDefault();
+  const name = who.value.trim();
+  if (!name) {
+    wrong.textContent = "Give your name: it is stored with the run. This browser remembers it.";
+    return who.focus();
+  }
+  remember(name);
+  queue.disabled = true;
+  try {
+    const { runs } = await api.post("/runs", { ...asked, submitted_by: name });
+    location.assign(`/runs/${runs[0].id}`);
+  } catch (error) {
+    wrong.textContent = explain(error);
+  } finally {
+    queue.disabled = false;
+  }
+}
+
+dialog.querySelector("form").addEventListener("submit", submit);
+dialog.addEventListener("close", () => asking.abort());
+byId("queue-cancel").addEventListener("click", () => dialog.close());
