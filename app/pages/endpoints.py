@@ -1,4 +1,4 @@
-"""The web pages. Lab and Runs are rendered on the server; New test and Run are shells whose modules use the REST API."""
+"""The web pages. Lab and Runs are rendered on the server; Queue, New test and Run are shells whose modules use the REST API."""
 
 from __future__ import annotations
 
@@ -37,6 +37,12 @@ def lab(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
 def lab_now(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
     """The changing part of the Lab page."""
     return page(request, "lab_now.html", **_lab(request, runs, queued))
+
+
+@router.get("/queue")
+def queue(request: Request) -> HTMLResponse:
+    """The page of the queue."""
+    return page(request, "queue.html")
 
 
 @router.get("/new")

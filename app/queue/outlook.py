@@ -7,13 +7,14 @@ from datetime import UTC, datetime, timedelta
 
 from sqlalchemy.orm import Session
 
+from app.jobs.service import UNDO
 from app.jobs.states import State
 from app.jobs.tables import QueueState
 from app.jobs.workers import Workers, alive
 from app.models import Run
 from app.queue.expected import Expected, Span, Speeds, schedule
 from app.queue.repository import QueueRepository, Waiting
-from app.queue.schemas import QueueOut, RunningOut, WaitingOut
+from app.queue.schemas import QueueOut, RunningOut, UndoOut, WaitingOut
 from app.runs.repository import RunRepository
 
 SCHEDULED = 2000  # first tests of the queue whose times are computed
@@ -46,6 +47,7 @@ def outlook(session: Session, rows: QueueRepository, hold: QueueState, limit: in
         queued=rows.runs.count(State.QUEUED),
         running=[_running(run, time, now) for run, time in zip(running, left, strict=True)],
         waiting=waiting,
+        undoable=[_undoable(run) for run in rows.cancelled_in_queue(now - UNDO)],
         total_s=total if known and len(line) < SCHEDULED else None,
         tests_at_a_time=places,
         worker_seen_at=seen,
@@ -96,6 +98,11 @@ def _left(run: Run, speeds: Speeds, now: datetime) -> float | None:
         return max(0.0, elapsed / run.share - elapsed)
     time_s = speeds.of(run).time_s
     return None if time_s is None else max(0.0, time_s - elapsed)
+
+
+def _undoable(run: Run) -> UndoOut:
+    assert run.finished_at is not None
+    return UndoOut(id=run.id, number=run.number, name=run.name, reason=run.reason or "", until=run.finished_at + UNDO)
 
 
 def _running(run: Run, left_s: float | None, now: datetime) -> RunningOut:

@@ -13,6 +13,7 @@ from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.models import Rig, Run
 
+UNDOABLE = 20  # latest cancels that the queue shows
 RECENT = 200  # latest completed runs that expected times follow from
 
 
@@ -77,6 +78,12 @@ class QueueRepository:
         known = (Run.state == State.COMPLETED, Run.size.is_not(None), Run.started_at.is_not(None), Run.elapsed_s.is_not(None))
         latest = query.where(*known).order_by(Run.finished_at.desc()).limit(RECENT)
         return [Earlier._make(row) for row in self.session.execute(latest)]
+
+    def cancelled_in_queue(self, since: datetime) -> list[Run]:
+        """The latest runs that were cancelled after `since` and had never started."""
+        never = (Run.state == State.CANCELLED, Run.started_at.is_(None), Run.finished_at > since, Run.deleted_at.is_(None))
+        query = sa.select(Run).where(*never).order_by(Run.finished_at.desc()).limit(UNDOABLE)
+        return list(self.session.scalars(query))
 
     def last_number(self) -> int:
         return self.session.scalar(sa.select(sa.func.max(Run.number))) or 0

@@ -44,6 +44,16 @@ class WaitingOut(BaseModel):
     expected_end: datetime | None
 
 
+class UndoOut(BaseModel):
+    """A test that was cancelled while it waited, and until when the cancel can be undone."""
+
+    id: str
+    number: int
+    name: str
+    reason: str
+    until: datetime
+
+
 class QueueOut(BaseModel):
     """The queue: held or not, what runs, what waits in which order, and the workers."""
 
@@ -54,6 +64,7 @@ class QueueOut(BaseModel):
     queued: int = Field(description="number of queued tests, also those beyond `limit`")
     running: list[RunningOut]
     waiting: list[WaitingOut] = Field(description="queued tests in the order in which they start")
+    undoable: list[UndoOut] = Field(description="latest cancels of waiting tests that can be undone")
     total_s: float | None = Field(description="expected time until the last test of the queue has ended, s")
     tests_at_a_time: int = Field(description="number of tests that the living workers execute at the same time")
     worker_seen_at: datetime | None

@@ -62,6 +62,7 @@ def test_a_running_test_is_cancelled_and_keeps_what_was_recorded(idle: Service, 
     page = opened(f"/runs/{run}")
     _expect_simulated(page, 1)
     page.get_by_role("button", name="Cancel this test").click()
+    page.get_by_role("button", name="Cancel the test").click()
     expect(page.locator("#state")).to_have_text("cancelled")
     expect(page.locator("#reason")).to_contain_text("Stopped by Ana Ruiz")
     expect(page.get_by_role("link", name="Recording, HDF5")).to_be_visible()

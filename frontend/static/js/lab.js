@@ -1,12 +1,15 @@
 // @ts-check
 // The buttons of the Lab page: each sends a request, and the next refresh of the page shows the result.
 import { api, explain } from "./api.js";
+import { cancelConfirmed } from "./confirm.js";
 import { byId } from "./dom.js";
 import { person } from "./person.js";
 
 byId("lab").addEventListener("click", async (/** @type {any} */ event) => {
   const button = event.target.closest("button[data-post]");
   if (!button) return;
+  const { number, running } = button.dataset;
+  if (running && !(await cancelConfirmed({ number, name: running }))) return;
   button.disabled = true;
   try {
     await api.post(button.dataset.post, { by: person() });

@@ -1,8 +1,10 @@
 // @ts-check
 import { api, explain } from "../api.js";
+import { cancelConfirmed } from "../confirm.js";
 import { byId, renew } from "../dom.js";
 import { person } from "../person.js";
 import { actions, cancelling } from "./actions.js";
+import { again } from "./again.js";
 import { buildCharts } from "./charts.js";
 import { clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
@@ -77,11 +79,12 @@ function showProgress(at) {
 
 function showActions() {
   renew(byId("actions"), ...actions(run));
-  renew(byId("stop"), ...cancelling(run, stop));
+  renew(byId("stop"), ...cancelling(run, stop), ...again(run, (reason) => (byId("refusal").textContent = reason), () => location.reload()));
 }
 
 /** @param {HTMLButtonElement} button */
 async function stop(button) {
+  if (run.state === "running" && !(await cancelConfirmed(run))) return;
   button.disabled = true;
   button.textContent = "Stopping …";
   try {

@@ -1,0 +1,27 @@
+// @ts-check
+// Hold and release of the queue: the banner says who holds it, since when and why.
+import { byId } from "../dom.js";
+import { person } from "../person.js";
+import { clock } from "./words.js";
+
+/** @type {(path: string, data: object) => Promise<void>} */
+let send;
+
+/** @param {any} queue @param {(path: string, data: object) => Promise<void>} change */
+export function holding(queue, change) {
+  send = change;
+  byId("held").hidden = !queue.held;
+  byId("hold-form").hidden = queue.held;
+  if (!queue.held) return;
+  byId("held-by").textContent = `${queue.held_by ?? "unnamed"} since ${clock(queue.held_at)}`;
+  byId("held-reason").textContent = queue.held_reason ? `Reason: ${queue.held_reason}.` : "";
+}
+
+byId("hold-form").addEventListener("submit", async (/** @type {Event} */ event) => {
+  event.preventDefault();
+  const field = byId("hold-reason");
+  await send("/queue/hold", { by: person(), reason: field.value });
+  field.value = "";
+  byId("release").focus();
+});
+byId("release").addEventListener("click", () => send("/queue/release", { by: person() }));

@@ -1,0 +1,25 @@
+// @ts-check
+// What can be done with a test that has ended: retry it, or undo a cancel in the queue.
+import { api, explain } from "../api.js";
+import { el } from "../dom.js";
+import { person } from "../person.js";
+import { ended } from "./facts.js";
+
+/**
+ * @param {any} run @param {(reason: string) => void} refused @param {() => void} changed
+ * @returns {HTMLElement[]}
+ */
+export function again(run, refused, changed) {
+  if (!ended(run.state)) return [];
+  const act = (/** @type {string} */ path, /** @type {(answer: any) => void} */ then) => async () => {
+    try {
+      then(await api.post(`/runs/${run.id}/${path}`, { by: person() }));
+    } catch (error) {
+      refused(explain(error));
+    }
+  };
+  const button = (/** @type {string} */ label, /** @type {() => void} */ click) =>
+    el("button", { type: "button", class: "quiet", on: { click } }, label);
+  const retry = button("Retry this test", act("retry", (one) => location.assign(`/runs/${one.id}`)));
+  return run.state === "cancelled" && !run.started_at ? [button("Undo the cancel", act("undo-cancel", changed)), retry] : [retry];
+}
