@@ -44,6 +44,7 @@ from app.plans.endpoints import router as plans
 from app.preflight.endpoints import router as preflight
 from app.preflight.process import DryRuns
 from app.publishing.endpoints import router as publishing
+from app.publishing.run_endpoints import router as run_publishing
 from app.queue.endpoints import router as queue
 from app.rigs.endpoints import router as rigs
 from app.runs.edit_endpoints import router as run_edits
@@ -101,6 +102,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     ):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(run_annotations, max_body_size=configured.upload_limit)
+    app.include_router(run_publishing, max_body_size=configured.upload_limit)
     app.include_router(publishing, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)

@@ -38,6 +38,15 @@ SWEEP = {
         {"path": "structure.damping_ratio", "values": [1, 2, 5], "unit": "%"},
     ],
 }
+DESIGNSAFE = {
+    "project": {"title": "Real-time hybrid simulation of a damped frame", "pi": "aruiz", "keywords": ["MR damper"]},
+    "hybridSimulation": {
+        "title": "Frame with MR dampers under the Northridge record",
+        "authors": [{"fname": "Ana", "lname": "Ruiz", "inst": "Structures Laboratory"}],
+        "keywords": ["real-time hybrid simulation"],
+    },
+    "license": "Open Data Commons Attribution",
+}
 ANNOTATION = {"from_s": 5.79, "station": 1, "text": "The command saturates for two cycles", "by": "Ana Ruiz"}
 DRIVE = {"drive": {"amplitude": 0.02, "shape": {"kind": "sine", "frequency": 0.5}}, "controller_rate": 1024.0}
 
@@ -118,6 +127,8 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/recordings": lambda: {"file": SHA256, "mapping": MAPPING, "name": "Sine test", "imported_by": "Ana Ruiz"},
     "POST /api/v1/runs/{run_id}/annotations": lambda: ANNOTATION,
     "PUT /api/v1/runs/{run_id}/annotations/{annotation_id}": lambda: ANNOTATION,
+    "POST /api/v1/runs/{run_id}/designsafe/check": lambda: DESIGNSAFE,
+    "POST /api/v1/runs/{run_id}/designsafe.zip": lambda: DESIGNSAFE,
     "PUT /api/v1/laboratory": lambda: {
         "name": "Structures Laboratory",
         "address": "12 Harbour Road, Wellington",

@@ -118,6 +118,17 @@ def parser() -> argparse.ArgumentParser:
     diagnose.add_argument("--json", type=Path, metavar="OUT", help="write the verdict as one JSON object")
     diagnose.add_argument("--report", type=Path, metavar="OUT", help="write the report: OUT.html or OUT.pdf")
 
+    report = _command(commands, "report", "app.cli.report:report", "write the report of a recording file or of a run")
+    report.add_argument("subject", metavar="RECORDING.h5", help="recording file, or the identifier of a run in the data folder")
+    forms = report.add_mutually_exclusive_group()
+    forms.add_argument("--html", action="store_true", help="one HTML file below 1 MB (default)")
+    forms.add_argument("--pdf", action="store_true", help="PDF")
+    forms.add_argument("--mat", action="store_true", help="the recording as a MATLAB file")
+    forms.add_argument("--designsafe", action="store_true", help="data set for DesignSafe as a ZIP archive; needs --metadata")
+    report.add_argument("--metadata", type=Path, metavar="FILE.yaml", help="metadata of the data set: docs/reports.md")
+    report.add_argument("--out", type=Path, metavar="OUT", help="file to write (default: named after the recording)")
+    _data(report)
+
     prove = _command(
         commands, "prove", "app.cli.prove:prove", "score diagnoses on generated recordings with known left-out physics"
     )

@@ -1,4 +1,4 @@
-"""The service of reports of a request."""
+"""The services of reports of a request."""
 
 from __future__ import annotations
 
@@ -10,15 +10,20 @@ from app.annotations.dependency import Annotations
 from app.dependencies import Configured
 from app.diagnoses.dependency import Diagnoses
 from app.laboratory.dependency import OneLaboratory
-from app.publishing.service import Publishing
+from app.publishing.others import DiagnosisReports
+from app.publishing.runs import RunReports
 from app.runs.dependency import Runs
 
 
-def publishing(
-    runs: Runs, annotations: Annotations, diagnoses: Diagnoses, laboratory: OneLaboratory, configured: Configured
-) -> Publishing:
-    """The service of reports in the session of the request."""
-    return Publishing(runs, annotations, diagnoses, laboratory, configured)
+def run_reports(runs: Runs, annotations: Annotations, laboratory: OneLaboratory, configured: Configured) -> RunReports:
+    """The reports of runs in the session of the request."""
+    return RunReports(runs, annotations, laboratory, configured)
 
 
-Reports = Annotated[Publishing, Depends(publishing)]
+def diagnosis_reports(diagnoses: Diagnoses, laboratory: OneLaboratory) -> DiagnosisReports:
+    """The reports of diagnoses in the session of the request."""
+    return DiagnosisReports(diagnoses, laboratory)
+
+
+OfRuns = Annotated[RunReports, Depends(run_reports)]
+OfDiagnoses = Annotated[DiagnosisReports, Depends(diagnosis_reports)]

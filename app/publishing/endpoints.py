@@ -1,4 +1,4 @@
-"""REST endpoints of reports."""
+"""REST endpoints of the reports of diagnoses."""
 
 from __future__ import annotations
 
@@ -6,43 +6,19 @@ from fastapi import APIRouter
 from fastapi.responses import HTMLResponse, Response
 
 from app.openapi import file, told
-from app.publishing.dependency import Reports
-from app.reports import html
-from app.reports.document import Document
-from app.reports.pdf import pdf
+from app.publishing.answers import PDF, as_html, as_pdf
+from app.publishing.dependency import OfDiagnoses
 
 router = APIRouter(prefix="/api/v1", tags=["reports"])
-PDF = "application/pdf"
-
-
-@router.get("/runs/{run_id}/report.html", response_class=HTMLResponse, responses=told(409, 422))
-def run_html(run_id: str, reports: Reports, interactive: bool = False) -> HTMLResponse:
-    """The report of a run as one HTML file below 1 MB; `interactive` gives plots that zoom, in about 5 MB."""
-    return _html(reports.of_run(run_id), interactive)
-
-
-@router.get("/runs/{run_id}/report.pdf", response_class=Response, responses=file(PDF) | told(409, 422))
-def run_pdf(run_id: str, reports: Reports) -> Response:
-    """The report of a run as PDF."""
-    return _pdf(reports.of_run(run_id), run_id)
 
 
 @router.get("/diagnoses/{diagnosis_id}/report.html", response_class=HTMLResponse, responses=told(409, 422))
-def diagnosis_html(diagnosis_id: str, reports: Reports, interactive: bool = False) -> HTMLResponse:
+def diagnosis_html(diagnosis_id: str, reports: OfDiagnoses, interactive: bool = False) -> HTMLResponse:
     """The report of a diagnosis as one HTML file below 1 MB; `interactive` gives plots that zoom, in about 5 MB."""
-    return _html(reports.of_diagnosis(diagnosis_id), interactive)
+    return as_html(reports.of(diagnosis_id), interactive)
 
 
 @router.get("/diagnoses/{diagnosis_id}/report.pdf", response_class=Response, responses=file(PDF) | told(409, 422))
-def diagnosis_pdf(diagnosis_id: str, reports: Reports) -> Response:
+def diagnosis_pdf(diagnosis_id: str, reports: OfDiagnoses) -> Response:
     """The report of a diagnosis as PDF."""
-    return _pdf(reports.of_diagnosis(diagnosis_id), diagnosis_id)
-
-
-def _html(document: Document, interactive: bool) -> HTMLResponse:
-    return HTMLResponse(html.interactive(document) if interactive else html.light(document))
-
-
-def _pdf(document: Document, name: str) -> Response:
-    headers = {"Content-Disposition": f'inline; filename="{name}.pdf"'}
-    return Response(pdf(document), media_type=PDF, headers=headers)
+    return as_pdf(reports.of(diagnosis_id), diagnosis_id)
