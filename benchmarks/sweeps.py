@@ -1,7 +1,7 @@
 """`python -m benchmarks.sweeps [POINTS] [TEMPLATE]`: a sweep through the queue beside the bare engine on the same cores.
 
-The bare engine is one process for each core that calls `simulate` on the same plans. Both have the same niceness, and take turns
-for ROUNDS rounds. CPU times are those of all processes of the service, web and worker too.
+The bare engine is one process for each core that calls `simulate` on the same plans. Both have the same niceness and take
+turns for ROUNDS rounds. CPU times are those of all processes of the service, web and worker too.
 """
 
 from __future__ import annotations

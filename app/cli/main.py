@@ -63,6 +63,16 @@ def parser() -> argparse.ArgumentParser:
     preflight.add_argument("--json", action="store_true", help="print the result as one JSON object")
     _data(preflight)
 
+    sweep = _command(commands, "sweep", "app.cli.sweep:sweep", "execute a sweep on all cores of this machine, without a server")
+    sweep.add_argument("sweep", type=Path, metavar="SWEEP.yaml", help="file with the definition of the sweep: docs/sweeps.md")
+    sweep.add_argument(
+        "--out", type=Path, metavar="FILE", help="file to write the results to: .csv, .parquet or .arrow (default SWEEP.csv)"
+    )
+    sweep.add_argument("--json", action="store_true", help="also print the results as one JSON object")
+    sweep.add_argument("--count", action="store_true", help="only print the number of points")
+    sweep.add_argument("--processes", type=int, metavar="N", help="points at the same time (default: one for each core)")
+    _data(sweep)
+
     stability = _command(commands, "stability", "app.cli.stability:stability", "predict whether a plan's closed loop is stable")
     stability.add_argument(
         "plan", nargs="?", metavar="PLAN.yaml", help="file with the plan; without it, print a published limit"
