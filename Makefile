@@ -18,14 +18,14 @@ OPENSEES ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser opensees lock clean
+.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser postgres opensees lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
 run: setup
 	@$(BIN)/rths serve --demo
 
-test: setup browser opensees check
+test: setup browser postgres opensees check
 	$(BIN)/pytest -n 2 --dist loadfile $(if $(PYTEST),,--cov) $(PYTEST)
 
 test-clone: setup
@@ -104,6 +104,15 @@ browser:
 	        apt-get update -qq && apt-get install -y -qq --no-install-recommends chromium; \
 	    else \
 	        echo "There is no Chromium, so the browser tests are skipped (on Debian: apt-get install chromium)." >&2; \
+	    fi; }
+
+# The tests of workers on PostgreSQL start a server of their own.
+postgres:
+	@ls /usr/lib/postgresql/*/bin/initdb >/dev/null 2>&1 || command -v initdb >/dev/null || { \
+	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	        apt-get update -qq && apt-get install -y -qq --no-install-recommends postgresql; \
+	    else \
+	        echo "There is no PostgreSQL, so its tests are skipped (on Debian: apt-get install postgresql)." >&2; \
 	    fi; }
 
 # OpenSees, the independent solver for tests and benchmarks; not installed with the product.
