@@ -34,6 +34,7 @@ from app.notifications.endpoints import router as notifications
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
+from app.pages.lab import router as lab_page
 from app.pages.plans import router as plans_page
 from app.pages.recordings import router as recordings_page
 from app.pages.settings import router as settings_page
@@ -114,6 +115,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(plans_page)
     app.include_router(diagnoses_page)
     app.include_router(compare_page)
+    app.include_router(lab_page)
     app.include_router(table4_page)
     app.include_router(wall_page)
     app.include_router(settings_page)

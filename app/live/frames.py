@@ -81,6 +81,10 @@ class FrameStore:
         self._data += frame[HEADER.size + (self.count - first) * self.row :]
         return True
 
+    def values(self) -> Array:
+        """All buckets, (buckets, channels, 3): minimum, maximum and last sample of each channel, in the units shown."""
+        return np.frombuffer(bytes(self._data), "<f4").reshape(-1, self.row // (4 * VALUES), VALUES)
+
     def since(self, first: int) -> bytes | None:
         """All buckets from `first` on as one frame, or None if there are none."""
         first, end = max(0, first), self.count  # once: another thread may be appending

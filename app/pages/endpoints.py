@@ -1,8 +1,8 @@
-"""The web pages. Lab and Runs are rendered on the server; Queue, New test and Run are shells whose modules use the REST API."""
+"""Pages of tests. Runs is rendered on the server; Queue, New test and Run are shells whose modules use the REST API."""
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
@@ -10,33 +10,15 @@ from fastapi.responses import HTMLResponse
 from app.config import MEGABYTE
 from app.dependencies import Configured
 from app.jobs.states import State
-from app.live.hub import Hub
 from app.models import Run
 from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
 from app.pages.run_list import LIMIT, RunFilter
 from app.plans.dependency import Plans
-from app.queue.dependency import Queued
 from app.runs.dependency import Runs
-from app.runs.repository import Filter, Page
 from rths_engine.foundation.errors import RthsError
 
-QUEUED_SHOWN = 20
-RECENT_SHOWN = 12
-
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
-
-
-@router.get("/")
-def lab(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
-    """The Lab page: the queue, the running tests and the recent runs."""
-    return page(request, "lab.html", **_lab(request, runs, queued))
-
-
-@router.get("/lab")
-def lab_now(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
-    """The changing part of the Lab page."""
-    return page(request, "lab_now.html", **_lab(request, runs, queued))
 
 
 @router.get("/queue")
@@ -75,20 +57,3 @@ def run(request: Request, run_id: str, runs: Runs) -> HTMLResponse:
 def missing(request: Request, path: str) -> HTMLResponse:
     """The page for an unknown address."""
     return error_page(request, 404, "Not found", f"The page /{path} does not exist.")
-
-
-def _progress(hub: Hub, run_id: str) -> dict[str, Any]:
-    """The worker's last progress report on a running test, empty before the first report."""
-    live = hub.runs.get(run_id)
-    return (live.progress if live else None) or {}
-
-
-def _lab(request: Request, runs: Runs, queued: Queued) -> dict[str, Any]:
-    oldest = Page(sort="number", descending=False, limit=QUEUED_SHOWN)
-    running, _ = runs.listed(Filter(states=(State.RUNNING,)), oldest)
-    ended = tuple(state for state in State if state.ended)
-    recent, _ = runs.listed(Filter(states=ended), Page(sort="finished_at", limit=RECENT_SHOWN))
-    queue = queued.state(QUEUED_SHOWN)
-    lists = {"running": running, "queued": queue.waiting, "queued_total": queue.queued, "recent": recent}
-    live = {run.id: _progress(request.app.state.hub, run.id) for run in running}
-    return {**lists, "live": live, "queue": queue, "worker_alive": queue.worker_alive}

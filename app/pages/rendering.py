@@ -47,7 +47,19 @@ def ago(moment: datetime | None) -> str:
     """The time since a moment in its two largest units: `3 min 20 s`."""
     if moment is None:
         return "–"
-    seconds = max(0, int((datetime.now(UTC) - moment).total_seconds()))
+    return _lasting(max(0, int((datetime.now(UTC) - moment).total_seconds())))
+
+
+def hence(moment: datetime | None) -> str:
+    """The time until a moment: `in 3 min 20 s`, or `now`."""
+    if moment is None:
+        return "–"
+    seconds = int((moment - datetime.now(UTC)).total_seconds())
+    return f"in {_lasting(seconds)}" if seconds > 0 else "now"
+
+
+def _lasting(seconds: int) -> str:
+    """A duration in its two largest units."""
     days, rest = divmod(seconds, 86_400)
     hours, rest = divmod(rest, 3600)
     minutes, seconds = divmod(rest, 60)
@@ -95,6 +107,7 @@ templates.env.filters |= {
     "fixed": fixed,
     "brief": brief,
     "ago": ago,
+    "hence": hence,
     "clock": clock,
     "kind": kind,
     "pace": pace,

@@ -22,7 +22,7 @@ LOOKS: dict[str, dict[str, Any]] = {
 }
 # what shows that a page has all its content
 CONTENT = {
-    "/": "#recent-title + div tbody tr",
+    "/": ".headline:has(#recent-title) + div tbody tr",
     "/queue": "#waiting-none",
     "/new": ".good",
     "/plans": "#plans tbody tr",

@@ -55,10 +55,6 @@ export class Stage {
     view.redraw();
   }
 
-  resize() {
-    this.schematic.fit();
-  }
-
   draw() {
     this.#show(false);
   }
