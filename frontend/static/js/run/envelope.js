@@ -11,6 +11,7 @@ export class Envelope {
   /** @param {number} series */
   constructor(series) {
     this.points = 0;
+    this.dense = false; // whether a column holds several buckets
     this.time = new Float64Array(0);
     this.values = Array.from({ length: series }, () => new Float32Array(0));
     /** @type {(Float64Array | Float32Array | (number | null)[])[]} */
@@ -22,10 +23,11 @@ export class Envelope {
    * @param {Store} store @param {number[]} channels @param {number} from @param {number} to @param {number} columns
    */
   fill(store, channels, from, to, columns) {
-    this.#reserve(2 * columns);
+    this.#reserve(2 * columns + 8);
     const first = Math.max(0, Math.floor(from / store.step) - 1);
     const end = Math.min(store.count, Math.ceil(to / store.step) + 1);
-    const width = Math.max(1, Math.ceil((end - first) / columns));
+    const width = Math.max(1, Math.ceil((to - from) / store.step / columns));
+    this.dense = width > 1;
     const used = Math.max(0, Math.ceil((end - first) / width));
     for (let column = 0; column < used; column++) {
       const upper = Math.min(first + (column + 1) * width, end);

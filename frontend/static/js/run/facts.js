@@ -75,6 +75,12 @@ export function reason(run) {
   return run.reason || run.state;
 }
 
+/** What stands in place of the test before its signals arrive. @param {any} run */
+export function awaited({ state, recording }) {
+  if (state === "queued") return "The drawing, the gauges and the charts appear here when the test starts.";
+  return ended(state) && !recording ? "This run has no recording, so there is nothing to draw. Edit the plan and run it again." : "Loading the signals of the test …";
+}
+
 /** Simulated time, elapsed time and speed as text. @param {any} at @returns {string} */
 export function clock({ simulated_s, duration_s, elapsed_s }) {
   const parts = [`${fixed(simulated_s, 2)} of ${fixed(duration_s, 2)} s simulated`];

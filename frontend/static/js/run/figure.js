@@ -16,7 +16,7 @@ export class Figure {
     this.keys = keys;
     this.values = series.map(() => el("output", { class: "value", "aria-live": "off" }, "–"));
     const entries = series.map((one, i) =>
-      el("span", { class: one.label ? "entry" : "entry alone" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
+      el("span", { class: one.label ? "entry" : "entry alone" }, keys && one.label && el("span", { class: `swatch ${one.colour.slice(2)}${one.dash ? " dashed" : ""}` }), `${one.label} `, this.values[i], one.unit && ` ${one.unit}`),
     );
     this.at = el("span", { class: "at muted" });
     this.entries = el("div", { class: "values" }, ...entries);

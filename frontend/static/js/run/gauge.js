@@ -36,7 +36,8 @@ export class Gauge {
    * @param {number} value @param {number} lowest @param {number} highest @param {number | null} [beyond] @param {boolean} [numbers] whether the numbers change too
    */
   show(value, lowest, highest, beyond = null, numbers = true) {
-    const peak = beyond === null ? Math.max(-lowest, highest, 0) : Math.abs(beyond);
+    const covered = lowest <= highest;
+    const peak = beyond !== null ? Math.abs(beyond) : covered ? Math.max(-lowest, highest) : NaN;
     const found = margin(peak, this.limit);
     const [low, high] = [this.#place(Math.min(lowest, beyond ?? 0, 0)), this.#place(Math.max(highest, beyond ?? 0, 0))];
     this.range.style.transform = `translateX(${(low * 100).toFixed(2)}%) scaleX(${(high - low).toFixed(4)})`;
@@ -44,7 +45,7 @@ export class Gauge {
     if (!numbers) return found;
     this.now.textContent = fixed(value, decimals(this.limit ?? this.scale));
     this.needle.hidden = !Number.isFinite(value);
-    this.peak.textContent = `peak ${Number.isFinite(lowest) || beyond !== null ? fixed(peak, decimals(this.limit ?? this.scale)) : "–"}`;
+    this.peak.textContent = `peak ${fixed(peak, decimals(this.limit ?? this.scale))}`;
     this.element.dataset.margin = found.level;
     if (this.limit !== null) this.share.textContent = [percent(found.share), found.words].filter(Boolean).join(", ");
     return found;

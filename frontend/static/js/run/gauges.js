@@ -6,8 +6,13 @@ import { smallest } from "./margin.js";
 
 /** @typedef {import("./store.js").Channel} Channel @typedef {import("./store.js").Moment} Moment @typedef {import("./margin.js").Margin} Margin */
 
-const FEW = 2; // stations that get large gauges
-const MANY = 6; // more stations than this get one line each
+/** Most stations of each size of gauges: large ones; a line each; a line each in a column of full height; beyond, a thin line each. */
+const SIZES = [
+  [2, "few"],
+  [4, "several"],
+  [12, "several tall"],
+  [Infinity, "many tall"],
+];
 
 /**
  * The gauges of all stations: stroke, velocity and force of each against its safety limits. With several stations each row is the
@@ -25,7 +30,7 @@ export class Gauges {
     this.quantities = plan.stations.map((/** @type {any} */ _, /** @type {number} */ i) => limited(plan, channels, i));
     this.gauges = this.quantities.map((/** @type {any[]} */ some) => some.map(({ label, unit, limit }) => new Gauge(label, unit, limit)));
     const count = plan.stations.length;
-    const size = count <= FEW ? "few" : count <= MANY ? "several" : "many";
+    const size = SIZES.find(([most]) => count <= most)?.[1];
     const rows = plan.stations.map((/** @type {any} */ station, /** @type {number} */ i) => row(station, i, count, plan.test, this.gauges[i], select));
     this.element = el("div", { class: `stations ${size}`, ...(select && count > 1 ? { role: "radiogroup", "aria-label": "Station shown" } : {}) }, ...rows);
     host.replaceChildren(this.element);

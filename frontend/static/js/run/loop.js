@@ -13,6 +13,7 @@ import { extremes } from "./store.js";
 
 const TAIL_S = 2; // time of the test that the tail shows
 const FADE = 12; // steps of the tail
+const STROKE = 128; // samples of one stroke: a stroke of thousands of segments that cross takes much longer than its parts
 const SPARE = 0.18; // of the range: room when a running test outgrows its axes
 
 /**
@@ -46,7 +47,7 @@ export class Loop {
     const last = Math.max(first, Math.min(store.count, Math.ceil(to / store.step)));
     const end = Math.max(first, Math.min(last, Math.round(until / store.step)));
     this.#fit(store, first, last, close, ended);
-    const signature = [width, height, devicePixelRatio, first, this.range, themed("--ink-line")].join();
+    const signature = [width, height, devicePixelRatio, first, this.range, themed("--ink-line"), document.documentElement.className].join();
     if (signature !== this.signature || end < this.drawn) {
       this.signature = signature;
       this.#axes(width, height);
@@ -72,6 +73,7 @@ export class Loop {
   /** @param {number} width @param {number} height */
   #axes(width, height) {
     const ratio = devicePixelRatio;
+    this.clean = true;
     for (const canvas of [this.still, this.moving]) [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
     const context = this.still.getContext("2d");
     const font = Math.max(11, Math.round(parseFloat(getComputedStyle(this.box).fontSize) * 0.82));
@@ -143,7 +145,8 @@ export class Loop {
   /** Draw the tail and the head before sample `end`. @param {Store} store @param {number} first @param {number} end */
   #head(store, first, end) {
     const context = this.moving.getContext("2d");
-    context.clearRect(0, 0, this.moving.width, this.moving.height);
+    if (!this.clean) context.clearRect(0, 0, this.moving.width, this.moving.height); // in a print it would clear the layer below too
+    this.clean = false;
     const start = Math.max(first, end - Math.round(TAIL_S / store.step));
     const ratio = this.area?.ratio ?? 1;
     context.strokeStyle = context.fillStyle = themed("--ink-head");
@@ -167,9 +170,11 @@ export class Loop {
 
   /** @param {CanvasRenderingContext2D} context @param {Store} store @param {number} first @param {number} end */
   #trace(context, store, first, end) {
-    context.beginPath();
-    through(context, store.last[this.x.index], store.last[this.y.index], first, end, (x) => this.#toX(x), (y) => this.#toY(y));
-    context.stroke();
+    for (let start = first; start < end - 1; start += STROKE) {
+      context.beginPath();
+      through(context, store.last[this.x.index], store.last[this.y.index], start, Math.min(end, start + STROKE + 1), (x) => this.#toX(x), (y) => this.#toY(y));
+      context.stroke();
+    }
   }
 
   /** @param {number} x */

@@ -4,6 +4,8 @@ import { Loop } from "./loop.js";
 
 /** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
 
+const STEPS = 20; // of a window that moves on: the loop drops old samples in steps, each of which draws it anew
+
 /** A loop in a figure that follows the view: its window, the replay and the cursor of the time charts. */
 export class LoopChart {
   visible = false;
@@ -21,7 +23,9 @@ export class LoopChart {
 
   draw() {
     const { view } = this;
-    const [from, to] = view.range();
+    const [start, to] = view.range();
+    const step = view.zoom || view.window === null ? 0 : view.window / STEPS;
+    const from = step ? Math.floor(start / step) * step : start;
     this.loop.draw(view.store, { from, to, until: view.until(), head: view.pointed(), close: view.zoom !== null, ended: view.ended });
   }
 

@@ -6,7 +6,7 @@ import { person } from "../person.js";
 import { actions, cancelling } from "./actions.js";
 import { again } from "./again.js";
 import { buildCharts } from "./charts.js";
-import { clock, ended, facts, reason } from "./facts.js";
+import { awaited, clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
 import { floorCount, metricsTables } from "./metrics.js";
 import { printsAll } from "./printing.js";
@@ -44,6 +44,8 @@ function show() {
   banner.hidden = !why;
   banner.textContent = why ?? "";
   banner.classList.toggle("bad", run.state !== "cancelled");
+  const waiting = document.getElementById("waiting");
+  if (waiting) waiting.textContent = awaited(run);
   renew(byId("facts"), ...facts(run, declared.measures));
   showProgress(run);
   showActions();

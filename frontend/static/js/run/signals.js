@@ -6,12 +6,12 @@ import { limitOn } from "./limits.js";
 /** Inks of lines: the command is wide and pale, the measured signal thin and dark. Colour is left for margins (docs/decisions/0040). */
 const COMMAND = { colour: "--ink-command", width: 4 };
 const MEASURED = { colour: "--ink-line", width: 1.25 };
-/** Lines of equal rank, such as floors: they differ by lightness and dash. @type {{colour: string, width: number, dash?: number[]}[]} */
+/** Lines of floors, from the top floor down: they differ by lightness, width and dash. @type {{colour: string, width: number, dash?: number[]}[]} */
 const RANKED = [
-  { colour: "--ink-line", width: 1.25 },
-  { colour: "--ink-second", width: 1.25 },
-  { colour: "--ink-line", width: 1.25, dash: [6, 3] },
-  { colour: "--ink-second", width: 1.25, dash: [2, 3] },
+  { colour: "--ink-line", width: 1.5 },
+  { colour: "--ink-second", width: 1.5 },
+  { colour: "--ink-command", width: 2.5 },
+  { colour: "--ink-line", width: 1.25, dash: [5, 3] },
 ];
 const MOST_FLOORS = 8;
 
@@ -50,7 +50,7 @@ export function floorStrips(store) {
   if (!floors.length) return [];
   const count = Math.min(floors.length, MOST_FLOORS);
   const some = Array.from({ length: count }, (_, i) => floors[Math.round(((i + 1) * floors.length) / count) - 1]);
-  const series = some.map(({ key, number, unit }, i) => ({ index: store.index(key), label: `floor ${number}`, unit, ...RANKED[i % RANKED.length] }));
+  const series = some.map(({ key, number, unit }, i) => ({ index: store.index(key), label: `floor ${number}`, unit, ...RANKED[(count - 1 - i) % RANKED.length] }));
   const title = "Floor displacement relative to the ground";
   return [{ title: count < floors.length ? `${title}, ${count} of ${floors.length}` : title, unit: floors[0].unit, series }];
 }

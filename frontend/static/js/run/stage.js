@@ -55,6 +55,10 @@ export class Stage {
     view.redraw();
   }
 
+  resize() {
+    this.schematic.fit();
+  }
+
   draw() {
     this.#show(false);
   }

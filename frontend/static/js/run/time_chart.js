@@ -2,6 +2,7 @@
 import uPlot from "/static/vendor/uplot/uPlot.esm.js";
 import { el } from "../dom.js";
 import { significant } from "../format.js";
+import { drawColumns } from "./columns.js";
 import { Envelope } from "./envelope.js";
 import { Figure } from "./figure.js";
 import { axis, fit, padded, themed } from "./plot_style.js";
@@ -15,6 +16,8 @@ import { zoomKey } from "./zoom_keys.js";
  * on the same axis. @typedef {{limit?: number | null, bare?: boolean}} Options
  */
 
+const LINE = /** @type {uPlot.Series.LinearPathBuilderFactory} */ (uPlot.paths.linear)();
+const FONT = 12; // pixels: lines of a chart with a larger font are wider
 const SEEN = 0.5; // of a limit: from here on the axis includes the limit
 const NARROW = 640; // pixels of a box that leaves little room for the labels of an axis
 
@@ -28,6 +31,7 @@ export class TimeChart {
     this.series = series;
     this.channels = series.map((one) => one.index);
     this.limit = limit;
+    this.styles = series;
     this.bare = bare;
     this.figure = new Figure(title, unit, series, true);
     if (limit) this.figure.note(`limit ± ${significant(limit)} ${unit}`);
@@ -86,6 +90,7 @@ export class TimeChart {
     const font = Math.max(11, Math.round(parseFloat(getComputedStyle(this.box).fontSize) * 0.8));
     const below = axis(this.bare ? undefined : "Time, s", this.bare ? 6 : font * 1.6, font);
     const beside = { ...axis(undefined, this.box.clientWidth < NARROW ? font * 4 : font * 4.6, font), space: 1.5 * font };
+    this.styles = this.series.map((one) => ({ ...one, width: (one.width ?? 1.25) * Math.max(1, font / FONT) }));
     const plot = new uPlot(
       {
         width: this.box.clientWidth,
@@ -94,7 +99,7 @@ export class TimeChart {
         legend: { show: false },
         scales: { x: { time: false, range: () => view.range() }, y: { range: (_, low, high) => this.#range(low, high) } },
         axes: [this.bare ? { ...below, values: () => [], ticks: { show: false } } : below, beside],
-        series: [{}, ...this.series.map((one) => ({ stroke: () => themed(one.colour), width: (one.width ?? 1.25) * Math.max(1, font / 12), dash: one.dash, points: { show: false } }))],
+        series: [{}, ...this.styles.map(({ colour, width, dash }) => ({ stroke: () => themed(colour), width, dash, points: { show: false }, paths: this.#path }))],
         cursor: {
           sync: { key: "time", setSeries: false },
           points: { show: false },
@@ -106,6 +111,7 @@ export class TimeChart {
           setSelect: [(u) => this.#selected(u)],
           setCursor: [(u) => this.#pointed(u)],
           drawAxes: [(u) => this.limit && drawLimits(u, this.limit)],
+          drawSeries: [(u, i) => this.#barred(i) && drawColumns(u, this.envelope, i - 1, this.styles[i - 1])],
           draw: [(u) => view.trip && drawTrip(u, view.trip.time_s)],
         },
       },
@@ -113,13 +119,24 @@ export class TimeChart {
       this.box,
     );
     plot.over.append(this.veil);
-    fit(this.box, (width, height) => {
-      if (width === plot.width && height === plot.height) return;
-      plot.setSize({ width, height });
-      view.redraw();
-    });
+    fit(this.box, () => this.resize() && view.redraw());
     return plot;
   }
+
+  /** Give the plot the size of its box; returns whether it changed. */
+  resize() {
+    const { plot } = this;
+    const { clientWidth: width, clientHeight: height } = this.box;
+    if (!plot || !width || !height || (width === plot.width && height === plot.height)) return false;
+    plot.setSize({ width, height });
+    return true;
+  }
+
+  /** Whether a series is drawn as a bar in each pixel column: a dashed line is not. @param {number} i of uPlot */
+  #barred = (i) => this.envelope.dense && !this.series[i - 1].dash;
+
+  /** The line of a series that is not drawn as bars. @type {uPlot.Series.PathBuilder} */
+  #path = (u, i, first, last) => (this.#barred(i) ? null : LINE(u, i, first, last));
 
   /** @param {uPlot} u */
   #pointed(u) {

@@ -17,7 +17,7 @@ export class Transport {
     this.listening = new AbortController();
     const { signal } = this.listening;
     this.play.addEventListener("click", () => this.toggle(), { signal });
-    this.scrubber.addEventListener("input", () => view.seek(Number(this.scrubber.value)), { signal });
+    this.scrubber.addEventListener("input", () => this.#scrubbed(), { signal });
     this.live.addEventListener("click", () => this.playback.live(), { signal });
     byId("speed").addEventListener("change", () => (this.playback.speed = Number(byId("speed").value)), { signal });
     byId("window").addEventListener("change", () => this.#window(), { signal });
@@ -52,6 +52,13 @@ export class Transport {
     this.play.setAttribute("aria-label", playback.playing || this.#following ? "Pause the replay" : "Play the test again");
     this.live.hidden = view.ended || view.head === null;
     byId("stage").classList.toggle("past", !view.ended && view.head !== null);
+  }
+
+  /** At the right end of a test that has ended, its end is shown as without a replay. */
+  #scrubbed() {
+    const { view } = this;
+    const time = Number(this.scrubber.value);
+    view.seek(view.ended && time >= view.store.now - view.store.step ? null : time);
   }
 
   #window() {

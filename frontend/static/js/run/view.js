@@ -3,7 +3,8 @@
 
 /**
  * Something that the view draws: `draw` after new data or another time range, `follow` after another moment only, and `readout`
- * changes the numbers. @typedef {{visible: boolean, draw: () => void, follow: () => void, readout: () => void}} Drawable
+ * changes the numbers. `resize` fits it to its box where a size does not follow from drawing.
+ * @typedef {{visible: boolean, draw: () => void, follow: () => void, readout: () => void, resize?: () => void}} Drawable
  */
 
 const READOUT_MS = 120;
@@ -123,9 +124,12 @@ export class View {
     });
   }
 
-  /** Draw every chart now, seen or not, as for a print. */
+  /** Draw every chart now at the size of its box, seen or not, as for a print. */
   drawAll() {
-    for (const chart of this.charts) chart.draw();
+    for (const chart of this.charts) {
+      chart.resize?.();
+      chart.draw();
+    }
     this.#readout(performance.now());
   }
 
