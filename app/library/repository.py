@@ -112,7 +112,8 @@ class LibraryRows:
 
     def run_counts(self, ids: Sequence[str]) -> dict[tuple[str, int], int]:
         """Number of runs of each plan and version."""
-        query = sa.select(Run.library_id, Run.library_version, sa.func.count()).where(Run.library_id.in_(ids))
+        of_plans = Run.library_id.in_(ids) & Run.deleted_at.is_(None)
+        query = sa.select(Run.library_id, Run.library_version, sa.func.count()).where(of_plans)
         found = self.session.execute(query.group_by(Run.library_id, Run.library_version))
         return {(cast(str, plan), version or 0): number for plan, version, number in found}
 
@@ -126,7 +127,8 @@ class LibraryRows:
     def runs(self, plan: LibraryPlan, limit: int, offset: int) -> list[tuple[Run, str | None]]:
         """The newest runs that were queued from a plan, each with the digest of its version."""
         version = (PlanVersion.plan_number == plan.number) & (PlanVersion.number == Run.library_version)
-        query = sa.select(Run, PlanVersion.digest).outerjoin(PlanVersion, version).where(Run.library_id == plan.id)
+        query = sa.select(Run, PlanVersion.digest).outerjoin(PlanVersion, version)
+        query = query.where(Run.library_id == plan.id, Run.deleted_at.is_(None))
         found = self.session.execute(query.order_by(Run.number.desc()).limit(limit).offset(offset))
         return [(run, digest) for run, digest in found]
 

@@ -159,6 +159,10 @@ def test_runs_name_the_version_that_they_were_queued_from(client: TestClient) ->
     assert [(one["version"], one["changed"]) for one in answer.json()["runs"]] == [(2, True), (1, False)]
     shown = client.get(f"{URL}/{kept['id']}").json()
     assert (shown["runs"], [one["runs"] for one in shown["history"]]) == (2, [1, 1])
+    deleted = answer.json()["runs"][0]["id"]
+    client.post(f"/api/v1/runs/{deleted}/cancel")
+    assert client.delete(f"/api/v1/runs/{deleted}").is_success
+    assert client.get(f"{URL}/{kept['id']}/runs").json()["total"] == client.get(f"{URL}/{kept['id']}").json()["runs"] == 1
     other = client.post("/api/v1/runs", json={"plan": plan(), "library": {"id": kept["id"], "version": 9}})
     assert other.status_code == 422 and other.json()["errors"][0]["where"] == "library"
     assert client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"][0]["library_id"] is None
