@@ -49,8 +49,10 @@ class DraftService:
         values = {"saved_at": datetime.now(UTC), **self._typed(asked.plan, asked.owner)}
         if not self.rows.change(draft_id, asked.revision, asked.writer, **values):
             present = self.rows.get(draft_id)
-            if present is not None:
+            if present is not None and (present.closed_at or present.plan != asked.plan):
                 raise _conflict(present, asked.revision)
+            if present is not None:
+                return self._shown([present])[0]  # another window saved the same
             if asked.revision:
                 raise NotFound(f"There is no draft {draft_id}.")
             self._create(draft_id, asked, values)

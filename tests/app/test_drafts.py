@@ -64,6 +64,7 @@ def test_a_save_of_another_window_is_never_overwritten(client: TestClient) -> No
     assert refused.status_code == 409 and "Another window saved this draft" in refused.json()["detail"]
     assert client.get(f"{URL}/d1").json()["plan"]["notes"] == "of the second"
     assert put(client, plan(), 0, writer="third").status_code == 409  # an id that is taken
+    assert put(client, plan(notes="of the second"), 1, writer="first").json()["revision"] == 2  # the same is no conflict
     later = put(client, plan(notes="on the way out"), 1, writer="second")  # its own answer never reached it
     assert later.json()["revision"] == 3
 

@@ -15,6 +15,7 @@ const LEAST = 0.01; // share that is worth a line
 
 const dialog = byId("queue-dialog");
 const who = byId("queue-who");
+const rig = byId("queue-rig");
 const found = byId("queue-preflight");
 const wrong = byId("queue-wrong");
 const queue = byId("queue-now");
@@ -24,24 +25,30 @@ let asking = new AbortController();
 
 /** Show what a version would do, and queue it. @param {string} id @param {string} name @param {number} version */
 export async function queueVersion(id, name, version) {
-  asking.abort();
-  asking = new AbortController();
-  const { plan } = await api.get(`/library/plans/${id}/versions/${version}`);
+  const [{ plan }, { rigs }] = await Promise.all([api.get(`/library/plans/${id}/versions/${version}`), api.get("/rigs")]);
+  offerRigs(rigs.filter((/** @type {{retired: boolean}} */ { retired }) => !retired));
   asked = { plan, library: { id, version } };
   byId("queue-what").textContent = `${name}, version ${version}`;
   who.value = person();
   wrong.textContent = "";
-  queue.textContent = "Queue the test";
-  found.replaceChildren(el("p", { class: "muted", "aria-busy": "true" }, "Simulating the test …"));
   dialog.showModal();
   queue.focus();
-  await foresee(asking.signal);
+  await foresee();
 }
 
-/** @param {AbortSignal} signal */
-async function foresee(signal) {
+/** @param {{id: string, name: string}[]} rigs */
+function offerRigs(rigs) {
+  rig.replaceChildren(...rigs.map(({ id, name }) => el("option", { value: id }, name)));
+  byId("queue-rig-field").hidden = rigs.length < 2;
+}
+
+async function foresee() {
+  asking.abort();
+  const { signal } = (asking = new AbortController());
+  queue.textContent = "Queue the test";
+  found.replaceChildren(el("p", { class: "muted", "aria-busy": "true" }, "Simulating the test …"));
   try {
-    const seen = await api.post("/plans/preflight", { plan: asked.plan }, signal);
+    const seen = await api.post("/plans/preflight", { plan: asked.plan, rig: rig.value }, signal);
     found.replaceChildren(...outlook(seen));
     if (seen.verdict === "trips") queue.textContent = "Queue the test although it would trip";
   } catch (error) {
@@ -51,15 +58,15 @@ async function foresee(signal) {
 
 /** @param {Preflight} seen */
 function outlook({ verdict, sentence, uses, notes }) {
-  const limits = uses.filter((one) => one.against === "limit" && (one.share ?? 0) >= LEAST);
+  const limits = uses.filter((one) => one.against !== "actuator" && (one.share ?? 0) >= LEAST);
   limits.sort((a, b) => (b.share ?? 0) - (a.share ?? 0));
-  const parts = limits.slice(0, SHOWN).flatMap(({ name, label, peak, bound, factor, shown_label, share }) => [
-    el("dt", {}, `${name}: ${label}`),
+  const parts = limits.slice(0, SHOWN).flatMap(({ name, label, against, against_label, peak, bound, factor, shown_label, share }) => [
+    el("dt", {}, `${name}: ${label}${against === "rig" ? `, ${against_label}` : ""}`),
     el("dd", {}, `${significant((peak ?? 0) / factor)} of ${significant(bound / factor)} ${shown_label} (${significant(100 * (share ?? 0), 2)} %)`),
   ]);
   return [
     el("p", { class: { completes: "good", trips: "note bad" }[verdict] ?? "note" }, sentence),
-    parts.length > 0 && el("p", { class: "muted" }, "Largest shares of the safety limits"),
+    parts.length > 0 && el("p", { class: "muted" }, "Largest shares of limits and capacities"),
     parts.length > 0 && el("dl", { class: "shares" }, ...parts),
     ...notes.map((note) => el("p", { class: "muted" }, note)),
   ].filter((one) => one !== false);
@@ -76,7 +83,7 @@ async function submit(event) {
   remember(name);
   queue.disabled = true;
   try {
-    const { runs } = await api.post("/runs", { ...asked, submitted_by: name });
+    const { runs } = await api.post("/runs", { ...asked, rig: rig.value, submitted_by: name });
     location.assign(`/runs/${runs[0].id}`);
   } catch (error) {
     wrong.textContent = explain(error);
@@ -86,5 +93,6 @@ async function submit(event) {
 }
 
 dialog.querySelector("form").addEventListener("submit", submit);
+rig.addEventListener("change", foresee);
 dialog.addEventListener("close", () => asking.abort());
 byId("queue-cancel").addEventListener("click", () => dialog.close());

@@ -43,6 +43,6 @@ function row(id, run) {
     el("td", { "data-label": "By" }, submitted_by),
     el("td", { class: "nowrap", "data-label": "Submitted" }, minute(submitted_at)),
     el("td", { class: "comment", "data-label": "Reason" }, reason ?? "–"),
-    el("td", {}, changed && rowButton("Show changes", `of run ${number} against version ${version}`, () => attempt(differ))),
+    el("td", {}, el("span", { class: "actions" }, changed && rowButton("Show changes", `of run ${number} against version ${version}`, () => attempt(differ)))),
   );
 }

@@ -21,6 +21,7 @@ export function facts(run, measures) {
     ["Kind of test", KINDS[/** @type {keyof typeof KINDS} */ (run.test)]],
     ...(run.plan ? excitation(run.plan) : []),
     ["Template", run.template],
+    ["Plan in the library", run.library_id && el("a", { href: `/plans/${run.library_id}` }, `opened from version ${run.library_version}`)],
     ["Seed", run.seed],
     ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or the engine stopped during the previous attempt)` : null],
     ["Plan digest", run.digest],
@@ -31,7 +32,7 @@ export function facts(run, measures) {
   ];
   return rows
     .filter(([, value]) => value != null && value !== "" && value !== "–")
-    .flatMap(([term, value]) => [el("dt", {}, term), el("dd", { title: value }, String(value))]);
+    .flatMap(([term, value]) => [el("dt", {}, term), value instanceof Node ? el("dd", {}, value) : el("dd", { title: value }, String(value))]);
 }
 
 /** A measure of the floors that no table shows. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
