@@ -30,7 +30,9 @@ from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
 from app.measured.mapping_endpoints import router as mappings
 from app.motions.endpoints import router as motions
+from app.notifications.dispatcher import Dispatcher
 from app.notifications.endpoints import router as notifications
+from app.notifications.webhook_endpoints import router as webhooks
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
@@ -98,6 +100,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         table4,
         laboratory,
         notifications,
+        webhooks,
         health,
         live,
     ):
@@ -135,6 +138,8 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(app.state.queue.purge)
     await asyncio.to_thread(_purge, app)
+    dispatcher = Dispatcher(app.state.sessions)
+    dispatcher.start()
     worker = EmbeddedWorker(settings) if settings.embedded_worker else None
     if worker:
         worker.start()
@@ -143,6 +148,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     finally:
         if worker:
             await asyncio.to_thread(worker.stop)
+        await asyncio.to_thread(dispatcher.stop)
         await asyncio.to_thread(app.state.dry_runs.close)
         app.state.queue.close()
         engine.dispose()

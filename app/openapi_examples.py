@@ -96,6 +96,8 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/runs/{run_id}/undo-cancel": lambda: BY,
     "POST /api/v1/runs/{run_id}/retry": lambda: BY,
     "POST /api/v1/rigs": lambda: RIG,
+    "POST /api/v1/webhooks": lambda: BY | {"url": "http://127.0.0.1:9/rths", "kinds": ["tripped", "failed"]},
+    "PATCH /api/v1/webhooks/{webhook_id}": lambda: {"enabled": False},
     "PUT /api/v1/rigs/{rig_id}": lambda: RIG,
     "POST /api/v1/plans/check": plan,
     "POST /api/v1/plans/preflight": lambda: {

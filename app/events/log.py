@@ -1,4 +1,4 @@
-"""SQL of events. Never commits: an event is stored in the transaction of what it tells, or not at all."""
+"""SQL of events. Never commits: an event and its deliveries are stored in the transaction of what it tells, or not at all."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
-from app.events.tables import Event, EventKind
+from app.events.tables import Event, EventKind, Webhook, WebhookDelivery
 
 
 class EventLog:
@@ -20,6 +20,9 @@ class EventLog:
     def add(self, kind: EventKind, sentence: str, about: str, about_id: str | None = None, name: str = "") -> Event:
         event = Event(at=datetime.now(UTC), kind=kind, about=about, about_id=about_id, name=name, sentence=sentence)
         self.session.add(event)
+        for webhook in self.session.scalars(sa.select(Webhook).where(Webhook.enabled)):
+            if kind in webhook.kinds:
+                self.session.add(WebhookDelivery(webhook=webhook, event=event, next_at=event.at))
         return event
 
     def listed(

@@ -1,4 +1,4 @@
-"""The table of events."""
+"""The tables of events, of webhooks, and of what is delivered to them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from datetime import datetime
 from enum import StrEnum
 
 import sqlalchemy as sa
-from sqlalchemy.orm import Mapped, mapped_column
+from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from app.db import Base
 
@@ -41,3 +41,36 @@ class Event(Base):
     def run_id(self) -> str | None:
         """The run of an event about a run."""
         return self.about_id if self.about == "run" else None
+
+
+class Webhook(Base):
+    """An address that is told of events of some kinds; `secret` signs what is sent."""
+
+    __tablename__ = "webhook"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    id: Mapped[str] = mapped_column(sa.String(36), unique=True)
+    url: Mapped[str] = mapped_column(sa.Text)
+    kinds: Mapped[list[str]] = mapped_column(sa.JSON)
+    secret: Mapped[str] = mapped_column(sa.String(200))
+    enabled: Mapped[bool] = mapped_column(default=True)
+    added_by: Mapped[str] = mapped_column(sa.String(80))
+    added_at: Mapped[datetime]
+
+
+class WebhookDelivery(Base):
+    """One event for one webhook; no event is a test. It waits until `next_at`, and is stored with the event that it tells."""
+
+    __tablename__ = "webhook_delivery"
+
+    number: Mapped[int] = mapped_column(primary_key=True)
+    webhook_number: Mapped[int] = mapped_column(sa.ForeignKey("webhook.number", ondelete="CASCADE"), index=True)
+    event_number: Mapped[int | None] = mapped_column(sa.ForeignKey("event.number"))
+    state: Mapped[str] = mapped_column(sa.String(16), default="waiting", index=True)
+    attempts: Mapped[int] = mapped_column(default=0)
+    next_at: Mapped[datetime]
+    last_at: Mapped[datetime | None]
+    status: Mapped[int | None]
+    problem: Mapped[str | None] = mapped_column(sa.Text)
+    webhook: Mapped[Webhook] = relationship(lazy="joined")
+    event: Mapped[Event | None] = relationship(lazy="joined")

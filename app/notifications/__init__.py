@@ -1,1 +1,1 @@
-"""What people and their other programs are told of: events by REST."""
+"""What people and their other programs are told of: events by REST and by webhooks."""

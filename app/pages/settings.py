@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
+from app.events.tables import EventKind
 from app.laboratory.dependency import OneLaboratory
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
@@ -15,4 +16,4 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 @router.get("/settings")
 def settings(request: Request, laboratory: OneLaboratory) -> HTMLResponse:
     """The settings of the laboratory."""
-    return page(request, "settings.html", laboratory=laboratory.shown())
+    return page(request, "settings.html", laboratory=laboratory.shown(), event_kinds=list(EventKind))

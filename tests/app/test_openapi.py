@@ -25,6 +25,7 @@ WITH_ROWS = {
     "diagnosis_id": "diagnoses",
     "sweep_id": "sweeps",
     "rig_id": "rigs",
+    "webhook_id": "webhooks",
 }
 WRONG_BODIES: tuple[tuple[bytes, str], ...] = (
     (b"{", "application/json"),

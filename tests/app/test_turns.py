@@ -82,7 +82,7 @@ def test_a_run_waits_for_its_physical_rig_and_others_pass_it(lab: Laboratory) ->
     lab.submit("ABCD")
     with db.unit_of_work(lab.maker) as session:
         session.add(Rig(id=SHAKER, name="Shaker", kind="physical", tests_at_a_time=1, actuators=[]))
-    lab.change("ABD", rig_id=SHAKER)
+    lab.change("DAB", rig_id=SHAKER)
     assert [lab.started(turn) for turn in ("1", "2")] == ["A", "C"]
     waiting = lab.take("3")
     assert waiting.started is None and waiting.waits

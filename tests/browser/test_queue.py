@@ -62,6 +62,30 @@ def test_the_queue_is_ordered_selected_and_released_on_its_page(held: Service, o
     assert started[::-1] == ["A", "B", "D", "C"]
 
 
+def test_rigs_and_webhooks_are_added_in_the_settings(service: Service, opened: Opener) -> None:
+    page = opened("/settings", allow=("409",))
+    rigs = page.locator("#rigs")
+    rigs.get_by_label("Name").first.fill("Shaker")
+    rigs.get_by_label("Stroke, ± mm").fill("150")
+    rigs.get_by_role("button", name="Add the rig").click()
+    expect(page.locator("#rig-rows tr")).to_have_count(2)
+    expect(page.locator("#rig-rows tr").last).to_contain_text("physical, one test at a time")
+    expect(page.locator("#rig-rows tr").last).to_contain_text("Actuator 1: 150 mm, –, –")
+    assert service.get("/rigs")["rigs"][1]["actuators"][0]["stroke"] == pytest.approx(0.15)
+    hooks = page.locator("#webhooks")
+    hooks.get_by_label("Address").fill("http://127.0.0.1:9/hook")
+    hooks.get_by_role("button", name="Add the webhook").click()
+    expect(page.locator("#webhook-secret")).to_contain_text("Keep it now")
+    hooks.get_by_role("button", name="Send a test").click()
+    hooks.get_by_text("Deliveries").click()
+    expect(hooks.locator(".log li").first).to_contain_text("test")
+    expect_accessible(page)
+    hooks.get_by_role("button", name="Delete the webhook").click()
+    expect(hooks.locator(".webhook")).to_have_count(0)
+    page.get_by_role("button", name="Delete Shaker").click()
+    expect(page.locator("#rig-rows tr")).to_have_count(1)
+
+
 def test_a_running_test_is_cancelled_after_a_question_and_its_end_is_told(idle: Service, opened: Opener) -> None:
     run = idle.submit(name="Slow one", pace=SLOW, duration=30.0)
     idle.wait(run, "running")
