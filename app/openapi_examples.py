@@ -102,7 +102,7 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/plans/check": plan,
     "POST /api/v1/plans/preflight": lambda: {
         "plan": plan(),
-        "capacities": [{"stroke": 0.25, "velocity": 0.5, "force": 1.0e6}],
+        "rig": "emulated",
     },
     "POST /api/v1/plans/drive": lambda: DRIVE,
     "POST /api/v1/plans/read": lambda: plan_to_yaml(templates.template(TEMPLATE)),

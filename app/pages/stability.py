@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fastapi import APIRouter, Request
-from fastapi.responses import HTMLResponse, RedirectResponse
+from fastapi.responses import HTMLResponse, RedirectResponse, Response
 
 from app.pages.errors import PageRoute
 from app.pages.rendering import plotted
@@ -17,9 +17,11 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/stability")
-def first() -> RedirectResponse:
-    """Redirect to the stability of the first template."""
-    return RedirectResponse(f"/stability/{FIRST}")
+def first(request: Request, plans: Plans, draft: str | None = None) -> Response:
+    """The stability of the draft that the page New test keeps in the browser; without `draft`, that of the first template."""
+    if draft is None:
+        return RedirectResponse(f"/stability/{FIRST}")
+    return plotted(request, "stability.html", name="", source="", templates=plans.templates(), known=False)
 
 
 @router.get("/stability/{name}")

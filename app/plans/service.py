@@ -30,10 +30,9 @@ class PlanService:
         self.motions = motions
 
     def templates(self) -> list[dict[str, str]]:
-        """The templates, each with name, title and the group in which the form lists it."""
-        return [
-            {"name": name, "title": templates.template(name).name, "group": templates.group(name)} for name in templates.names()
-        ]
+        """The templates, each with name, title, the group in which the form lists it, and what it is about."""
+        found = [(name, templates.template(name)) for name in templates.names()]
+        return [{"name": name, "title": plan.name, "group": templates.group(name), "about": plan.notes} for name, plan in found]
 
     def template(self, name: str) -> dict[str, Any]:
         """The plan of a template, and the paper's results if the template is a simulation of Table III."""

@@ -6,13 +6,23 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 
+from app.db import unit_of_work
 from app.dependencies import Library
+from app.models import Rig
 from app.preflight.service import PreflightService
+from app.rigs.service import RigService
 
 
 def preflight_service(request: Request, motions: Library) -> PreflightService:
-    """The service of preflights."""
-    return PreflightService(motions, request.app.state.dry_runs)
+    """The service of preflights. Its session ends before the dry run begins."""
+
+    def rig_of(rig_id: str) -> Rig:
+        with unit_of_work(request.app.state.sessions) as session:
+            rig = RigService(session).for_tests(rig_id)
+            session.expunge(rig)
+            return rig
+
+    return PreflightService(motions, request.app.state.dry_runs, rig_of)
 
 
 Preflights = Annotated[PreflightService, Depends(preflight_service)]

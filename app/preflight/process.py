@@ -18,23 +18,28 @@ from typing import Any
 
 from app.problems import Unavailable
 from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.planning import templates
 
 MODULE = "rths_engine.preflight"
 IDLE_S = 900.0
 START_S = 90.0  # to load or compile the engine
-ANSWER_S = 20.0  # of a dry run, which bounds its own time to some seconds
-QUEUE_S = 15.0  # wait for the dry runs of other people
+ANSWER_S = 30.0  # of a dry run, which bounds its own time to some seconds
+QUEUE_S = 60.0  # wait for the dry runs of other people, and for the engine to load
 WAITING = 8  # requests that may wait at the same time
 NICENESS = 5  # tests come first
 
 
+Capacities = tuple[float | None, float | None, float | None]
+"""Stroke (m), velocity (m/s) and force (N) of an actuator."""
+
+
 @dataclass(frozen=True, slots=True)
 class Order:
-    """A dry run: a checked plan, the folder of records, and stroke, velocity and force of each station's actuator."""
+    """A dry run: a checked plan, the folder of records, and the capacities of each station's actuator."""
 
     plan: dict[str, Any]
     motions: Path | None
-    capacities: list[tuple[float | None, float | None, float | None] | None]
+    capacities: list[Capacities | None]
 
 
 class DryRuns:
@@ -109,6 +114,7 @@ def serve(pipe: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(NICENESS)
     engine = importlib.import_module(MODULE)
+    engine.preflight(templates.template("linear-damper").model_copy(update={"duration": 0.01}))  # loads the compiled loop
     try:
         pipe.send("ready")
         while pipe.poll(IDLE_S):

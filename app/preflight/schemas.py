@@ -7,6 +7,8 @@ from typing import Literal
 from pydantic import BaseModel, Field
 
 from app.openapi import PlanData
+from app.text import Storable
+from rths_engine.planning.plan import MOST_STATIONS
 
 
 class CapacityIn(BaseModel):
@@ -18,10 +20,13 @@ class CapacityIn(BaseModel):
 
 
 class PreflightIn(BaseModel):
-    """A plan, and the capacities of the rig that it would run on: one entry for each station, in their order."""
+    """A plan, and the rig that it would run on: its id, or the capacities of its actuators, one entry for each station."""
 
     plan: PlanData
-    capacities: list[CapacityIn | None] = Field([], max_length=32)
+    rig: Storable | None = Field(None, max_length=36, description="id of the rig; its capacities are compared with the peaks")
+    capacities: list[CapacityIn | None] = Field(
+        [], max_length=MOST_STATIONS, description="instead of a rig: one entry for each station, in their order"
+    )
 
 
 class TripOut(BaseModel):

@@ -24,7 +24,7 @@ NONE = Limits.model_construct(displacement=np.inf, velocity=np.inf, force=np.inf
 
 @dataclass(frozen=True, slots=True)
 class DryRun:
-    """A dry run and its result. `planned_s` (s) is the duration of the whole test, `elapsed_s` the wall time of the dry run."""
+    """A dry run and its result. `planned_s` (s) is the duration of the whole test, `elapsed_s` the wall time after step 1."""
 
     run: Run
     result: Result
@@ -42,16 +42,20 @@ class DryRun:
         return self.run.trip is not None or self.covered_s >= self.planned_s - self.run.plan.step
 
 
-def dry_run(model: Model, motions: MotionLibrary, deadline: float) -> DryRun:
-    """Run the plan until its end, a trip or `deadline` (s of `time.perf_counter`). Raises PlanError or MotionError."""
+def dry_run(model: Model, motions: MotionLibrary, budget_s: float) -> DryRun:
+    """Run the plan until its end, a trip, or `budget_s` of wall time after its first step. Raises PlanError or MotionError.
+
+    The first step may load or compile the engine, which takes longer than most tests.
+    """
     plan = model.plan
     planned = plan.length(motion.scaled(plan.motion, motions, model.periods).duration)
     row = len(channels(model)) + 2 * len(plan.stations)
     longest = MOST_NUMBERS / row * plan.substep
     run = Run(model.changed(duration=longest) if planned > longest else model, motions)
+    run.advance(1)
     start = time.perf_counter()
     steps = 1
-    while not run.finished and (now := time.perf_counter()) < deadline:
+    while not run.finished and (now := time.perf_counter()) < start + budget_s:
         run.advance(steps)
         taken = time.perf_counter() - now
         steps = max(1, round(steps * min(8.0, CHUNK_S / max(taken, 1e-6))))

@@ -24,7 +24,7 @@ from rths_engine.results.measures import of
 from rths_engine.results.signals import RunSignals
 
 # chosen; see docs/decisions/0023
-BUDGET_S = 6.0  # wall time of a preflight: a third each for the dry run, the one without limits, and stability
+BUDGET_S = 9.0  # wall time of a preflight: a third each for the dry run, the one without limits, and stability
 SLOW = 1.05  # times the planned wall time: beyond it the computer is too slow for the pace
 GROWN = 100.0  # times a limit: a command or force that reaches it without limits grows without bound
 
@@ -42,8 +42,8 @@ def preflight(
     """
     model, library = Model.of(planned), motions or MotionLibrary(None)
     share = budget_s / 3
-    dry = dry_run(model, library, time.perf_counter() + share)
-    free = dry_run(without_limits(model), library, time.perf_counter() + share) if dry.run.trip else None
+    dry = dry_run(model, library, share)
+    free = dry_run(without_limits(model), library, share) if dry.run.trip else None
     shown = free or dry
     used = uses(shown, model.plan.stations, capacities)
     return {
@@ -81,9 +81,9 @@ def _floors(dry: DryRun) -> list[dict[str, Any]]:
 
 
 def _expected(dry: DryRun, free: DryRun | None) -> float | None:
-    """Expected wall time (s) of the whole test at its pace; None where nothing was simulated."""
+    """Expected wall time (s) of the whole test at its pace; None where only the first step was simulated."""
     longer = free or dry
-    if not longer.covered_s:
+    if longer.covered_s <= longer.run.plan.step:
         return None
     computed = longer.elapsed_s / longer.covered_s * dry.planned_s
     pace = dry.run.plan.pace

@@ -45,6 +45,7 @@ class Role:
             "unit": self.unit,
             "shown": self.shown,
             "shown_label": units.pretty(self.shown),
+            "factor": units.factor(self.shown),
             "counts": self.counts,
             "derived": self.derived,
             "meaning": self.meaning,

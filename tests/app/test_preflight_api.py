@@ -46,6 +46,17 @@ def test_a_plan_is_simulated_and_nothing_is_stored(running: TestClient) -> None:
     assert running.get("/api/v1/runs").json()["total"] == 0
 
 
+def test_a_rig_gives_its_capacities(running: TestClient) -> None:
+    actuators = [{"name": "North", "stroke": 0.25, "velocity": 0.5}, {"force": 2.0e6}, {"force": 1.0e6}]
+    rig = running.post("/api/v1/rigs", json={"name": "Strong wall", "actuators": actuators}).json()["id"]
+    found = running.post(PATH, json={"plan": plan(), "rig": rig}).json()
+    bounds = {(use["station"], use["quantity"]): use["bound"] for use in found["uses"] if use["against"] == "rig"}
+    assert bounds == {(1, "displacement"): 0.25, (1, "velocity"): 0.5, (2, "force"): 2.0e6}
+    refused = running.post(PATH, json={"plan": plan(), "rig": "none"}).json()
+    assert refused["errors"][0]["where"] == "rig"
+    assert running.post(PATH, json={"plan": plan(), "rig": rig, "capacities": [None]}).status_code == 422
+
+
 def test_a_plan_that_cannot_run_is_refused_at_its_field(running: TestClient) -> None:
     data = plan()
     data["stations"][0]["actuator"]["alpha"] = 0.2

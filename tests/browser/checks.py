@@ -1,4 +1,4 @@
-"""What the service answered to the form's live check."""
+"""The form in tests: what the service answered to its live check, its templates and its folded stations."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from playwright.sync_api import Error, Page, Route
+from playwright.sync_api import Error, Page, Route, expect
 
 ADDRESS = "**/plans/check"
 PATIENCE_MS, POLL_MS = 20_000, 50
@@ -39,3 +39,22 @@ def checked(
         raise AssertionError(f"no check of the wanted plan was answered: {answers}")
     finally:
         form.unroute_all(behavior="ignoreErrors")
+
+
+def choose(form: Page, template: str) -> None:
+    """Choose a template in the picker, let an edited plan go, wait until the template is in the form, and open its folds."""
+    form.get_by_role("button", name="Start from a template").click()
+    form.locator(f"[data-template='{template}']").click()
+    agree = form.get_by_role("button", name="Replace the plan")
+    filled = form.locator(f"[data-template='{template}'][aria-current]")
+    expect(agree.or_(filled)).to_have_count(1)
+    if agree.count():
+        agree.click()
+    expect(filled).to_have_count(1)
+    expect(form.locator(".good")).to_be_visible()
+    unfold(form)
+
+
+def unfold(form: Page) -> None:
+    """Open the folds of all stations."""
+    form.evaluate("for (const fold of document.querySelectorAll('details.fold')) fold.open = true")

@@ -56,7 +56,8 @@ class Service:
         return run
 
     def warm_up(self) -> None:
-        """Execute a first test, for which the engine is compiled where it is not yet."""
+        """Execute a first test and a first dry run, for which the engine is compiled where it is not yet."""
+        self.http.post("/api/v1/plans/preflight", json={"plan": self.plan(duration=3.0)}, timeout=STARTED_WITHIN_S)
         self.wait(self.submit(duration=3.0), "completed", within_s=STARTED_WITHIN_S)
 
     def idle(self) -> None:

@@ -7,6 +7,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.checks import unfold
 from tests.browser.conftest import Opener
 from tests.browser.service import Service, until
 from tests.browser.test_pages import expect_accessible
@@ -25,6 +26,7 @@ def form(idle: Service, opened: Opener) -> Page:
 
 def ready(page: Page) -> Page:
     expect(page.locator("#verdict > p").first).to_be_visible()
+    unfold(page)
     return page
 
 

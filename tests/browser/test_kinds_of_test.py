@@ -9,7 +9,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.browser.checks import checked
+from tests.browser.checks import checked, choose, unfold
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 from tests.browser.test_pages import LOOKS
@@ -21,6 +21,7 @@ SPREADSHEET = "50\t0\t0\r\n0\t50\t0\r\n0\t0\t40\r\n"
 def form(idle: Service, opened: Opener) -> Page:
     page = opened("/new?template=two-storeys", allow=("422",))
     expect(page.locator(".good")).to_be_visible()
+    unfold(page)
     return page
 
 
@@ -43,7 +44,7 @@ def test_another_kind_of_test_hides_what_it_does_not_use_and_brings_it_back(form
 
 
 def test_a_drive_is_drawn_with_its_peaks_beside_the_limits(form: Page) -> None:
-    form.get_by_label("Start from a template").select_option("specimen-mr-damper")
+    choose(form, "specimen-mr-damper")
     shown = form.locator("[data-path=drive] .facts-line")
     allowed = "Peak displacement 50.00 mm (limit 80.00 mm), largest velocity 78.54 mm/s (limit 200.0 mm/s), 60.00 s"
     expect(shown).to_have_text(allowed)
@@ -54,7 +55,7 @@ def test_a_drive_is_drawn_with_its_peaks_beside_the_limits(form: Page) -> None:
 
 
 def test_matrices_are_pasted_from_a_spreadsheet_and_mistakes_told_beside_them(form: Page) -> None:
-    form.get_by_label("Start from a template").select_option("structure-matrices")
+    choose(form, "structure-matrices")
     mass = form.get_by_label("Mass matrix M, t")
     expect(mass).to_have_value("50  0  0\n0  50  0\n0  0  40")
     pasted = SPREADSHEET.replace("40", "45")
@@ -87,7 +88,7 @@ def test_a_ground_motion_is_left_out_and_a_force_put_in_its_place(form: Page) ->
 
 
 def test_the_controller_of_a_current_is_chosen_with_its_fields(form: Page) -> None:
-    form.get_by_label("Start from a template").select_option("semi-active")
+    choose(form, "semi-active")
     kind = form.locator("[id='f-stations.0.controller.kind']")
     expect(kind).to_have_value("clipped_optimal")
     answer = checked(form, lambda: kind.select_option("on_off"), lambda plan: _controller(plan)["kind"] == "on_off")

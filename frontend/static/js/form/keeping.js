@@ -29,7 +29,7 @@ export async function planOf(origin) {
   return { plan: (await api.get(`/library/plans/${id}/versions/${version}`)).plan, origin: { ...origin, version } };
 }
 
-/** The draft of the form, and its way into the library. @param {import("../library/draft.js").Form} form */
+/** The draft of the form, and its way into the library. @param {import("../library/draft.js").Form & {saved: () => void}} form `saved` is called when the library holds the plan */
 export function keeping(form) {
   const draft = new Draft(byId("draft"), form);
   const said = byId("draft");
@@ -49,6 +49,7 @@ export function keeping(form) {
       const origin = { kind: "version", id: saved.id, version: saved.version.number };
       draft.edited = false;
       draft.begin(origin);
+      form.saved();
       history.replaceState(null, "", addressOf(origin));
       const link = el("a", { href: `/plans/${saved.id}` }, saved.name);
       const words = saved.created ? `Saved as version ${saved.version.number} of ` : `Equal to version ${saved.version.number}: nothing new to save in `;

@@ -1,94 +1,147 @@
 // @ts-check
 import { ApiError, api, explain } from "../api.js";
+import { ask } from "../ask.js";
 import { byId, el } from "../dom.js";
+import { person, remember } from "../person.js";
 import { planProblems } from "./bounds.js";
 import { liveCheck } from "./checker.js";
+import { confirmed } from "./confirming.js";
+import { keepForStability } from "./draft_stability.js";
 import { exportYaml, importYaml } from "./exchange.js";
+import { Foresight } from "./foresight.js";
 import { asked, keeping, planOf } from "./keeping.js";
-import { person, remember } from "../person.js";
+import { askBeforeLeaving } from "./leaving.js";
+import { Outlook } from "./outlook.js";
+import { Picker } from "./picker.js";
 import { PlanForm } from "./plan_form.js";
+import { Rail } from "./rail.js";
 import { Schema } from "./schema.js";
-import { problemList, summaryOf } from "./summary.js";
+import { Sketch } from "./sketch.js";
+import { goTo, unfold } from "./station_fold.js";
+import { Verdict } from "./verdict.js";
+
+/** @typedef {import("./keeping.js").Origin} Origin */
 
 const DEFAULT_TEMPLATE = "table3-04";
+const KEPT = "What you typed is kept as a draft: you find it on the pages Plans and New test.";
 
-const verdict = byId("verdict");
 const who = byId("who");
-const templates = byId("template");
+const rig = byId("rig");
+const rail = new Rail(byId("rail"));
+const verdict = new Verdict(byId("verdict"), byId("findings"), () => form);
 /** @type {PlanForm} */
 let form;
-/** @type {{template: string | null, digest: string | null}} the template that filled the form, and its digest */
-let origin = { template: null, digest: null };
+/** @type {Picker} */
+let picker;
+/** @type {Sketch} */
+let sketch;
+/** @type {Outlook} */
+let outlook;
+let edits = 0; // since the form was filled
+let loads = 0;
+let queueing = false;
 
-const check = liveCheck(() => form.read(), told, (error) => (verdict.textContent = explain(error)));
+const foresight = new Foresight((outcome) => outlook.show(outcome));
+const check = liveCheck(() => form.read(), told, (error) => verdict.complain(explain(error)));
+const { draft, offer, source } = keeping({
+  read: () => form.read(),
+  owner: () => who.value.trim(),
+  show,
+  restart: (from) => (from ? load(from) : clear()),
+  saved: () => (edits = 0),
+});
+const leave = askBeforeLeaving(() => edits > 0, () => draft.flush());
 
 /** @param {any | null} checked @param {any[]} refused */
 function told(checked, refused) {
-  const own = form.problems();
-  const paths = new Set(own.map((problem) => problem.where));
-  const problems = [...own, ...refused.filter((problem) => !paths.has(problem.where))];
-  form.mark(problems);
+  const problems = verdict.show(checked, refused);
+  rail.refresh();
   if (problems.length) {
-    const count = problems.length === 1 ? "1 error" : `${problems.length} errors`;
-    verdict.replaceChildren(el("p", { class: "error" }, count), problemList(problems, (where) => form.control(where)));
-    return problems;
-  }
-  if (checked) {
-    origin.digest ??= checked.digest;
-    const changed = origin.template && origin.digest !== checked.digest;
-    form.kept.template = changed ? null : origin.template;
-    const paper = origin.template?.startsWith("table3-") ? " The result cannot be compared with the paper." : "";
-    const note = changed && el("p", { class: "muted" }, `The plan differs from the template ${origin.template}.${paper}`);
-    verdict.replaceChildren(el("p", { class: "good" }, "Ready to queue"), ...summaryOf(checked), note || "");
+    foresight.drop();
+    outlook.clear();
+  } else if (checked) {
+    sketch.draw(checked.plan);
+    byId("stability-link").hidden = checked.plan.test !== "hybrid" || !checked.plan.stations.length;
+    foresight.of(form.read(), rig.value);
   }
   return problems;
 }
 
-const { draft, offer, source } = keeping({ read: () => form.read(), owner: () => who.value.trim(), show, restart: (from) => (from ? fillFrom(from) : clear()) });
-
 /** Show a plan in the form. @param {any} plan */
 function show(plan) {
-  origin = { template: plan.template ?? null, digest: null };
+  edits = 0;
+  verdict.begin(plan.template ?? null);
   form.write(plan);
+  rail.show(form.sections);
   check.now();
 }
 
-/** Fill the form anew; what was typed before stays a draft. @param {any} plan @param {import("./keeping.js").Origin | null} from */
+/** Fill the form anew; what was typed before stays a draft. @param {any} plan @param {Origin | null} from */
 function fill(plan, from) {
   draft.begin(from);
-  templates.value = from?.kind === "template" ? from.id : "";
+  picker.value = from?.kind === "template" ? from.id : "";
   show(plan);
 }
 
-/** @param {import("./keeping.js").Origin} from */
-async function fillFrom(from) {
+/** @param {Origin} from */
+async function load(from) {
   const found = await planOf(from);
   fill(found.plan, found.origin);
 }
 
-const clear = () => fillFrom({ kind: "template", id: DEFAULT_TEMPLATE });
+const clear = () => load({ kind: "template", id: DEFAULT_TEMPLATE });
 
-/** @param {Event} event */
-async function submit(event) {
-  event.preventDefault();
+/**
+ * Fill an edited form only after asking: before the plan is loaded, and again where the form was edited while it was loading.
+ * @param {string} what @param {() => Promise<{plan: any, origin: Origin | null}>} loaded
+ */
+async function replace(what, loaded) {
+  const agreed = () => ask({ title: `Replace the edited plan by ${what}?`, text: KEPT, yes: "Replace the plan", no: "Keep editing" });
+  if (edits && !(await agreed())) return;
+  const mine = ++loads;
+  const before = edits;
+  const found = await loaded();
+  if (mine !== loads || (edits !== before && !(await agreed()))) return;
+  fill(found.plan, found.origin);
+  if (!found.origin) edited();
+}
+
+function edited() {
+  edits++;
+  check.soon();
+  draft.autosave();
+}
+
+/** Queue the plan in the form: checked, simulated, and confirmed where it would trip. */
+async function queue() {
+  if (queueing) return;
   if (!who.value.trim()) return refuseWho();
   remember(who.value.trim());
-  const button = byId("submit");
-  button.disabled = true;
+  queueing = byId("submit").disabled = true;
   try {
     const own = form.problems();
     if (own.length) return focusFirst(told(null, own));
-    const checked = await api.post("/plans/check", form.read());
-    told(checked, []);
-    const { runs } = await api.post("/runs", { plan: form.read(), submitted_by: who.value.trim(), library: source() });
+    verdict.show(await api.post("/plans/check", form.read()), []);
+    const plan = form.read();
+    const outcome = await foresight.of(plan, rig.value);
+    if (JSON.stringify(plan) !== JSON.stringify(form.read()) || !(outcome.found || outcome.failed)) return verdict.complain("Not queued: the plan was edited meanwhile. Queue the test again.");
+    if (!(await confirmed(outcome))) return focusOn(outcome.found?.trip?.path ?? "");
+    const { runs } = await api.post("/runs", { plan, submitted_by: who.value.trim(), library: source(), rig: rig.value });
     await draft.close("queued");
+    leave();
     location.assign(`/runs/${runs[0].id}`);
   } catch (error) {
     if (error instanceof ApiError && error.status < 500 && error.status > 0) focusFirst(told(null, planProblems(error)));
-    else verdict.replaceChildren(el("p", { class: "error" }, explain(error)));
+    else verdict.complain(explain(error));
   } finally {
-    button.disabled = false;
+    queueing = byId("submit").disabled = false;
   }
+}
+
+/** @param {string} path */
+function focusOn(path) {
+  const control = form.control(path);
+  if (control) goTo(control);
 }
 
 function refuseWho() {
@@ -99,52 +152,57 @@ function refuseWho() {
 
 /** @param {any[]} problems */
 function focusFirst(problems) {
-  const controls = problems.map(({ where }) => form.control(where)).filter((control) => control !== null);
+  const controls = problems.flatMap(({ where }) => form.control(where) ?? []);
+  controls.forEach(unfold);
   controls.sort((a, b) => (a.compareDocumentPosition(b) & Node.DOCUMENT_POSITION_FOLLOWING ? -1 : 1));
-  (controls[0] ?? verdict).focus();
+  (controls[0] ?? byId("verdict")).focus();
 }
 
-/** @param {{name: string, title: string, group: string}[]} offered */
-function templateGroups(offered) {
-  return [...new Set(offered.map((one) => one.group))].map((group) => {
-    const own = offered.filter((one) => one.group === group);
-    return el("optgroup", { label: group }, ...own.map((one) => el("option", { value: one.name }, one.title)));
-  });
+/** Offer the rigs that take tests, where there is a choice. @param {{id: string, name: string, retired: boolean}[]} rigs */
+function offerRigs(rigs) {
+  const offered = rigs.filter((one) => !one.retired);
+  rig.append(...offered.map(({ id, name }) => el("option", { value: id }, name)));
+  byId("rig-field").hidden = offered.length < 2;
 }
 
 async function start() {
-  const [schema, motions, offered] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates")]);
+  const [schema, motions, offered, { rigs }] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates"), api.get("/rigs")]);
+  offerRigs(rigs);
   form = new PlanForm(byId("plan"), new Schema(schema), motions.motions);
-  templates.append(...templateGroups(offered.templates));
+  picker = new Picker(byId("template"), offered.templates, (name) => {
+    const title = offered.templates.find((/** @type {any} */ one) => one.name === name).title;
+    replace(`the template ${title}`, () => planOf({ kind: "template", id: name })).catch(complain);
+  });
+  sketch = new Sketch(byId("sketch"), schema.channels);
+  outlook = new Outlook(byId("outlook"), byId("peaks"), byId("plan"), sketch);
   const wanted = asked();
   if (wanted.draft) return draft.open(wanted.draft);
-  await (wanted.origin ? fillFrom(wanted.origin) : clear());
+  await (wanted.origin ? load(wanted.origin) : clear());
   await offer();
 }
 
 /** @param {unknown} error */
-const complain = (error) => verdict.replaceChildren(el("p", { class: "error" }, explain(error)));
+const complain = (error) => verdict.complain(explain(error));
 
 who.value = person();
 who.addEventListener("input", () => {
   who.removeAttribute("aria-invalid");
   byId("e-who").textContent = "";
 });
-for (const event of ["input", "change"]) {
-  byId("plan").addEventListener(event, () => {
-    check.soon();
-    draft.autosave();
-  });
-}
-byId("new-test").addEventListener("submit", submit);
-templates.addEventListener("change", () => templates.value && fillFrom({ kind: "template", id: templates.value }).catch(complain));
+rig.addEventListener("change", () => check.now());
+for (const event of ["input", "change"]) byId("plan").addEventListener(event, edited);
+byId("new-test").addEventListener("submit", (/** @type {Event} */ event) => event.preventDefault()); // Enter in a field queues nothing
+byId("submit").addEventListener("click", queue);
+document.addEventListener("keydown", (event) => {
+  if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey) || event.repeat || document.querySelector("dialog[open]")) return;
+  event.preventDefault();
+  queue();
+});
+byId("stability-link").addEventListener("click", () => keepForStability(form.read()));
 byId("export").addEventListener("click", () => exportYaml(form.read()).catch(complain));
 byId("import").addEventListener("change", (/** @type {any} */ event) =>
   importYaml(event.target)
-    .then((plan) => {
-      fill(plan, null);
-      draft.autosave();
-    })
+    .then((plan) => replace("the imported plan", async () => ({ plan, origin: null })))
     .catch(complain),
 );
 start().catch(complain);

@@ -3,21 +3,24 @@ import { el, htmlElements } from "../dom.js";
 import { drivePart } from "./drive.js";
 import { knownPart } from "./known.js";
 import { motionPart } from "./motion.js";
+import { listPart } from "./list.js";
 import { part, usedIn } from "./parts.js";
+import { StationFold, countErrors } from "./station_fold.js";
 
 /** @typedef {import("./field.js").Part} Part @typedef {import("./schema.js").Schema} Schema @typedef {{where: string, problem: string, fix?: string | null}} Problem */
 
+/** The sections of the form: heading, title in the rail, and fields of the plan. */
 const SECTIONS = [
-  { title: "Test", names: ["test", "name", "notes"] },
-  { title: "Drive", names: ["drive"] },
-  { title: "Ground motion", names: ["motion", "motion_physics"] },
-  { title: "Forces on floors", names: ["forces"] },
-  { title: "Start", names: ["start"] },
-  { title: "Structure", names: ["structure", "structure_physics"] },
-  { title: "Integration and controller", names: ["integrator", "controller_rate"] },
-  { title: "Stations: actuator, specimen, compensator, limits", names: ["stations"] },
-  { title: "How well the numbers are known", names: ["known"] },
-  { title: "Duration, pace and seed", names: ["duration", "pace", "seed"] },
+  { title: "Test", short: "Test", names: ["test", "name", "notes"] },
+  { title: "Drive", short: "Drive", names: ["drive"] },
+  { title: "Ground motion", short: "Ground motion", names: ["motion", "motion_physics"] },
+  { title: "Forces on floors", short: "Forces on floors", names: ["forces"] },
+  { title: "Start", short: "Start", names: ["start"] },
+  { title: "Structure", short: "Structure", names: ["structure", "structure_physics"] },
+  { title: "Integration and controller", short: "Integration", names: ["integrator", "controller_rate"] },
+  { title: "Stations: actuator, specimen, compensator, limits", short: "Stations", names: ["stations"] },
+  { title: "How well the numbers are known", short: "Known numbers", names: ["known"] },
+  { title: "Duration, pace and seed", short: "Duration and pace", names: ["duration", "pace", "seed"] },
 ];
 const KEPT = ["schema", "template"];
 
@@ -32,6 +35,8 @@ export class PlanForm {
     this.parts = new Map();
     /** @type {any} */
     this.kept = {};
+    /** @type {import("./rail.js").Section[]} */
+    this.sections = [];
     for (const event of ["input", "change"]) host.addEventListener(event, () => this.#refresh());
   }
 
@@ -41,13 +46,14 @@ export class PlanForm {
     this.kept = Object.fromEntries(KEPT.map((name) => [name, plan[name] ?? null]));
     this.parts.clear();
     this.schema.test = plan.test ?? this.schema.initial(properties.test);
-    const sections = SECTIONS.map(({ title, names }) => {
+    this.sections = SECTIONS.map(({ title, short, names }) => {
       for (const name of names) this.parts.set(name, usedIn(this.schema, properties[name], this.#part(properties[name], name, plan[name])));
       const id = `section-${names[0]}`;
       const elements = names.map((name) => /** @type {Part} */ (this.parts.get(name)).element);
-      return el("section", { "aria-labelledby": id }, el("h2", { id }, title), el("div", { class: "fields" }, ...elements));
+      const element = el("section", { "aria-labelledby": id }, el("h2", { id, tabindex: "-1" }, title), el("div", { class: "fields" }, ...elements));
+      return { id, title: short, element };
     });
-    this.host.replaceChildren(...sections);
+    this.host.replaceChildren(...this.sections.map(({ element }) => element));
     this.#refresh();
   }
 
@@ -66,7 +72,16 @@ export class PlanForm {
     if (name === "motion") return motionPart(this.schema, node, value, this.records);
     if (name === "drive") return drivePart(this.schema, node, value ?? this.schema.initial(node), () => this.read());
     if (name === "known") return knownPart(this.schema, node, value ?? {}, () => this.parts.get("stations")?.read() ?? []);
-    return part(this.schema, node, name, value ?? this.schema.initial(node));
+    const filled = value ?? this.schema.initial(node);
+    return name === "stations" ? this.#stations(node, filled) : part(this.schema, node, name, filled);
+  }
+
+  /** The stations, each folded to one line. @param {any} unresolved @param {any[]} values */
+  #stations(unresolved, values) {
+    const node = this.schema.resolve(unresolved);
+    const item = this.schema.resolve(node.items);
+    const fold = (/** @type {HTMLElement} */ fields, /** @type {number} */ index, /** @type {boolean} */ open) => new StationFold(this.schema, item, fields, index, open);
+    return listPart(this.schema, node, "stations", values, part, fold);
   }
 
   /** The plan in the form, in SI units. @returns {any} */
@@ -83,7 +98,7 @@ export class PlanForm {
   mark(problems) {
     for (const control of this.host.querySelectorAll("[aria-invalid]")) control.removeAttribute("aria-invalid");
     for (const place of this.host.querySelectorAll("small.error")) place.textContent = "";
-    return problems.filter(({ where, problem, fix }) => {
+    const without = problems.filter(({ where, problem, fix }) => {
       const control = this.control(where);
       const place = control && document.getElementById(`e-${control.dataset.path}`);
       if (!control || !place) return true;
@@ -92,6 +107,8 @@ export class PlanForm {
       place.textContent = fix ? `${problem} (${fix})` : problem;
       return false;
     });
+    countErrors(this.host);
+    return without;
   }
 
   /** The control of a path, or the nearest enclosing control that can show an error. @param {string} where @returns {HTMLElement | null} */

@@ -1,6 +1,7 @@
 // @ts-check
 import { el } from "../dom.js";
 import { number } from "../format.js";
+import { goTo } from "./station_fold.js";
 
 /** The key figures of a valid plan, and its warnings. @param {any} checked @returns {HTMLElement[]} */
 export function summaryOf({ digest, summary, warnings }) {
@@ -27,7 +28,7 @@ export function problemList(problems, control) {
     if (!target) return el("li", {}, [where, text].filter(Boolean).join(": "));
     const go = (/** @type {Event} */ event) => {
       event.preventDefault();
-      target.focus();
+      goTo(target);
     };
     return el("li", {}, el("a", { href: `#${target.id}`, on: { click: go } }, labelOf(target, where)), `: ${text}`);
   });

@@ -126,7 +126,7 @@ export class BuildingDrawing {
       const label = this.labels[k];
       if (!label) return;
       label.value.textContent = fixed(values[index], 1);
-      label.peak.textContent = covered ? `peak ${fixed(Math.max(-lowest[index], highest[index]), 1)}` : "";
+      label.peak.textContent = covered ? `peak ${fixed(Math.max(-lowest[index], highest[index]), 1)} ${this.floors[k].unit}` : "";
     });
   }
 

@@ -1,6 +1,7 @@
 // @ts-check
 import { api, explain } from "../api.js";
 import { byId, el } from "../dom.js";
+import { keptForStability } from "../form/draft_stability.js";
 import { fixed, number } from "../format.js";
 import { drawMap, mapWords } from "./map.js";
 
@@ -10,10 +11,17 @@ const tabs = [byId("tab-contour"), byId("tab-surface")];
 let found = null;
 let kind = "contour";
 
+/** The plan of a template or a run, or the draft that the form keeps in this browser. */
+async function planToPredict() {
+  if (page.dataset.source) return (await api.get(page.dataset.source)).plan;
+  const draft = keptForStability();
+  if (!draft) throw new Error("This browser keeps no draft. Open the page New test and follow its link to the stability map.");
+  return draft;
+}
+
 async function load() {
   try {
-    const { plan } = await api.get(page.dataset.source);
-    found = await api.post("/stability", plan);
+    found = await api.post("/stability", await planToPredict());
   } catch (error) {
     byId("verdict").classList.add("bad");
     byId("verdict").textContent = explain(error);
