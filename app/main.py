@@ -41,6 +41,7 @@ from app.pages.plans import router as plans_page
 from app.pages.recordings import router as recordings_page
 from app.pages.settings import router as settings_page
 from app.pages.stability import router as stability_page
+from app.pages.sweeps import router as sweeps_page
 from app.pages.table4 import router as table4_page
 from app.pages.wall import router as wall_page
 from app.plans.endpoints import router as plans
@@ -56,6 +57,7 @@ from app.runs.endpoints import router as runs
 from app.runs.table_endpoints import router as run_table
 from app.runs.view_endpoints import router as run_views
 from app.stability.endpoints import router as stability
+from app.sweeps.analysis_endpoints import router as sweep_analysis
 from app.sweeps.endpoints import router as sweeps
 from app.table4.endpoints import router as table4
 from app.worker.embedded import EmbeddedWorker
@@ -86,6 +88,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         run_edits,
         runs,
         sweeps,
+        sweep_analysis,
         queue,
         rigs,
         motions,
@@ -120,6 +123,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(compare_page)
     app.include_router(lab_page)
     app.include_router(table4_page)
+    app.include_router(sweeps_page)
     app.include_router(wall_page)
     app.include_router(settings_page)
     app.include_router(pages.router)

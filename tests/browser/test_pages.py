@@ -12,7 +12,7 @@ from playwright.sync_api import Page, expect
 from tests.app.test_diagnoses import LEFT_OUT, ask, until_state
 from tests.app.test_diagnoses import plan as specimen
 from tests.browser.conftest import Opener
-from tests.browser.service import Service
+from tests.browser.service import Service, until
 from tests.engine import batch_files
 
 LOOKS: dict[str, dict[str, Any]] = {
@@ -37,6 +37,9 @@ CONTENT = {
     "/recordings/batches/{batch}": "tbody tr",
     "/compare": "#choose tbody tr",
     "/compare?items=run:{run},recording:{recording}": ".compared tbody tr",
+    "/sweeps": "tbody tr",
+    "/sweeps/new?template=two-storeys": "#name",
+    "/sweeps/{sweep}": "#tornado .main-svg",
     "/diagnoses": "tbody tr",
     "/diagnoses/{diagnosis}": "#detail-1 + .panels figure:last-child svg.main-svg",
 }
@@ -77,8 +80,17 @@ def plan(service: Service) -> str:
 
 
 @pytest.fixture(scope="module")
-def shown(run: str, recording: str, batch: str, diagnosis: str, plan: str) -> dict[str, str]:
-    return {"plan": plan, "run": run, "recording": recording, "batch": batch, "diagnosis": diagnosis}
+def sweep(service: Service) -> str:
+    fields = [{"path": "structure.damping_ratio", "values": [0.01, 0.05]}]
+    definition = {"name": "Damping", "plan": service.plan(duration=0.5), "fields": fields}
+    queued = service.post("/sweeps", {"sweep": definition})["id"]
+    until(lambda: service.get(f"/sweeps/{queued}")["state"], lambda state: state == "completed")
+    return str(queued)
+
+
+@pytest.fixture(scope="module")
+def shown(run: str, recording: str, batch: str, diagnosis: str, plan: str, sweep: str) -> dict[str, str]:
+    return {"plan": plan, "run": run, "recording": recording, "batch": batch, "diagnosis": diagnosis, "sweep": sweep}
 
 
 @pytest.mark.parametrize("look", LOOKS)
