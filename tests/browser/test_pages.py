@@ -84,7 +84,7 @@ def sweep(service: Service) -> str:
     fields = [{"path": "structure.damping_ratio", "values": [0.01, 0.05]}]
     definition = {"name": "Damping", "plan": service.plan(duration=0.5), "fields": fields}
     queued = service.post("/sweeps", {"sweep": definition})["id"]
-    until(lambda: service.get(f"/sweeps/{queued}")["state"], lambda state: state == "completed")
+    until(lambda: service.get(f"/sweeps/{queued}")["state"], lambda state: state == "completed", 150)
     return str(queued)
 
 

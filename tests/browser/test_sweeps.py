@@ -30,7 +30,7 @@ def test_a_sweep_is_set_up_previewed_queued_and_its_points_are_compared(opened: 
     expect(page.locator("#preview")).to_contain_text("predicted")
     page.get_by_role("button", name="Queue sweep of 6 points").click()
     expect(page.locator("h1")).to_have_text(f"Sweep of {plan['name']}")
-    expect(page.locator("#state")).to_have_text("completed", timeout=60_000)
+    expect(page.locator("#state")).to_have_text("completed", timeout=150_000)
     expect(page.locator("#standing")).to_contain_text("6 of 6 points done")
     expect(page.locator("#points tbody tr")).to_have_count(6)
     for plot in ("#heat", "#tornado", "#fragility"):
