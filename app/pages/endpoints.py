@@ -1,4 +1,4 @@
-"""Pages of tests. Runs is rendered on the server; Queue, New test and Run are shells whose modules use the REST API."""
+"""Pages of tests: shells whose modules use the REST API."""
 
 from __future__ import annotations
 
@@ -9,14 +9,9 @@ from fastapi.responses import HTMLResponse
 
 from app.config import MEGABYTE
 from app.dependencies import Configured
-from app.jobs.states import State
-from app.models import Run
 from app.pages.errors import PageRoute, error_page
 from app.pages.rendering import page
-from app.pages.run_list import LIMIT, RunFilter
-from app.plans.dependency import Plans
 from app.runs.dependency import Runs
-from rths_engine.foundation.errors import RthsError
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
 
@@ -34,17 +29,9 @@ def new(request: Request, configured: Configured) -> HTMLResponse:
 
 
 @router.get("/runs")
-def listed(request: Request, runs: Runs, plans: Plans, wanted: Annotated[RunFilter, Query()]) -> HTMLResponse:
-    """The page of all runs, filtered and sorted."""
-    found: list[Run] = []
-    total, problem = 0, None
-    try:
-        found, total = runs.listed(wanted.filter(), wanted.part())
-    except RthsError as error:
-        problem = str(error)
-    offered = {"states": list(State), "templates": plans.templates()}
-    shown = {"runs": found, "total": total, "first": LIMIT * (wanted.number - 1) + 1, "problem": problem}
-    return page(request, "runs.html", 422 if problem else 200, wanted=wanted, **offered, **shown)
+def listed(request: Request, number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1) -> HTMLResponse:
+    """The run table. Its modules read the address, which holds columns, filter and order."""
+    return page(request, "runs.html")
 
 
 @router.get("/runs/{run_id}")

@@ -15,7 +15,7 @@ from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.planning.kinds_of_test import TESTS
 from rths_engine.planning.plan import MOST_STATIONS
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
-from rths_engine.results.measures import of
+from rths_engine.results.measures import MEASURES, of
 
 Kind = Literal["text", "number", "time", "tags", "flag"]
 Choices = tuple[tuple[str, str], ...]
@@ -80,10 +80,8 @@ FACTS: dict[str, Column] = {
         *(_test_column(one) for one in of(RunMeasure)),
     )
 }
-DEFAULT = (
-    *("number", "name", "state", "tags", "mte_mm:max", "rms_percent:max", "peak_stroke_mm:max", "peak_force_kN:max"),
-    *("floors_peak_mm:max", "submitted_by", "submitted_at"),
-)
+LISTED = tuple(one.key if one.scope == "run" else f"{one.key}:{LARGEST}" for one in MEASURES if one.listed)
+DEFAULT = ("number", "name", "state", "tags", *LISTED, "submitted_by", "submitted_at")
 ALIASES = {"tag": "tags", "by": "submitted_by", "status": "state"}
 
 
@@ -121,7 +119,7 @@ def _counts(text: str, most: int) -> bool:
 
 def _measured(one: Measure, which: str) -> Column:
     each = {"station": "station", "floor": "floor"}[one.scope]
-    named = f"largest {each}" if which == LARGEST else f"{each} {which}"
+    named = "largest" if which == LARGEST else f"{each} {which}"
     label = f"{one.label}, {named}"
     group = f"Measures of {each}s"
     return Column(f"{one.key}:{which}", label, group, "number", one.shown_label, help=one.meaning, stored=False)

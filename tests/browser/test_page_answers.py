@@ -18,7 +18,7 @@ def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log() ->
     app = FastAPI()
     app.include_router(pages.router)
     app.dependency_overrides[run_service] = _broken
-    answer = TestClient(app).get("/runs")
+    answer = TestClient(app).get("/runs/1")
     assert answer.status_code == 500
     assert "<h1>Internal server error</h1>" in answer.text
     assert "the disk is gone" not in answer.text

@@ -27,7 +27,7 @@ CONTENT = {
     "/new": ".good",
     "/plans": "#plans tbody tr",
     "/plans/{plan}": "#versions tbody tr",
-    "/runs": "tbody tr",
+    "/runs": "#rows tr",
     "/runs/{run}": "#metrics tbody tr",
     "/stability/two-storeys": "#map .plot-container",
     "/stability/{run}": "#map .plot-container",
@@ -129,21 +129,6 @@ def test_the_first_tab_stop_skips_to_the_content(opened: Opener) -> None:
     expect(page.get_by_role("link", name="Skip to the content")).to_be_focused()
     page.keyboard.press("Enter")
     expect(page.locator("main")).to_be_focused()
-
-
-def test_runs_are_filtered_and_sorted_by_the_address(service: Service, opened: Opener) -> None:
-    for name in ("Brace A", "Brace B"):
-        service.completed(name=name, duration=0.5)
-    page = opened("/runs")
-    page.get_by_label("Text").fill("Brace")
-    page.get_by_role("button", name="Filter").click()
-    expect(page.locator("tbody tr")).to_have_count(2)
-    page.get_by_role("link", name="Test", exact=True).click()
-    page.wait_for_url("**sort=name**")
-    page.get_by_role("link", name="Test", exact=True).click()
-    page.wait_for_url("**order=asc**")
-    expect(page.locator("tbody td.name").first).to_have_text("Brace A")
-    assert "q=Brace" in page.url and "sort=name" in page.url and "order=asc" in page.url
 
 
 def expect_accessible(page: Page) -> None:

@@ -65,7 +65,7 @@ async function refresh() {
   setTimeout(refresh, PERIOD_MS);
 }
 
-/** @param {{id: string, name: string}} run */
-const link = (run) => el("a", { href: `/runs/${run.id}`, title: run.name }, run.name);
+/** @param {{id: string, number: number, name: string}} run */
+const link = (run) => el("a", { href: `/runs/${run.id}`, title: run.name }, `#${run.number} ${run.name}`);
 
 refresh();

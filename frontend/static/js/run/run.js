@@ -38,7 +38,7 @@ function show() {
   const state = byId("state");
   state.textContent = run.state;
   state.className = `badge ${run.state}`;
-  document.title = `${run.state === "running" ? "▶ " : ""}${run.name} · RTHS control room`;
+  document.title = `${run.state === "running" ? "▶ " : ""}#${run.number} ${run.name} · RTHS control room`;
   const why = reason(run);
   const banner = byId("reason");
   banner.hidden = !why;
