@@ -38,7 +38,7 @@ button.addEventListener("click", async () => {
   note.textContent = "Stopping …";
   try {
     await api.post("/abort", { by: person() });
-    note.textContent = "Stopped. The queue is held: release the queue on the Lab page.";
+    note.textContent = "Stopped. The queue is held: release it on the page Queue.";
     document.dispatchEvent(new Event("aborted"));
   } catch (error) {
     note.textContent = `Not stopped: ${explain(error)}`;
