@@ -48,6 +48,8 @@ class Kind(ABC, Generic[Row, Given, Result]):
     """Whether processes start with the worker and stay for the next job; otherwise each job gets a new process."""
     started_early: ClassVar[bool] = True
     """Whether processes that are kept warm start with the worker; otherwise they start with their first job."""
+    polling_s: ClassVar[float] = 0.1
+    """Time between two polls of the queue, and between two looks at running jobs; each costs a worker a millisecond."""
     ahead: ClassVar[int] = 0
     """Jobs that a worker takes from the queue while all processes are busy, so that no process waits for the next poll."""
     keeps_when_cancelled: ClassVar[bool] = False

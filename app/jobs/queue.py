@@ -14,7 +14,6 @@ from app.jobs.kind import Kind
 
 APPLICATION = "rths"
 VERSION = "1"  # pinned: jobs in the queue must still start after the workflow is edited
-POLLING_S = 0.1
 KEEP = timedelta(days=7)
 MOST_PURGED = 5000
 

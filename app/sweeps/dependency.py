@@ -13,7 +13,8 @@ from app.sweeps.service import SweepService
 
 def sweep_service(request: Request, session: OneSession, runs: Runs, configured: Configured) -> SweepService:
     """The service of sweeps in the session of the request."""
-    return SweepService(session, runs, configured, request.app.state.queue)
+    state = request.app.state
+    return SweepService(session, runs, configured, state.dry_runs, state.queue)
 
 
 Sweeps = Annotated[SweepService, Depends(sweep_service)]

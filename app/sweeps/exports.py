@@ -11,9 +11,8 @@ from app.jobs.states import State
 from app.models import Sweep
 from app.sweeps.repository import Standing, age
 from app.sweeps.schemas import ResultsOut, SweepDetail, SweepOut
-from app.sweeps.service import columns_of, state
+from app.sweeps.service import columns_of, design_of, state
 from app.sweeps.shown import axes, column
-from rths_engine.sweeps.design import read_design
 from rths_engine.sweeps.table import Table, arrow_bytes, csv_text
 
 ARROW = "application/vnd.apache.arrow.stream"
@@ -53,7 +52,7 @@ def out(sweep: Sweep, standing: Standing) -> SweepOut:
 
 def detail(sweep: Sweep, standing: Standing) -> SweepDetail:
     """A sweep with its definition."""
-    design = read_design(sweep.definition)
+    design = design_of(sweep)
     return SweepDetail(
         **out(sweep, standing).model_dump(),
         sweep=sweep.definition,

@@ -28,6 +28,8 @@ class Examined:
     examined: int = 0
     invalid: int = 0
     durations_s: list[float] = field(default_factory=list)
+    first_valid: int | None = None
+    """The first examined point (from 0) that is valid."""
     first_invalid: list[Refusal] = field(default_factory=list)
     stability: Prediction = field(default_factory=lambda: Prediction(predicted=0, stable=0, unstable=0, first_unstable=[]))
 
@@ -56,6 +58,7 @@ def _examine(design: Design, point: int, motions: MotionLibrary, found: Examined
             found.first_invalid.append(refusal(design, point, "; ".join(str(issue) for issue in error.issues)))
         return
     found.durations_s.append(good.duration_s)
+    found.first_valid = point if found.first_valid is None else found.first_valid
     said = _stability(good.model)
     if said is None:
         return

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import uuid
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from functools import lru_cache
 from typing import Any
 
 from sqlalchemy.orm import Session
@@ -13,7 +15,9 @@ from app.config import Settings
 from app.jobs.service import JobService, Queue, named
 from app.jobs.states import State
 from app.models import Run, Sweep, SweepShard
-from app.problems import Conflict, NotFound
+from app.preflight.process import DryRuns
+from app.preflight.process import Order as Trial
+from app.problems import Conflict, NotFound, Unavailable
 from app.runs.service import RunService
 from app.sweeps.job import SHARDS, left
 from app.sweeps.order import ShardEnd
@@ -37,10 +41,10 @@ EXAMINED_S = 0.3  # of points that are checked before a sweep is queued
 class SweepService:
     """Rules of sweeps."""
 
-    def __init__(self, session: Session, runs: RunService, settings: Settings, queue: Queue | None = None):
+    def __init__(self, session: Session, runs: RunService, settings: Settings, trials: DryRuns, queue: Queue | None = None):
         self.rows = SweepRepository(session)
         self.jobs: JobService[SweepShard, ShardEnd] = JobService(session, SHARDS, queue)
-        self.runs, self.settings = runs, settings
+        self.runs, self.settings, self.trials = runs, settings, trials
 
     def submit(self, data: Any, by: str) -> Sweep:
         """Store and queue a sweep.
@@ -98,16 +102,29 @@ class SweepService:
         return design
 
     def _duration(self, design: Design, found: Examined) -> Duration:
-        """The computing time, from the newest points of sweeps of the same kind on this installation."""
-        elapsed, simulated, points = self.rows.speed(cost(design))
+        """The computing time, from the newest points of sweeps of the same kind here, or else from a trial of one point."""
         processes = self.settings.sweep_processes
-        if not (simulated > 0 and found.durations_s):
-            basis = "No sweep of this kind has been executed here yet. The first points of the sweep show its speed."
-            return Duration(point_s=None, processes=processes, predicted_s=None, basis=basis)
-        one = elapsed / simulated * sum(found.durations_s) / len(found.durations_s)
-        basis = f"Speed of the last {points} points of sweeps of this kind on this installation."
-        whole = one * -(-design.count // processes)
+        elapsed, simulated, points = self.rows.speed(cost(design))
+        if simulated > 0 and found.durations_s:
+            one: float | None = elapsed / simulated * sum(found.durations_s) / len(found.durations_s)
+            basis = f"Speed of the last {points} points of sweeps of this kind on this installation."
+        else:
+            one = self._trial(design, found)
+            basis = "A trial of one point." if one else "Not known: no sweep of this kind ran here, and no trial ended."
+        whole = one * -(-design.count // processes) if one else None
         return Duration(point_s=one, processes=processes, predicted_s=whole, basis=basis)
+
+    def _trial(self, design: Design, found: Examined) -> float | None:
+        """Computing time (s) of one point in the process of the dry runs; None where it does not answer."""
+        if found.first_valid is None:
+            return None
+        plan = {**design.named(found.first_valid), "pace": {"kind": "fastest"}}
+        try:
+            answer = self.trials.execute(Trial(plan, self.runs.motions.folder, []))
+        except (RthsError, Unavailable):
+            return None
+        elapsed: float | None = answer["expected_elapsed_s"]
+        return elapsed
 
     def get(self, sweep_id: str) -> Sweep:
         """The sweep with this id. Raises NotFound."""
@@ -181,7 +198,7 @@ class SweepService:
         index = number - 1
         parts = self.rows.parts(sweep, index - MOST_IN_SHARD, index + 1)
         found = decoded(columns_of(sweep), [(one.first, one.count, one.values, one.reasons) for one in parts])
-        return read_design(sweep.definition), found.taken(found.points == index)
+        return design_of(sweep), found.taken(found.points == index)
 
     def run_point(self, sweep_id: str, number: int, by: str) -> Run:
         """Queue the plan of a point as an ordinary run, whose recording has the full histories. Raises NotFound, RthsError."""
@@ -218,6 +235,16 @@ def cost(design: Design) -> str:
     kinds = sorted({station.specimen.kind for station in plan.stations})
     text = f"{plan.test} {plan.structure.kind} {len(plan.stations)} {'+'.join(kinds)} {plan.controller_rate:g}"
     return text[:120]
+
+
+def design_of(sweep: Sweep) -> Design:
+    """The design of a sweep. Its definition never changes, so it is read once."""
+    return _read(sweep.id, json.dumps(sweep.definition))
+
+
+@lru_cache(maxsize=16)
+def _read(_: str, definition: str) -> Design:
+    return read_design(json.loads(definition))
 
 
 def columns_of(sweep: Sweep) -> list[Column]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
 import time
 from collections.abc import Sequence
@@ -37,6 +38,7 @@ class Running:
     progress: Progress | None = None
     written_at: float = -PROGRESS_S
     parts: list[Any] = field(default_factory=list)
+    looked_at: float = -math.inf
     storing: threading.Lock = field(default_factory=threading.Lock)
 
     def take(self, message: Any) -> None:
@@ -91,6 +93,9 @@ class Executor:
                 del one.parts[: len(parts)]
 
     def _look(self, one: Running) -> None:
+        if time.monotonic() - one.looked_at < one.kind.polling_s:
+            return
+        one.looked_at = time.monotonic()
         self._keep(one)
         order, news = one.order, one.news()
         with unit_of_work(self.maker) as session:

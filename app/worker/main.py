@@ -24,7 +24,7 @@ from sqlalchemy.orm import Session, sessionmaker
 from app.config import Settings, from_environment
 from app.db import connect, sessions, unit_of_work
 from app.jobs.kind import Kind
-from app.jobs.queue import APPLICATION, POLLING_S, VERSION
+from app.jobs.queue import APPLICATION, VERSION
 from app.jobs.service import MOST_ATTEMPTS
 from app.jobs.workers import Workers
 from app.worker.executor import Executor
@@ -81,7 +81,7 @@ def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any,
         DBOS.register_queue(
             kind.queue,
             worker_concurrency=kind.at_a_time(settings) + kind.ahead,
-            polling_interval_sec=POLLING_S,
+            polling_interval_sec=kind.polling_s,
             on_conflict="always_update",
         )
     _watch(executor, maker, name, settings.worker_concurrency)

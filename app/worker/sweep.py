@@ -10,7 +10,7 @@ from typing import Any
 from app.sweeps.order import ShardEnd, ShardOrder, ShardPart
 from app.worker.child import Line, Refused
 
-PART_S = 0.5  # between two parts: what a killed worker loses at most, beside the present point
+PART_S = 1.0  # between two parts: what a killed worker loses at most, beside the present point
 
 
 def prepare() -> None:

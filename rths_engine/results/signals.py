@@ -66,9 +66,9 @@ class RunSignals:
         return self.model.plan
 
     def signal(self, key: str) -> Array:
-        """The column named `key` (`x_cmd.1`). Raises ValueError where there is none."""
+        """The column named `key` (`x_cmd.1`), contiguous. Raises ValueError where there is none."""
         column: Array = self.signals[:, [channel.key for channel in self.channels].index(key)]
-        return column
+        return np.ascontiguousarray(column)
 
     @cached_property
     def inputs(self) -> Array:

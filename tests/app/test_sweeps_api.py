@@ -18,6 +18,7 @@ from app.jobs.service import JobService
 from app.jobs.states import State
 from app.main import create_app
 from app.models import SweepShard
+from app.preflight.process import DryRuns
 from app.sweeps.job import SHARDS, left
 from app.sweeps.order import ShardOrder
 from app.worker import sweep as process
@@ -41,6 +42,12 @@ def submit(client: TestClient, **changes: Any) -> str:
     assert answer.status_code == 201, answer.text
     found: str = answer.json()["id"]
     return found
+
+
+@pytest.fixture(autouse=True)
+def trials(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dry runs that end at once; tests/app/test_preflight_api.py has real ones."""
+    monkeypatch.setattr(DryRuns, "execute", lambda *_: {"expected_elapsed_s": 0.5})
 
 
 def get(client: TestClient, path: str) -> Any:
@@ -106,7 +113,9 @@ def test_a_preview_says_count_axes_columns_stability_and_what_is_not_known(clien
     prediction = found["stability"]
     assert prediction["predicted"] == 4 == prediction["stable"] + prediction["unstable"]
     assert {"mte_mm.1", "pga_g", "status"} <= {column["key"] for column in found["columns"]}
-    assert found["duration"]["predicted_s"] is None and found["duration"]["basis"].startswith("No sweep of this kind")
+    duration = found["duration"]
+    assert (duration["point_s"], duration["basis"]) == (0.5, "A trial of one point.")
+    assert duration["predicted_s"] == 0.5 * -(-4 // duration["processes"])
 
 
 def test_a_preview_lists_invalid_points_with_inputs_and_reason(client: TestClient) -> None:
