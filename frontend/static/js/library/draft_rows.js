@@ -17,7 +17,7 @@ export async function showDrafts(host) {
     return;
   }
   const rows = drafts.map((one) => row(one, () => showDrafts(host)));
-  host.replaceChildren(tableOf("Table of your drafts", ["Draft", "Started from", "Not valid yet", "Saved", ""], rows));
+  host.replaceChildren(tableOf("Table of your drafts", ["Draft", "Started from", "Check of the plan", "Saved", ""], rows));
 }
 
 /** @param {Listed} draft @param {() => Promise<void>} refresh */
@@ -29,7 +29,7 @@ function row(draft, refresh) {
     {},
     el("td", { class: "name", "data-label": "Draft" }, el("a", { href: `/new?draft=${id}` }, title)),
     el("td", { class: "name", "data-label": "Started from" }, origin ? el("a", { href: addressOf(origin) }, origin_title || `${origin.kind} ${origin.id}`) : "–"),
-    el("td", { class: "problems", "data-label": "Not valid yet" }, onlyHere ? "Only this browser holds it: open it to save it" : problemsOf(problems)),
+    el("td", { class: "problems", "data-label": "Check of the plan" }, onlyHere ? "Only this browser holds it: open it to save it" : problemsOf(problems)),
     el("td", { class: "nowrap", "data-label": "Saved" }, savedAt(saved_at)),
     el("td", {}, el("span", { class: "actions" }, rowButton("Discard", `the draft ${title}`, () => attempt(() => discard(draft, title, refresh))))),
   );
