@@ -33,7 +33,9 @@ def ready(page: Page) -> Page:
 def test_an_invalid_plan_survives_a_closed_tab_and_is_found_again(form: Page, idle: Service) -> None:
     form.get_by_label(ALPHA, exact=True).first.fill(WRONG)
     form.get_by_label("Name", exact=True).first.fill("Half typed")
-    form.close(run_before_unload=True)  # within the 0.8 s before it would be saved
+    form.once("dialog", lambda asked: asked.accept())
+    with form.expect_event("close"):
+        form.close(run_before_unload=True)  # within the 0.8 s before it would be saved
     again = form.context.new_page()
     again.goto("/new")
     expect(again.get_by_text("You left a draft from template two-storeys")).to_be_visible()

@@ -21,7 +21,13 @@ export async function ownDrafts(name) {
   const own = /** @type {Listed[]} */ (drafts).filter((one) => name || known.has(one.id));
   const stored = new Set(own.map((one) => one.id));
   const here = heldIds().filter((id) => !stored.has(id) && !known.has(id));
-  return [...here.map(onlyHere), ...own];
+  return [...here.map(onlyHere), ...own.map(asTyped)];
+}
+
+/** A draft under the name that this browser typed last: the save of a page that was left may still be under way. @param {Listed} draft @returns {Listed} */
+function asTyped(draft) {
+  const copy = heldHere(draft.id);
+  return copy ? { ...draft, name: copy.plan?.name ?? "", saved_at: copy.at } : draft;
 }
 
 /** A draft that never reached the service. @param {string} id @returns {Listed} */
