@@ -25,7 +25,8 @@ export function fitted(heights, bays, box) {
   const widths = bays.length ? bays : [0.75 * total];
   const wide = widths.reduce((sum, one) => sum + one, 0);
   const room = box.right - box.left;
-  const width = Math.min(room, Math.max(SLENDEREST, Math.min(WIDEST, wide / total)) * tall, Math.max(room * 0.6, 60));
+  const most = bays.length > 1 ? room : Math.max(room * 0.6, 60);
+  const width = Math.min(room, Math.max(SLENDEREST, Math.min(WIDEST, wide / total)) * tall, most);
   const left = (box.left + box.right - width) / 2;
   let [x, y] = [left, box.bottom];
   const lines = [x, ...widths.map((one) => (x += (one / wide) * width))];

@@ -53,7 +53,7 @@ export class BuildingDrawing {
 
   /** @param {number} width @param {number} height */
   build(width, height) {
-    const room = Math.min(0.13 * width, 90);
+    const room = Math.min(0.11 * width, 90);
     const right = width - LABELS;
     const box = { left: 12 + room, right: right - room, top: 18, bottom: height - GROUND };
     const bays = this.plan.structure.bays ?? [];
@@ -167,5 +167,5 @@ function arrow(group, x, y, long) {
   const found = Number.isFinite(long) ? long : 0;
   change(shaft, { x1: x.toFixed(1), x2: (x + found).toFixed(1), y1: y, y2: y });
   const back = Math.sign(found) * Math.min(6, Math.abs(found));
-  head.setAttribute("d", `M${(x + found).toFixed(1)} ${y}l${(-back).toFixed(1)} -4v8z`);
+  head.setAttribute("d", Math.abs(found) < 1 ? "" : `M${(x + found).toFixed(1)} ${y}l${(-back).toFixed(1)} -4v8z`);
 }

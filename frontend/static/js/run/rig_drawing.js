@@ -114,7 +114,7 @@ export class RigDrawing {
     const pull = Number.isFinite(values[this.index.force]) ? (60 * values[this.index.force]) / this.forceLimit : 0;
     const back = Math.sign(pull) * Math.min(7, Math.abs(pull));
     change(force.children[0], { x1: stroke, x2: stroke + pull });
-    force.children[1].setAttribute("d", `M${(stroke + pull).toFixed(1)} 0l${(-back).toFixed(1)} -4v8z`);
+    force.children[1].setAttribute("d", Math.abs(pull) < 1 ? "" : `M${(stroke + pull).toFixed(1)} 0l${(-back).toFixed(1)} -4v8z`);
     if (!numbers) return;
     const said = (/** @type {number} */ index, /** @type {number} */ decimals) => `${fixed(values[index], decimals)} ${this.channels[index].unit}`;
     if (this.words) this.words.textContent = said(this.index.force, 1);
