@@ -20,6 +20,7 @@ from app.diagnoses.endpoints import router as diagnoses
 from app.guard import Guard
 from app.head import Head
 from app.health import router as health
+from app.help.endpoints import router as glossary
 from app.jobs import queue as durable
 from app.laboratory.endpoints import router as laboratory
 from app.library.draft_endpoints import router as drafts
@@ -36,6 +37,7 @@ from app.notifications.webhook_endpoints import router as webhooks
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
+from app.pages.help import router as help_page
 from app.pages.lab import router as lab_page
 from app.pages.plans import router as plans_page
 from app.pages.recordings import router as recordings_page
@@ -105,6 +107,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         notifications,
         webhooks,
         health,
+        glossary,
         live,
     ):
         app.include_router(router, max_body_size=configured.upload_limit)
@@ -122,6 +125,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(diagnoses_page)
     app.include_router(compare_page)
     app.include_router(lab_page)
+    app.include_router(help_page)
     app.include_router(table4_page)
     app.include_router(sweeps_page)
     app.include_router(wall_page)

@@ -25,6 +25,7 @@ CONTENT = {
     "/": ".headline:has(#recent-title) + div tbody tr",
     "/queue": "#waiting-none",
     "/new": ".good",
+    "/help": "#shortcuts dd",
     "/plans": "#plans tbody tr",
     "/plans/{plan}": "#versions tbody tr",
     "/runs": "#rows tr",

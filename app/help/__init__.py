@@ -1,0 +1,1 @@
+"""The documents of the program, shown and searched inside it, and the glossary behind labels."""
