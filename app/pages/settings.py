@@ -1,4 +1,4 @@
-"""The page of the settings: what is stored once for the whole laboratory."""
+"""The page of the settings, stored once for the whole laboratory, and the form of a data set for DesignSafe."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from app.events.tables import EventKind
 from app.laboratory.dependency import OneLaboratory
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
+from app.publishing.designsafe.entities import LICENCES
+from app.runs.dependency import Runs
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
 
@@ -17,3 +19,9 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 def settings(request: Request, laboratory: OneLaboratory) -> HTMLResponse:
     """The settings of the laboratory."""
     return page(request, "settings.html", laboratory=laboratory.shown(), event_kinds=list(EventKind))
+
+
+@router.get("/runs/{run_id}/designsafe")
+def designsafe(request: Request, run_id: str, runs: Runs) -> HTMLResponse:
+    """The form of a data set for DesignSafe."""
+    return page(request, "designsafe.html", run=runs.get(run_id), licences=LICENCES)

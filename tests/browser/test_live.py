@@ -65,6 +65,7 @@ def test_a_running_test_is_cancelled_and_keeps_what_was_recorded(idle: Service, 
     page.get_by_role("button", name="Cancel the test").click()
     expect(page.locator("#state")).to_have_text("cancelled")
     expect(page.locator("#reason")).to_contain_text("Stopped by Ana Ruiz")
+    page.get_by_text("Download", exact=True).click()
     expect(page.get_by_role("link", name="Recording, HDF5")).to_be_visible()
 
 

@@ -35,6 +35,7 @@ def test_a_test_is_submitted_watched_to_its_end_and_its_recording_downloaded(for
     expect(form.get_by_role("region", name="Measures of each station", exact=True).locator("tbody tr")).to_have_count(2)
     expect(form.locator("#clock")).to_contain_text("5.00 of 5.00 s simulated")
     expect(form.locator(".chart canvas").first).to_be_visible()
+    form.get_by_text("Download", exact=True).click()
     with form.expect_download() as download:
         form.get_by_role("link", name="Recording, HDF5").click()
     path = tmp_path / "recording.h5"

@@ -1,5 +1,6 @@
 // @ts-check
 import { el } from "../dom.js";
+import { downloadMenu } from "../downloads.js";
 import { ended } from "./facts.js";
 
 /** The button that cancels a test which has not ended. @param {any} run @param {(button: HTMLButtonElement) => void} stop @returns {HTMLElement[]} */
@@ -12,19 +13,21 @@ export function cancelling(run, stop) {
 /** The links of a run. @param {any} run @returns {HTMLElement[]} */
 export function actions(run) {
   const address = `/api/v1/runs/${run.id}`;
-  const link = (/** @type {string} */ href, /** @type {string} */ label, /** @type {boolean} */ saved = false) => el("a", { href, class: "button quiet", download: saved }, label);
+  const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet" }, label);
   const driven = run.test === "specimen" || run.test === "actuator";
-  const recorded = run.recording
-    ? [
-        link(`${address}/recording.h5`, "Recording, HDF5", true),
-        link(`${address}/recording.csv`, "Recording, CSV", true),
-        link(`${address}/measures.csv`, "Measures, CSV", true),
-        link(`${address}/report.html`, "Report"),
-      ]
-    : [];
+  /** @type {import("../downloads.js").Download[]} */
+  const recorded = [
+    ["Report, HTML", `${address}/report.html`],
+    ["Report, PDF", `${address}/report.pdf`],
+    ["Report with plots that zoom, 5 MB", `${address}/report.html?interactive=true`],
+    ["Recording, HDF5", `${address}/recording.h5`, true],
+    ["Recording, CSV", `${address}/recording.csv`, true],
+    ["Recording, MATLAB", `${address}/recording.mat`, true],
+    ["Measures, CSV", `${address}/measures.csv`, true],
+    ["Data set for DesignSafe", `/runs/${run.id}/designsafe`],
+  ];
   return [
-    ...recorded,
-    link(`${address}/plan.yaml`, "Plan, YAML", true),
+    downloadMenu([...(run.recording ? recorded : []), ["Plan, YAML", `${address}/plan.yaml`, true]]),
     ...(driven ? [] : [link(`/stability/${run.id}`, "Stability")]),
     ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run")] : []),
     ...(run.recording ? [link(`/compare/previous/${run.id}`, "Compare with the previous run"), link(`/compare?items=run:${run.id}`, "Compare with other runs")] : []),

@@ -4,6 +4,7 @@ import { cancelConfirmed } from "../confirm.js";
 import { byId, renew } from "../dom.js";
 import { person } from "../person.js";
 import { actions, cancelling } from "./actions.js";
+import { Annotations } from "./annotations.js";
 import { again } from "./again.js";
 import { buildCharts } from "./charts.js";
 import { awaited, clock, ended, facts, reason } from "./facts.js";
@@ -27,6 +28,8 @@ let declared = { measures: [], channels: {} };
 /** @type {{store: Store, view: View, transport: Transport, tiles: import("./tiles.js").Tiles} | null} */
 let shown = null;
 let attempt = 0;
+/** @type {Annotations | null} */
+let annotations = null;
 
 async function load() {
   run = await api.get(`/runs/${id}`);
@@ -109,6 +112,7 @@ function build(schema) {
   const tiles = buildCharts(byId("charts"), view, run.plan, declared);
   shown = { store, view, tiles, transport: new Transport(view) };
   if (ended(run.state)) showTiles();
+  annotations?.show();
   showEnd();
 }
 
@@ -166,6 +170,8 @@ printsAll(() => shown?.view.drawAll());
 try {
   declared = await api.get("/schema");
   await load();
+  annotations = new Annotations(byId("annotations"), run, () => shown?.view);
+  await annotations.load();
   if (!ended(run.state) || run.recording) follow(id, viewer);
   poll();
 } catch (error) {

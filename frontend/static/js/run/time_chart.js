@@ -6,7 +6,7 @@ import { drawColumns } from "./columns.js";
 import { Envelope } from "./envelope.js";
 import { Figure } from "./figure.js";
 import { axis, fit, padded, themed } from "./plot_style.js";
-import { drawLimits, drawTrip } from "./time_marks.js";
+import { drawLimits, drawNotes, drawTrip } from "./time_marks.js";
 import { zoomKey } from "./zoom_keys.js";
 
 /** @typedef {import("./view.js").View} View @typedef {import("./figure.js").Series} Series */
@@ -112,7 +112,7 @@ export class TimeChart {
           setCursor: [(u) => this.#pointed(u)],
           drawAxes: [(u) => this.limit && drawLimits(u, this.limit)],
           drawSeries: [(u, i) => this.#barred(i) && drawColumns(u, this.envelope, i - 1, this.styles[i - 1])],
-          draw: [(u) => view.trip && drawTrip(u, view.trip.time_s)],
+          draw: [(u) => drawNotes(u, view.notes), (u) => view.trip && drawTrip(u, view.trip.time_s)],
         },
       },
       [new Float64Array(0), ...this.series.map(() => new Float32Array(0))],

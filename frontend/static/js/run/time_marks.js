@@ -17,6 +17,38 @@ export function drawTrip(u, time) {
   if (x >= left && x <= left + width) stroke(u.ctx, [], (/** @type {CanvasRenderingContext2D} */ context) => (context.moveTo(x, top), context.lineTo(x, top + height)), 2);
 }
 
+/** Draw the annotations: a line at each time, a band over each span, and the number at the head. @param {any} u plot of uPlot @param {import("./annotations.js").Note[]} notes */
+export function drawNotes(u, notes) {
+  const { left, width, top, height } = u.bbox;
+  const size = 11 * devicePixelRatio;
+  const inside = (/** @type {number} */ time) => Math.min(left + width, Math.max(left, u.valToPos(time, "x", true)));
+  for (const note of notes) {
+    const [from, to] = [inside(note.from_s), inside(note.to_s ?? note.from_s)];
+    const [low, high] = [u.scales.x.min, u.scales.x.max];
+    if (note.from_s > high || (note.to_s ?? note.from_s) < low) continue;
+    u.ctx.save();
+    u.ctx.fillStyle = u.ctx.strokeStyle = themed("--pico-color");
+    u.ctx.globalAlpha = 0.08;
+    if (to > from) u.ctx.fillRect(from, top, to - from, height);
+    u.ctx.globalAlpha = 1;
+    u.ctx.lineWidth = devicePixelRatio;
+    u.ctx.beginPath();
+    u.ctx.moveTo(from, top);
+    u.ctx.lineTo(from, top + height);
+    u.ctx.stroke();
+    u.ctx.font = `600 ${size}px system-ui, sans-serif`;
+    const label = String(note.number);
+    const box = u.ctx.measureText(label).width + 0.8 * size;
+    const start = Math.min(from, left + width - box);
+    u.ctx.fillRect(start, top, box, 1.35 * size);
+    u.ctx.fillStyle = themed("--surface");
+    u.ctx.textBaseline = "middle";
+    u.ctx.textAlign = "center";
+    u.ctx.fillText(label, start + box / 2, top + 0.7 * size);
+    u.ctx.restore();
+  }
+}
+
 /** @param {CanvasRenderingContext2D} context @param {number[]} dash @param {(context: CanvasRenderingContext2D) => void} path @param {number} [width] */
 function stroke(context, dash, path, width = 1.25) {
   context.save();

@@ -28,6 +28,8 @@ export class View {
     this.ended = false;
     /** @type {any} the trip that ended the test */
     this.trip = null;
+    /** @type {import("./annotations.js").Note[]} */
+    this.notes = [];
     /** @type {(() => void) | null} called when the shown moment changes */
     this.moved = null;
     this.frame = 0;
