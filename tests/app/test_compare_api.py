@@ -199,3 +199,10 @@ def test_the_previous_run_is_of_the_same_name_or_template(service: Service, slow
     assert service.get(f"/compare/previous/{alone.removeprefix('run:')}") == {"previous": None, "address": None}
     offered = [one["ref"] for one in service.get("/compare/candidates?q=Slow")["candidates"]]
     assert offered[:2] == [again, slow]
+
+
+def test_a_comparison_has_a_report(service: Service, hybrids: list[str]) -> None:
+    params = {"items": ",".join(hybrids), "reference": hybrids[1]}
+    text = service.http.get(f"{URL}/report.html", params=params).text
+    assert "Safety limits" in text and "<svg" in text and len(text.encode()) < 1e6
+    assert service.http.get(f"{URL}/report.pdf", params=params).content.startswith(b"%PDF-")

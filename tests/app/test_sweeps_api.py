@@ -284,3 +284,12 @@ def test_what_is_left_of_spans() -> None:
     assert left([(0, 10)], [(2, 4), (4, 5), (9, 10)]) == [(0, 2), (5, 9)]
     assert left([(0, 3), (5, 8)], [(0, 3)]) == [(5, 8)]
     assert left([(0, 3)], [(0, 3)]) == []
+
+
+def test_a_sweep_has_a_report_with_the_chosen_result(done: tuple[TestClient, str]) -> None:
+    client, sweep = done
+    text = client.get(f"{SWEEPS}/{sweep}/report.html").text
+    assert "Delay and damping" in text and "Influence of the inputs" in text and "<svg" in text
+    assert client.get(f"{SWEEPS}/{sweep}/report.pdf").content.startswith(b"%PDF-")
+    refused = client.get(f"{SWEEPS}/{sweep}/report.html", params={"measure": "colour"})
+    assert refused.status_code == 422 and refused.json()["errors"][0]["where"] == "measure"

@@ -1,4 +1,4 @@
-"""Maps as SVG: rows of levels over time, and cells over two quantities."""
+"""Maps as SVG: rows of levels over time, cells over two quantities, and bars about a centre."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from app.reports.svg.frame import Frame, Size, axes, box, words
+from app.reports.digits import short
+from app.reports.svg.frame import Entry, Frame, Size, axes, box, legend, words
 from app.reports.svg.scale import Scale, linear
 
 LEVELS = 8  # shades of the map of levels: classes h0 to h7
@@ -37,7 +38,8 @@ def cells(spec: dict[str, Any], size: Size) -> list[str]:
     """A cell for each pair of values; the shade is the share of the largest magnitude, its kind the sign."""
     surface = spec["surface"]
     across, up = np.asarray(surface["x"], dtype=float), np.asarray(surface["y"], dtype=float)
-    x, y = _cell_scale(across, int(size.width / 90)), _cell_scale(up, int(size.height / 40))
+    scale = _each if surface.get("each") else _cell_scale
+    x, y = scale(across, int(size.width / 90)), scale(up, int(size.height / 40))
     left = max((size.long(label) for _, label in y.ticks), default=size.text) + 1.7 * size.text + 7
     area = Frame(size, left, 6.5 * size.text + BAR, 0.8 * size.text, 2.9 * size.text)
     parts = axes(area, x, y, (spec["x"], spec["y"]))
@@ -49,6 +51,28 @@ def cells(spec: dict[str, Any], size: Size) -> list[str]:
                 corner = area.left + column * wide, area.y(0) - (row + 1) * high
                 parts.append(box("sn" if value < 0 else "sp", *corner, wide - 0.6, high - 0.6, shade))
     return parts + _signed(surface, area)
+
+
+def tornado(spec: dict[str, Any], size: Size) -> list[str]:
+    """A bar for each input: from the centre to the result at its low end and at its high end."""
+    rows, centre = spec["tornado"]["rows"], spec["tornado"]["centre"]
+    longest = max(size.long(row["name"]) for row in rows)
+    area = Frame(size, min(longest + 14, size.width / 2), 14, 2.0 * size.text, 2.9 * size.text)
+    x = linear(np.array([centre, *(row[end] for row in rows for end in ("low", "high"))]), max(3, int(area.width / 90)))
+    parts, height = axes(area, x, Scale(0.0, 1.0, ()), (spec["x"], ""), labels=False), area.height / len(rows)
+    middle, low, high = (
+        [area.x(float(place)) for place in x.place(np.array(values))]
+        for values in ([centre], [row["low"] for row in rows], [row["high"] for row in rows])
+    )
+    for number, row in enumerate(rows):
+        top = area.top + number * height + ROW_GAP
+        for style, end in (("sn", low[number]), ("sp", high[number])):
+            parts.append(
+                box(style, min(middle[0], end), top, abs(end - middle[0]), height - 2 * ROW_GAP, ' fill-opacity="0.75"')
+            )
+        parts.append(words(area.left - 7, top + height / 2 - ROW_GAP + 0.35 * size.text, row["name"], "tk", "end"))
+    parts.append(f'<path class="ax" d="M{middle[0]:.1f} {area.top:.1f}V{area.y(0):.1f}"/>')
+    return parts + legend(area, [Entry("lowest third", "l0 sample"), Entry("highest third", "l1 sample")])
 
 
 def _row(row: dict[str, Any], scale: dict[str, Any], area: Frame, x: Scale, top: float, height: float) -> list[str]:
@@ -98,6 +122,13 @@ def _cell_scale(middles: np.ndarray[Any, Any], most: int) -> Scale:
     half = (middles[1] - middles[0]) / 2 if len(middles) > 1 else 0.5
     ends = np.array([middles[0] - half, middles[-1] + half]) if len(middles) else np.array([0.0, 1.0])
     return linear(ends, max(3, most), tight=True)
+
+
+def _each(middles: np.ndarray[Any, Any], most: int) -> Scale:
+    """A scale of cells whose values are not equally spaced: a label below each cell, or below every second, third ... one."""
+    every = max(1, -(-len(middles) // max(1, most)))
+    ticks = tuple((number + 0.5, short(float(middles[number]), 3)) for number in range(0, len(middles), every))
+    return Scale(0.0, float(max(1, len(middles))), ticks)
 
 
 def _two_lines(name: str) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 from app.reports.figures import Panel
 from app.reports.packed import Samples, unpacked
 from app.reports.svg.frame import LINES, Entry, Frame, Size, axes, box, frame, legend, svg, words
-from app.reports.svg.maps import cells, rows
+from app.reports.svg.maps import cells, rows, tornado
 from app.reports.svg.path import FINE, path, thinned
 from app.reports.svg.scale import Scale, linear, logarithmic
 
@@ -34,6 +34,8 @@ def plot(panel: Panel, size: Size, points: int, style: str = "") -> str:
     spec = panel.spec
     if spec.get("rows"):
         return svg(size, rows(spec, size), panel.alt, style)
+    if spec.get("tornado"):
+        return svg(size, tornado(spec, size), panel.alt, style)
     if spec.get("surface"):
         return svg(size, cells(spec, size), panel.alt, style)
     lines = [_line(trace) for trace in spec["traces"]]

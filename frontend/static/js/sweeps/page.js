@@ -1,6 +1,7 @@
 // @ts-check
 import { api, explain } from "../api.js";
 import { byId, el, renew } from "../dom.js";
+import { downloadMenu } from "../downloads.js";
 import { fixed } from "../format.js";
 import { person } from "../person.js";
 import { Chosen } from "./chosen.js";
@@ -47,18 +48,25 @@ function showState() {
   showActions();
 }
 
+const downloads = () => downloadMenu([
+  ["Report, HTML", `/api/v1${address}/report.html`],
+  ["Report, PDF", `/api/v1${address}/report.pdf`],
+  ["Results, CSV", `/api/v1${address}/results?format=csv`, true],
+  ["Results, Arrow", `/api/v1${address}/results?format=arrow`, true],
+]);
+
 function showActions() {
   const does = (/** @type {string} */ what, /** @type {string} */ label, /** @type {string} */ kind) => {
     const button = el("button", { type: "button", class: kind, on: { click: () => change(what, button) } }, label);
     return button;
   };
-  const link = (/** @type {string} */ href, /** @type {string} */ label, saved = false) => el("a", { href, class: "button quiet", download: saved }, label);
+  const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet" }, label);
   const ended = ENDED.includes(sweep.state);
   renew(
     byId("actions"),
     ...(ended ? [] : [does("cancel", "Cancel this sweep", "danger")]),
     ...(ended && sweep.done < sweep.points ? [does("resume", `Resume the other ${sweep.points - sweep.done} points`, "")] : []),
-    ...(sweep.done ? [link(`/api/v1${address}/results?format=csv`, "Results, CSV", true), link(`/api/v1${address}/results?format=arrow`, "Results, Arrow", true)] : []),
+    ...(sweep.done ? [downloads()] : []),
     link(`/sweeps/new?from=${sweep.id}`, "Edit and sweep again"),
   );
 }
