@@ -32,5 +32,6 @@ export function actions(run) {
     ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run")] : []),
     ...(run.recording ? [link(`/compare/previous/${run.id}`, "Compare with the previous run"), link(`/compare?items=run:${run.id}`, "Compare with other runs")] : []),
     link(`/new?from=${run.id}`, "Edit and run again"),
+    link(`/sweeps/new?run=${run.id}`, "Sweep this plan"),
   ];
 }

@@ -5,6 +5,7 @@ import { brief, digits, titled } from "./results.js";
 
 /** @typedef {import("./results.js").Results} Results */
 
+const FEW = 3; // values, below which an input is not proposed first
 const MOST_LEVELS = 60; // of an axis whose points are drawn as cells
 
 /** The measure over two inputs: cells with the mean where the inputs have few values, else a mark for each point. */
@@ -21,7 +22,9 @@ export class HeatMap {
   #offer() {
     const { results } = this;
     const varied = results.columns.filter(({ key, role }) => role === "input" && new Set(results.values[key]).size > 1);
-    const offered = [...varied, ...results.numbers("intensity").filter(({ key }) => new Set(results.values[key]).size > 1)];
+    const intensities = results.numbers("intensity").filter(({ key }) => new Set(results.values[key]).size > 1);
+    const few = (/** @type {{key: string}} */ { key }) => Number(new Set(results.values[key]).size < FEW);
+    const offered = [...varied.sort((a, b) => few(a) - few(b)), ...intensities];
     for (const [k, id] of ["heat-x", "heat-y"].entries()) {
       const box = byId(id);
       const kept = box.value;

@@ -90,7 +90,7 @@ export class Parallel {
     const [text, line] = [colour("--pico-color"), colour("--pico-muted-color")];
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
-    const room = this.axes.length > 1 ? this.axes[1].x - this.axes[0].x - 8 : 400;
+    const room = this.axes.length > 1 ? Math.min(this.axes[1].x - this.axes[0].x, 2 * SIDE) - 8 : 400;
     for (const axis of this.axes) {
       const { column, x, low, high } = axis;
       pen.strokeStyle = line;
