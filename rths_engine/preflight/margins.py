@@ -54,6 +54,6 @@ def margins(model: Model, deadline: float) -> dict[str, Any] | None:
         known = len(found["stations"])
         what = f"the delay margins of stations {known + 1} to {len(names)}" if found["radius"] is not None else "the stability"
         found["notes"].append(
-            f"The structure is large: {what} would take too long here. `rths stability` predicts without a time limit."
+            f"There was no time for {what}: the structure is large or the computer busy. `rths stability` has no time limit."
         )
     return found

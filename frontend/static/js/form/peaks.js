@@ -78,6 +78,6 @@ function floorsOf(floors) {
 
 /** @param {any} found */
 function timesOf({ duration_s, expected_elapsed_s }) {
-  const elapsed = expected_elapsed_s === null ? "not known" : `about ${number(expected_elapsed_s, 2)} s`;
+  const elapsed = expected_elapsed_s === null ? "not known" : expected_elapsed_s < 0.1 ? "less than 0.1 s" : `about ${number(expected_elapsed_s, 2)} s`;
   return el("dl", { class: "facts" }, el("dt", {}, "Duration of the test"), el("dd", {}, `${number(duration_s)} s`), el("dt", {}, "Expected time at its pace"), el("dd", {}, elapsed));
 }
