@@ -9,6 +9,7 @@ from app.models import Run
 from app.runs.repository import Filter, Page
 from app.runs.schemas import RunOut
 from app.runs.service import RunService
+from app.runs.shelves import Shelf
 from app.table4.schemas import PaperOut, SimulationOut, TableOut
 from rths_engine import table4 as engine
 from rths_engine.table4.comparison import CALIBRATED, FLOORS_PEAK, MEASURES, stable
@@ -46,7 +47,7 @@ class Table4Service:
         )
 
     def _simulation(self, number: int) -> SimulationOut:
-        found, _ = self.runs.listed(Filter(template=engine.name(number)), Page(limit=1))
+        found, _ = self.runs.listed(Filter(template=engine.name(number), shelf=Shelf.ALL), Page(limit=1))
         run = RunOut.of(found[0]) if found else None
         paper = engine.PAPER[number]
         return SimulationOut(

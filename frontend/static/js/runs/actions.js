@@ -6,8 +6,9 @@ import { toast } from "./toast.js";
 /** @typedef {{id: string, number: number}} Some */
 /** @type {Record<string, string>} */
 const DONE = { archive: "archived", unarchive: "shown again", delete: "deleted", restore: "restored", tag: "tagged", untag: "untagged" };
+// the opposite of adding tags would also remove those that a run had before
 /** @type {Record<string, string>} */
-const UNDO = { archive: "unarchive", unarchive: "archive", delete: "restore", tag: "untag" };
+const UNDO = { archive: "unarchive", unarchive: "archive", delete: "restore" };
 
 /** Do one action on runs, say what was done, and offer to undo it. @param {string} action @param {Some[]} runs @param {() => Promise<void>} reload @param {string[]} [tags] */
 export async function act(action, runs, reload, tags = []) {

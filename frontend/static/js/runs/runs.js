@@ -153,7 +153,11 @@ let typing;
 
 byId("search").addEventListener("input", () => {
   clearTimeout(typing);
-  typing = setTimeout(() => change({ q: byId("search").value.trim() }), TYPED_MS);
+  typing = setTimeout(() => {
+    view = view.with({ q: byId("search").value.trim() });
+    history.replaceState(null, "", view.address); // one entry of the history for a whole search
+    void reload();
+  }, TYPED_MS);
 });
 byId("shelf").addEventListener("change", () => {
   grid.clear();
