@@ -29,7 +29,8 @@ def document(
     signatures: Sequence[str],
 ) -> Document:
     """The report of a sweep (a SweepDetail as JSON) with its results in columns. `chosen` is the key of the result shown."""
-    inputs = [one for one in columns if one["role"] in ("input", "intensity") and not one["categories"]]
+    numbers = [one for one in columns if one["role"] in ("input", "intensity") and not one["categories"]]
+    inputs = [one for one in numbers if len(np.unique(_known(one, values))) > 1]
     result = next((one for one in columns if one["key"] == chosen), None)
     sections = [Section("Fields that vary", [_axes(sweep)]), Section("Results of all points", [_results(columns, values)])]
     if result:
@@ -134,12 +135,11 @@ def _ends(result: Column, inputs: Sequence[Column], values: Mapping[str, Sequenc
 
 
 def _influence(result: Column, inputs: Sequence[Column], values: Mapping[str, Sequence[Any]]) -> list[Block]:
-    varied = [one for one in inputs if len(np.unique(_known(one, values))) > 1]
-    if not varied:
+    if not inputs:
         return [Text(["No numerical input varies."])]
-    panels = [_map(result, varied, values), _tornado(result, varied, values)]
-    if len(varied) == 1:
-        panels = [_line(result, varied[0], values)]
+    panels = [_map(result, inputs, values), _tornado(result, inputs, values)]
+    if len(inputs) == 1:
+        panels = [_line(result, inputs[0], values)]
     return [Figures([one for one in panels if one])]
 
 
