@@ -27,7 +27,7 @@ const SHORTCUTS = [
       [["Space"], "select or deselect a run"],
       [["Enter"], "open the run"],
       [["Esc"], "clear the selection"],
-      [["Alt+←", "Alt+→"], "move a column, with the focus on its head"],
+      [["Shift+←", "Shift+→"], "move a column, with the focus on its head"],
     ],
   },
   { at: /^\/new$/, where: "New test", keys: [[["Ctrl+Enter"], "queue the test"]] },
