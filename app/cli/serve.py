@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import socket
 from argparse import Namespace
-from contextlib import suppress
+from contextlib import nullcontext, suppress
+from typing import IO
 
 import uvicorn
 from fastapi import FastAPI
@@ -18,13 +20,19 @@ from app.main import create_app
 from rths_engine.foundation.errors import Issue, RthsError
 
 GRACE_S = 2
+LOCK = "control-room.lock"
 
 
 def serve(given: Namespace) -> int:
     """`rths serve`: run the control room until Ctrl-C; returns the exit code."""
     settings = stored(given, embedded_worker=not given.no_worker)
+    with only_server(settings) if settings.embedded_worker else nullcontext():
+        return _serve(settings, given.demo)
+
+
+def _serve(settings: Settings, demonstrate: bool) -> int:
     listening = listen(settings)
-    server = Server(create_app(settings), settings, given.demo)
+    server = Server(create_app(settings), settings, demonstrate)
     with suppress(KeyboardInterrupt):
         server.run(sockets=[listening])
     if not server.started:
@@ -62,6 +70,21 @@ def listen(settings: Settings) -> socket.socket:
         found.close()
         raise RthsError(_unusable(settings, error)) from None
     return found
+
+
+def only_server(settings: Settings) -> IO[str]:
+    """A file whose lock keeps a second control room from the same data folder. Raises RthsError when one runs already.
+
+    Two of them would execute the jobs of each other's queue, and each would keep the other's workers for dead.
+    """
+    file = (settings.prepared().data / LOCK).open("a+")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        file.close()
+        fix = "stop it first, choose another folder with --data, or start this one with --no-worker"
+        raise RthsError(Issue("data", "is in use by another control room", str(settings.data.resolve()), fix)) from None
+    return file
 
 
 def address(settings: Settings) -> str:

@@ -9,6 +9,7 @@ from sqlalchemy.orm import Session
 
 from app.checking import Checked, checked
 from app.jobs.service import JobService, Queue
+from app.jobs.states import State
 from app.models import EMULATED, Rig, Run
 from app.problems import Conflict
 from app.rigs.service import RigService
@@ -86,7 +87,16 @@ class RunService:
         return self.jobs.cancel(run_id, by)
 
     def undo_cancel(self, run_id: str, by: str) -> Run:
-        """Put a run back at its place in the queue that was cancelled there. Raises Conflict for any other run."""
+        """Put a run back at its place in the queue that was cancelled there. Raises Conflict for any other run.
+
+        Its rig is checked as for a new run: meanwhile it may have been retired, or its capacities lowered.
+        """
+        run = self.get(run_id)
+        if run.deleted_at is not None or run.archived:
+            shelf = "deleted" if run.deleted_at is not None else "archived"
+            raise Conflict(f"Run {run.number} is {shelf}. Restore it first, then undo the cancel.")
+        if run.state is State.CANCELLED:
+            self.rigs.check(self.plan_of(run), self.rigs.for_tests(run.rig_id))
         return self.jobs.undo_cancel(run_id, by)
 
     def retry(self, run_id: str, by: str) -> Run:

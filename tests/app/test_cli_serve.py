@@ -16,6 +16,8 @@ import httpx
 import pytest
 
 from app.cli.main import main
+from app.cli.serve import only_server
+from app.config import from_environment
 from tests.browser.service import until
 
 RTHS = [sys.executable, "-m", "app.cli"]
@@ -127,3 +129,13 @@ def test_the_workers_token_is_kept_for_its_owner_only(tmp_path: Path) -> None:
     kept = token.read_text()
     main(["migrate", "--data", str(tmp_path)])
     assert token.read_text() == kept and token.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_second_control_room_on_the_same_folder_is_refused(
+    free: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings = from_environment(data=tmp_path)
+    with only_server(settings):
+        assert main(["serve", "--port", str(free), "--data", str(tmp_path)]) == 2
+        assert "is in use by another control room" in capsys.readouterr().err
+    only_server(settings).close()

@@ -80,3 +80,25 @@ def test_a_rig_in_use_is_retired_instead_of_deleted_and_keeps_its_promises(clien
     assert late.status_code == 422 and "retired" in late.json()["detail"]
     unused = client.post(RIGS, json={**given, "name": "Unused"}).json()["id"]
     assert client.delete(f"{RIGS}/{unused}").status_code == 204 and client.get(f"{RIGS}/{unused}").status_code == 404
+
+
+def test_undoing_a_cancel_asks_the_rig_again(client: TestClient) -> None:
+    wide = {"stroke": 10.0, "velocity": 10.0, "force": 1e9}
+    rig = client.post(RIGS, json={"name": "Wide", "kind": "physical", "actuators": [wide, wide]}).json()
+    run = client.post("/api/v1/runs", json={"plan": plan(), "rig": rig["id"]}).json()["runs"][0]["id"]
+    retired = {"name": "Wide", "kind": "physical", "actuators": [wide, wide], "retired": True}
+    client.post(f"/api/v1/runs/{run}/cancel", json={})
+    narrow = {"name": "Wide", "kind": "physical", "actuators": [{**wide, "stroke": 0.01}] * 2}
+    assert client.put(f"{RIGS}/{rig['id']}", json=narrow).status_code == 200
+    refused = client.post(f"/api/v1/runs/{run}/undo-cancel", json={})
+    assert refused.status_code == 422 and "10 mm" in refused.json()["errors"][0]["problem"]
+    assert client.put(f"{RIGS}/{rig['id']}", json=retired).status_code == 200
+    assert "retired" in client.post(f"/api/v1/runs/{run}/undo-cancel", json={}).json()["errors"][0]["problem"]
+
+
+def test_a_deleted_run_does_not_go_back_to_the_queue(client: TestClient) -> None:
+    run = client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"][0]["id"]
+    client.post(f"/api/v1/runs/{run}/cancel", json={})
+    assert client.delete(f"/api/v1/runs/{run}").status_code == 204
+    answer = client.post(f"/api/v1/runs/{run}/undo-cancel", json={})
+    assert answer.status_code == 409 and "is deleted" in answer.json()["detail"]

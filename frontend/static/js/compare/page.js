@@ -56,6 +56,14 @@ async function load() {
   view.changed();
 }
 
+/** The first station in which the plans differ; the first station if they do not. */
+function proposedStation() {
+  const paths = [...document.querySelectorAll(".compared code")].map((code) => code.textContent?.match(/^stations\.(\d+)\./)?.[1]);
+  const station = String(Number(paths.find(Boolean) ?? 0) + 1);
+  return [...byId("station").options].some((/** @type {HTMLOptionElement} */ one) => one.value === station) ? station : "1";
+}
+
+const proposed = proposedStation();
 let built = "";
 
 /** Build the charts whose signals at least one item has. */
@@ -97,7 +105,7 @@ function refine() {
 function keep() {
   const address = new URL(location.href);
   const { station, floor, from_start } = chosen();
-  const kept = { station: station !== "1" && station, floor: floor !== String(found.top) && floor, from_start };
+  const kept = { station: station !== proposed && station, floor: floor !== String(found.top) && floor, from_start };
   for (const [name, value] of Object.entries(kept)) {
     if (value) address.searchParams.set(name, String(value));
     else address.searchParams.delete(name);
@@ -109,7 +117,7 @@ function restore() {
   const asked = new URLSearchParams(location.search);
   for (const name of ["station", "floor"]) {
     const box = byId(name);
-    const value = asked.get(name) ?? (name === "floor" ? String(found.top) : "1");
+    const value = asked.get(name) ?? (name === "floor" ? String(found.top) : proposed);
     if ([...box.options].some((/** @type {HTMLOptionElement} */ option) => option.value === value)) box.value = value;
   }
   byId("from-start").checked = asked.get("from_start") === "true";

@@ -6,7 +6,9 @@ import { margin } from "../run/margin.js";
 /** @typedef {import("../run/margin.js").Margin} Margin */
 
 /** As the gauges of the live page name them. @type {Record<string, string>} */
-const NAMES = { displacement: "Stroke", velocity: "Velocity", force: "Force", oscillation: "Half waves" };
+const NAMES = { displacement: "Command stroke", velocity: "Command velocity", force: "Force", oscillation: "Half waves" };
+/** As capacities name them. @type {Record<string, string>} */
+const CAPACITIES = { displacement: "stroke", velocity: "velocity", force: "force" };
 /** @type {Record<string, string>} */
 const BOUNDED = { actuator: "Actuator", rig: "Rig" };
 const FULL = 1.25; // share of the bound at the right end of a bar
@@ -26,7 +28,8 @@ export function peaksOf(found) {
     ),
   );
   const notes = [...found.notes, ...(found.stability?.notes ?? [])].map((/** @type {string} */ note) => el("li", {}, note));
-  return [...groups, floorsOf(found.floors), timesOf(found), notes.length ? el("ul", { class: "peaks-notes" }, ...notes) : null].filter((one) => one !== null);
+  const beyond = found.trip ? el("p", { class: "peaks-margin" }, `The test would stop at ${fixed(found.trip.time_s, 2)} s. These peaks are those of the whole motion without limits.`) : null;
+  return [beyond, ...groups, floorsOf(found.floors), timesOf(found), notes.length ? el("ul", { class: "peaks-notes" }, ...notes) : null].filter((one) => one !== null);
 }
 
 /** The margin that a use leaves: a capacity that is reached exactly counts as over. @param {any} use @returns {Margin} */
@@ -47,7 +50,7 @@ function useOf(use) {
   const bar = el("span", { class: "peak-bar", "aria-hidden": "true" }, el("span", { class: "peak-fill" }), el("span", { class: "peak-bound" }));
   bar.firstElementChild.style.width = `${Math.min(100, ROOM * (Number.isFinite(share) ? share : FULL))}%`;
   bar.lastElementChild.style.left = `${ROOM}%`;
-  const label = use.against === "limit" ? NAMES[use.quantity] : `${BOUNDED[use.against]} ${NAMES[use.quantity].toLowerCase()}`;
+  const label = use.against === "limit" ? NAMES[use.quantity] : `${BOUNDED[use.against]} ${CAPACITIES[use.quantity] ?? NAMES[use.quantity].toLowerCase()}`;
   return el(
     "li",
     { class: `peak ${use.against}`, "data-margin": level, title: `${use.label} against the ${use.against_label}: largest at ${fixed(use.time_s, 2)} s` },

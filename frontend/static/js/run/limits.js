@@ -5,8 +5,8 @@
 
 /** The limits of a plan that a channel is checked against: field of the plan, role of the channel, label. Same order as the gauges. */
 const CHECKED = [
-  ["displacement", "x_cmd", "Stroke"],
-  ["velocity", "v_cmd", "Velocity"],
+  ["displacement", "x_cmd", "Command stroke"],
+  ["velocity", "v_cmd", "Command velocity"],
   ["force", "f_meas", "Force"],
 ];
 

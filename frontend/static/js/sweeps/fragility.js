@@ -22,7 +22,9 @@ export class Fragility {
     const { results } = this;
     const box = byId("intensity");
     const kept = box.value;
-    const varied = results.numbers("intensity", "input").filter(({ key }) => new Set(results.values[key]).size > 1);
+    const loads = /^(motion|drive|forces)\b/; // inputs that say how strongly a test is shaken
+    const some = results.numbers("intensity", "input").filter(({ key, role }) => role === "intensity" || loads.test(key));
+    const varied = some.filter(({ key }) => new Set(results.values[key]).size > 1);
     const order = [...varied].sort((a, b) => Number(b.role === "intensity") - Number(a.role === "intensity"));
     box.replaceChildren(...order.map((one) => el("option", { value: one.key }, titled(one))));
     if (order.some(({ key }) => key === kept)) box.value = kept;
@@ -45,14 +47,14 @@ export class Fragility {
     const words = byId("fragility-words");
     const box = byId("fragility");
     if (!offered || !Number.isFinite(level) || byId("level").value === "") {
-      words.textContent = offered ? "Give the level as a number." : "No intensity and no number varies among the points so far.";
+      words.textContent = offered ? "Give the level as a number." : "No intensity varies among the points. Give the sweep several records or scales.";
       return plot(box, [], {});
     }
     const intensity = this.results.column(byId("intensity").value);
     const query = new URLSearchParams({ measure, level: String(level), intensity: intensity.key, tripped: String(byId("tripped").checked) });
     const found = await api.get(`/sweeps/${this.sweep}/fragility?${query}`);
     const unit = intensity.shown_label;
-    const fitted = found.median === null ? found.reason : `Fitted lognormal curve: median ${digits(found.median)} ${unit}, dispersion ${digits(found.dispersion)}.`;
+    const fitted = found.median === null ? found.reason : `Fitted lognormal curve: median ${`${digits(found.median)} ${unit}`.trim()}, dispersion ${digits(found.dispersion)}.`;
     const trips = found.tripped ? ` ${found.tripped} of them tripped.` : "";
     words.textContent = `${found.exceeding} of ${found.points} points exceed the level.${trips} ${fitted}`;
     const curve = { type: "scatter", mode: "lines", x: found.intensities, y: found.probabilities, line: { color: colour("--curve-1"), width: 2 }, name: "fitted", hovertemplate: "%{x:.3g}: %{y:.3f}<extra>fitted</extra>" };

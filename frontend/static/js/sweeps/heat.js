@@ -1,5 +1,5 @@
 // @ts-check
-import { byId, el } from "../dom.js";
+import { byId, colour, el } from "../dom.js";
 import { colourScale, plot, title } from "./plotting.js";
 import { brief, digits, titled } from "./results.js";
 
@@ -48,8 +48,27 @@ export class HeatMap {
     const rows = results.rows().filter((row) => Number.isFinite(results.number(measure, row)));
     const levels = [x, y].map(({ key }) => [...new Set(rows.map((row) => results.number(key, row)))].sort((a, b) => a - b));
     const cells = x.key !== y.key && levels.every((some) => some.length <= MOST_LEVELS) && levels[0].length * levels[1].length <= 4 * rows.length;
-    if (cells) this.#cells(column, x, y, levels, rows);
+    if (x.key === y.key) this.#line(column, x, rows);
+    else if (cells) this.#cells(column, x, y, levels, rows);
     else this.#marks(column, x, y, rows);
+  }
+
+  /** The measure over the one input that varies. @param {any} column @param {any} x @param {number[]} rows */
+  #line(column, x, rows) {
+    const { results } = this;
+    byId("heat-title").textContent = `${titled(column)} over ${brief(x)}`;
+    const sorted = [...rows].sort((a, b) => results.number(x.key, a) - results.number(x.key, b));
+    const trace = {
+      type: "scatter",
+      mode: "lines+markers",
+      x: sorted.map((row) => results.number(x.key, row)),
+      y: sorted.map((row) => results.number(column.key, row)),
+      text: sorted.map((row) => `point ${results.values.point[row]}`),
+      line: { color: colour("--curve-1"), width: 1.5 },
+      marker: { color: colour("--curve-1"), size: 7 },
+      hovertemplate: "%{text}<br>%{x}: %{y:.3g}<extra></extra>",
+    };
+    plot(byId("heat"), [trace], { hovermode: "closest", xaxis: title(titled(x)), yaxis: title(titled(column)) });
   }
 
   /** @param {any} column @param {any} x @param {any} y @param {number[][]} levels @param {number[]} rows */
