@@ -1,7 +1,7 @@
 """A report as PDF, typeset by Typst: A4, tagged for screen readers (PDF/UA-1), with the fonts that Typst carries.
 
 The template `report.typ` reads the report as JSON, so that no text of a person is ever read as markup. Nothing is read from the
-disk or from a network.
+disk or from a network, except the fonts of the system for characters that those of Typst lack.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import Any
 
 from app.reports.document import Block, Document, Facts, Figures, Heading, Letterhead, Signatures, Table, Tables, Text
 from app.reports.figures import Panel
+from app.reports.glyphs import SAID, boxed, lacking
 from app.reports.html import FRONTEND, points_for
 from app.reports.svg.frame import Size
 from app.reports.svg.palette import paper
@@ -26,17 +27,27 @@ _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f]")
 
 
 def pdf(document: Document) -> bytes:
-    """The report as a PDF file."""
-    return _typeset(_as_data(document), "pdf")
-
-
-def _typeset(data: dict[str, Any], form: str) -> bytes:
+    """The report as a PDF file, whatever characters people wrote: system fonts help out, and a box replaces what they lack."""
     import typst
 
-    report = json.dumps(data)
+    data = _as_data(document)
+    try:
+        return _typeset(json.dumps(data), system_fonts=False)
+    except typst.TypstError:
+        found = lacking(json.dumps(data, ensure_ascii=False))
+    said = json.dumps({**data, "further": [*data["further"], SAID]}, ensure_ascii=False)
+    try:
+        return _typeset(boxed(said, found) if found else json.dumps(data), system_fonts=True)
+    except typst.TypstError:  # for example text in the logo
+        return _typeset(boxed(said, found), system_fonts=True, accessible=False)
+
+
+def _typeset(report: str, system_fonts: bool, accessible: bool = True) -> bytes:
+    import typst
+
     with tempfile.TemporaryDirectory() as empty:
-        compiler = typst.Compiler(_template(), root=empty, ignore_system_fonts=True)
-        made = compiler.compile(format="pdf", sys_inputs={"report": report}, pdf_standards="ua-1")
+        compiler = typst.Compiler(_template(), root=empty, ignore_system_fonts=not system_fonts)
+        made = compiler.compile(format="pdf", sys_inputs={"report": report}, pdf_standards=["ua-1"] if accessible else [])
     assert isinstance(made, bytes)
     return made
 

@@ -150,6 +150,10 @@ def test_rest_and_command_line_publish_a_run_of_the_database(client: TestClient,
     run = submit(client)
     execute(client, settings, run)
     address = f"/api/v1/runs/{run}"
+    said = {"from_s": 0.1, "text": "试验 😀", "by": "试"}  # no font of a PDF has them
+    assert client.post(f"{address}/annotations", json=said).status_code == 201
+    assert client.patch(address, json={"name": "试验 😀", "notes": "试", "tags": ["试"]}).status_code == 200
+    assert client.get(f"{address}/report.pdf").content.startswith(b"%PDF-")
     asked = client.post(f"{address}/designsafe/check", json={}).json()["missing"]
     assert {"where": "license", "problem": "is missing"}.items() <= next(
         one for one in asked if one["where"] == "license"
