@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from app.reports.document import Block, Head, Table, Text
-from rths_engine.planning.paper import PAPER
+from app.reports.published import published
+from rths_engine.planning.paper import PaperRow
 from rths_engine.recordings.run_file import Recording
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of
@@ -24,24 +25,24 @@ def results(recording: Recording) -> list[Block]:
     measures = of(StationMeasure, test)
     blocks: list[Block] = []
     if summary["stations"]:
-        paper = PAPER.get(recording.plan.template or "")
+        paper = published(recording)
         further = [one for one in measures if one.further]
-        blocks += _stations("Measures of each station", recording, [one for one in measures if not one.further], bool(paper))
+        blocks += _stations("Measures of each station", recording, [one for one in measures if not one.further], paper)
         if paper and not any(getattr(paper, one.key, None) for one in measures):
             blocks.append(Text([UNSTABLE], "note"))
-        blocks += _stations("Further measures of each station", recording, further, False)
+        blocks += _stations("Further measures of each station", recording, further)
     return [*blocks, *_floors(recording), *_whole(recording)]
 
 
-def _stations(caption: str, recording: Recording, measures: Sequence[Measure], published: bool) -> list[Table]:
-    """Tables of at most AT_ONCE stations. Published measures follow the column of their station."""
+def _stations(caption: str, recording: Recording, measures: Sequence[Measure], row: PaperRow | None = None) -> list[Table]:
+    """Tables of at most AT_ONCE stations. The measures of the paper's row follow the column of their station."""
     stations = list(enumerate(recording.summary["stations"], start=1))
     tables = []
     for first in range(0, len(stations), AT_ONCE):
         columns: list[tuple[str, Mapping[str, Any]]] = []
         for number, station in stations[first : first + AT_ONCE]:
             columns.append((f"{number} · {station['name']}", {one.key: _text(one, station.get(one.key)) for one in measures}))
-            paper = _paper(recording.plan.template or "", number, measures) if published else {}
+            paper = _paper(row, number, measures) if row else {}
             if paper:
                 columns.append((PAPERS, paper))
         heads = [Head("Measure", share=1.6), *(Head(name, number=True) for name, _ in columns), MEANING]
@@ -50,9 +51,9 @@ def _stations(caption: str, recording: Recording, measures: Sequence[Measure], p
     return tables
 
 
-def _paper(template: str, number: int, measures: Sequence[Measure]) -> dict[str, str]:
+def _paper(row: PaperRow, number: int, measures: Sequence[Measure]) -> dict[str, str]:
     """The published measures of a station; empty where the paper gives none."""
-    pairs = {one.key: getattr(PAPER[template], one.key, None) for one in measures}
+    pairs = {one.key: getattr(row, one.key, None) for one in measures}
     if number > 2 or not any(pairs.values()):
         return {}
     return {key: _minus(f"{pair[number - 1]:z.1f}") if pair else "–" for key, pair in pairs.items()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
@@ -17,11 +18,13 @@ from app.reports import html
 from app.reports.of_run import document
 from app.reports.packed import packed
 from app.reports.plan_tables import groups
+from app.reports.published import published
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, spectral_acceleration
 from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.planning import templates
 from rths_engine.planning.model import Model
 from rths_engine.planning.motion import RecordMotion
+from rths_engine.planning.paper import PAPER
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings import run_file as recordings
 from rths_engine.recordings.run_file import Recording
@@ -144,12 +147,22 @@ def test_the_further_measures_have_a_table_with_a_dash_where_there_is_none(tmp_p
 
 
 def test_an_unstable_simulation_of_the_paper_is_called_so(tmp_path: Path) -> None:
-    text = Page(report_html(RUN, recorded(tmp_path, shortened("table3-01")))).text
+    text = Page(report_html(RUN, recorded(tmp_path, templates.template("table3-01")))).text
     assert text.count("report this simulation as unstable: a limit stopped the test") == 1
 
 
-def test_a_plan_of_another_template_has_no_row_of_the_paper(tmp_path: Path) -> None:
-    assert "Chen and Ricles (2012)" not in Page(report_html(RUN, recorded(tmp_path, shortened("linear-damper")))).text
+def test_only_a_test_that_is_the_simulation_of_the_paper_has_its_row(fourth: tuple[Recording, str], tmp_path: Path) -> None:
+    whole, _ = fourth
+    plan = whole.plan
+    assert isinstance(plan.motion, RecordMotion)
+    record = MotionLibrary(None).get(plan.motion.record)
+    queued = plan.model_copy(update={"name": "Ours", "motion": plan.motion.model_copy(update={"sha256": record.sha256})})
+    assert published(whole) == published(replace(whole, plan=queued)) == PAPER["table3-04"]
+    other = plan.model_copy(update={"motion": plan.motion.model_copy(update={"sha256": "0" * 64})})
+    assert published(replace(whole, plan=other)) is published(replace(whole, status="cancelled")) is None
+    for template in ("table3-01", "linear-damper"):
+        text = Page(report_html(RUN, recorded(tmp_path, shortened(template)))).text
+        assert "Chen and Ricles (2012)" not in text.split("Notes")[0], template
 
 
 def test_a_tripped_test_says_station_limit_value_and_time(tmp_path: Path) -> None:
