@@ -113,6 +113,7 @@ def _subject(run: Mapping[str, Any], recording: Recording) -> str:
 
 def _facts(run: Mapping[str, Any], recording: Recording) -> list[tuple[str, str]]:
     elapsed, simulated = recording.summary["elapsed_s"], recording.summary["simulated_s"]
+    tags = run.get("tags") or []
     return [
         ("Run", str(run.get("number") or run.get("id", "–"))),
         ("Submitted by", run.get("submitted_by") or "–"),
@@ -121,6 +122,7 @@ def _facts(run: Mapping[str, Any], recording: Recording) -> list[tuple[str, str]
         ("Finished", clock(run.get("finished_at"))),
         ("Simulated", f"{simulated:.2f} s of test in {elapsed:.2f} s"),
         ("Template", recording.plan.template or "none"),
+        *([("Tags", ", ".join(tags))] if tags else []),
     ]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import zlib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -12,8 +13,10 @@ import numpy as np
 import pytest
 
 from app.reports import html
+from app.reports import pdf as pdf_module
 from app.reports.document import Document, Letterhead
 from app.reports.figures import Panel
+from app.reports.glyphs import BOX, SAID, boxed, lacking
 from app.reports.of_run import Annotation, Surroundings, document
 from app.reports.packed import packed
 from app.reports.pdf import pdf
@@ -97,9 +100,7 @@ def test_the_record_of_a_test_holds_limits_peaks_and_deviations(light: Page, tmp
 
 def test_the_pdf_is_tagged_holds_the_title_and_is_small(report: Document) -> None:
     made = pdf(report)
-    assert made.startswith(b"%PDF-") and len(made) < 1e6
-    streams = b"".join(_inflated(one) for one in re.findall(rb"stream\r?\n(.*?)\r?\nendstream", made, re.DOTALL))
-    assert b"/MarkInfo" in made + streams and b"pdfuaid" in made + streams
+    assert len(made) < 1e6 and is_tagged(made)
 
 
 def test_text_of_people_is_never_markup_in_a_pdf(tmp_path: Path) -> None:
@@ -107,6 +108,39 @@ def test_text_of_people_is_never_markup_in_a_pdf(tmp_path: Path) -> None:
     plan = shortened("linear-damper", name=name, duration=2.0)
     around = Surroundings(Letterhead(name, name, (png(), "image/png")), (name,), (Annotation(1.0, None, None, name, name, ""),))
     assert pdf(document(RUN, recorded(tmp_path, plan), None, around)).startswith(b"%PDF-")
+
+
+def test_characters_without_a_font_are_boxes_in_a_pdf_which_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    given: list[str] = []
+    typeset = pdf_module._typeset
+
+    def watched(text: str, **more: bool) -> bytes:
+        given.append(text)
+        return typeset(text, **more)
+
+    monkeypatch.setattr(pdf_module, "_typeset", watched)
+    name = "试验 Test 😀 \U0010fffd"  # the last one is private: no font has it
+    plan = shortened("linear-damper", name=name, notes=name, duration=2.0)
+    plan = plan.model_copy(update={"stations": (plan.stations[0].model_copy(update={"name": name}),)})
+    around = Surroundings(Letterhead(name), (name,), (Annotation(1.0, None, 1, name, name, ""),))
+    run = {**RUN, "name": name, "submitted_by": name, "notes": name, "tags": [name]}
+    made = document(run, recorded(tmp_path, plan), None, around)
+    assert is_tagged(pdf(made))
+    assert len(given) == 2 and SAID not in given[0] and SAID in given[1]
+    assert "Test" in given[1] and BOX in given[1] and "\U0010fffd" not in given[1]
+    assert html.light(made).count(name) > 8 and SAID not in html.light(made)
+    assert lacking("a\U0010fffdéαΔ−²") == {"\U0010fffd"} and boxed("a\U0010fffdé", {"\U0010fffd"}) == f"a{BOX}é"
+
+
+def test_a_logo_whose_text_has_no_font_does_not_keep_the_pdf_from_being_made(report: Document) -> None:
+    logo = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><text y="9">\U0010fffd</text></svg>'
+    assert pdf(replace(report, letterhead=Letterhead("L", "", (logo.encode(), "image/svg+xml")))).startswith(b"%PDF-")
+
+
+def test_tags_of_a_run_are_among_its_facts(report: Document, tmp_path: Path) -> None:
+    made = document({**RUN, "tags": ["pilot", "MR damper"]}, recorded(tmp_path, shortened("linear-damper"), steps=10))
+    assert ("Tags", "pilot, MR damper") in made.facts
+    assert "Tags" not in dict(report.facts)
 
 
 def test_many_stations_stay_below_a_megabyte(tmp_path: Path) -> None:
@@ -207,6 +241,12 @@ def test_a_map_of_cells_shows_sign_and_share_and_leaves_empty_cells_out() -> Non
     found = [one for one in drawn(Panel("Map", "A map.", spec)).iter() if one.get("class") in ("sp", "sn")]
     shades = [(one.get("class"), one.get("fill-opacity")) for one in found[:3]]
     assert shades == [("sp", "0.50"), ("sn", "1.00"), ("sp", "1.00")]
+
+
+def is_tagged(made: bytes) -> bool:
+    """Whether a PDF says that it keeps PDF/UA."""
+    streams = b"".join(_inflated(one) for one in re.findall(rb"stream\r?\n(.*?)\r?\nendstream", made, re.DOTALL))
+    return made.startswith(b"%PDF-") and b"/MarkInfo" in made + streams and b"pdfuaid" in made + streams
 
 
 def _inflated(data: bytes) -> bytes:
