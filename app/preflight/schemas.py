@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, ConfigDict, Field
 
-from app.openapi import PlanData
+from app.openapi import Issue, PlanData
 from app.text import Storable
 from rths_engine.planning.plan import MOST_STATIONS
 
@@ -14,13 +14,20 @@ from rths_engine.planning.plan import MOST_STATIONS
 class CapacityIn(BaseModel):
     """The capacity of an actuator of a rig; null where it is not known."""
 
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
     stroke: float | None = Field(None, gt=0, description="m")
     velocity: float | None = Field(None, gt=0, description="m/s")
     force: float | None = Field(None, gt=0, description="N")
 
 
 class PreflightIn(BaseModel):
-    """A plan, and the rig that it would run on: its id, or the capacities of its actuators, one entry for each station."""
+    """A plan, and the rig that it would run on: its id, or the capacities of its actuators, one entry for each station.
+
+    Without both it is the emulated laboratory, as for a submission.
+    """
+
+    model_config = ConfigDict(extra="forbid")
 
     plan: PlanData
     rig: Storable | None = Field(None, max_length=36, description="id of the rig; its capacities are compared with the peaks")
@@ -96,11 +103,15 @@ class StabilityOut(BaseModel):
 
 
 class PreflightOut(BaseModel):
-    """The preflight of a plan. With `without_limits`, `uses` and `floors` are of a second simulation without safety limits."""
+    """The preflight of a plan. With `without_limits`, `uses` and `floors` are of a second simulation without safety limits.
+
+    The verdict is `refused` where the rig would refuse the plan (`refusals`), whatever the dry run says.
+    """
 
     name: str
-    verdict: Literal["completes", "trips", "incomplete"]
+    verdict: Literal["completes", "trips", "incomplete", "refused"]
     sentence: str
+    refusals: list[Issue] = Field(description="what of the plan is too much for the rig; a submission gives the same errors")
     trip: TripOut | None
     without_limits: bool
     uses: list[UseOut]

@@ -7,8 +7,9 @@ from dataclasses import replace
 from typing import Any
 
 from app.checking import checked
-from app.models import Rig
+from app.models import EMULATED, Rig
 from app.preflight.process import Capacities, DryRuns, Order
+from app.preflight.refusal import with_refusals
 from app.preflight.schemas import PreflightIn
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
@@ -27,17 +28,26 @@ class PreflightService:
         except RthsError as error:
             issues = [replace(issue, where=".".join(filter(None, ("plan", issue.where)))) for issue in error.issues]
             raise PlanError(issues) from None
-        return self.runs.execute(Order(plan.as_dict(), self.motions.folder, self._capacities(asked, len(plan.stations))))
+        rig = self._rig(asked)
+        capacities = _given(asked, len(plan.stations)) if rig is None else _of_rig(rig, len(plan.stations))
+        found = self.runs.execute(Order(plan.as_dict(), self.motions.folder, capacities))
+        return with_refusals(found, plan, rig)
 
-    def _capacities(self, asked: PreflightIn, stations: int) -> list[Capacities | None]:
-        """The capacities of the actuator of each station; a rig may have more actuators than the plan has stations."""
+    def _rig(self, asked: PreflightIn) -> Rig | None:
+        """The rig that a submission would name, by default the emulated laboratory; None where capacities are given instead."""
         if asked.rig is not None and asked.capacities:
             raise PlanError(Issue("capacities", "are those of the rig where a rig is given", None, "leave one of them out"))
-        if asked.rig is not None:
-            actuators = self.rig_of(asked.rig).actuators[:stations]
-            return [(one.get("stroke"), one.get("velocity"), one.get("force")) for one in actuators]
-        given = len(asked.capacities)
-        if given > stations:
-            fix = "give one capacity for each station, in their order"
-            raise PlanError(Issue("capacities", f"has {given} entries for {stations} stations", given, fix))
-        return [None if one is None else (one.stroke, one.velocity, one.force) for one in asked.capacities]
+        return None if asked.capacities else self.rig_of(EMULATED if asked.rig is None else asked.rig)
+
+
+def _of_rig(rig: Rig, stations: int) -> list[Capacities | None]:
+    """The capacities of the actuators that the stations get; a rig may have more actuators than these, or fewer."""
+    return [(one.get("stroke"), one.get("velocity"), one.get("force")) for one in rig.actuators[:stations]]
+
+
+def _given(asked: PreflightIn, stations: int) -> list[Capacities | None]:
+    given = len(asked.capacities)
+    if given > stations:
+        fix = "give one capacity for each station, in their order"
+        raise PlanError(Issue("capacities", f"has {given} entries for {stations} stations", given, fix))
+    return [None if one is None else (one.stroke, one.velocity, one.force) for one in asked.capacities]

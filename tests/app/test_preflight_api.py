@@ -104,3 +104,40 @@ def test_the_command_line_says_whether_a_plan_would_trip(tmp_path: Path, capsys:
     assert json.loads(capsys.readouterr().out)["trip"]["station"] == 2
     bad.write_text("schema: rths-plan/1\nnone: 1\n")
     assert main(["preflight", str(bad), "--data", str(tmp_path)]) == 2
+
+
+def test_a_rig_that_would_refuse_the_plan_decides_the_verdict_with_the_errors_of_a_submission(running: TestClient) -> None:
+    for name, actuators, said in (
+        ("OneAct", [{}], "the plan has 2 stations, but rig OneAct has 1 actuator."),
+        (
+            "Weak",
+            [{"force": 1.0e3}, {"force": 2.0e3}],
+            "exceeds the force of 1 kN of actuator 1 of rig Weak. 1 more in the notes.",
+        ),
+    ):
+        rig = running.post("/api/v1/rigs", json={"name": name, "actuators": actuators}).json()["id"]
+        found = running.post(PATH, json={"plan": plan(), "rig": rig}).json()
+        assert found["verdict"] == "refused" and found["trip"] is None
+        assert said in found["sentence"] and "Without this rig: would complete 2 s." in found["sentence"]
+        refused = running.post("/api/v1/runs", json={"plan": plan(), "rig": rig})
+        assert refused.status_code == 422
+        told = [{"lines": [], **one, "where": one["where"].removeprefix("plan.")} for one in refused.json()["errors"]]
+        assert found["refusals"] == told
+    assert "of actuator 2 of rig Weak" in found["notes"][0]
+
+
+@pytest.mark.parametrize(
+    ("given", "where", "problem"),
+    [
+        ('"rgi": "x"', "rgi", "is not a field of this request"),
+        ('"capacities": [{"farce": 1}]', "capacities.0.farce", "is not a field of this request"),
+        ('"capacities": [{"force": Infinity}]', "capacities.0.force", "finite number"),
+    ],
+)
+def test_a_misspelt_field_and_an_infinite_capacity_are_refused(
+    running: TestClient, given: str, where: str, problem: str
+) -> None:
+    body = f'{{"plan": {json.dumps(plan())}, {given}}}'
+    refused = running.post(PATH, content=body, headers={"Content-Type": "application/json"})
+    (error,) = refused.json()["errors"]
+    assert (refused.status_code, error["where"]) == (422, where) and problem in error["problem"]

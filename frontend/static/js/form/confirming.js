@@ -5,7 +5,7 @@ import { el } from "../dom.js";
 /** Whether a plan goes to the queue: one that would trip, or whose dry run failed, only after a dialog. @param {import("./foresight.js").Outcome} outcome @returns {Promise<boolean>} */
 export async function confirmed({ found, failed }) {
   if (failed) return ask({ title: "Queue the test without a dry run?", text: failed, yes: "Queue without a dry run", no: "Back to the form" });
-  if (!found?.trip) return true;
+  if (!found?.trip || found.verdict === "refused") return true; // a submission says what the rig refuses
   const beyond = found.uses.filter((/** @type {any} */ use) => use.against === "limit" && use.beyond_s !== null);
   const others = beyond.filter((/** @type {any} */ use) => use.path !== found.trip.path);
   const text = el(

@@ -25,7 +25,7 @@ export class Outlook {
       this.peaks.replaceChildren(el("p", { class: "muted" }, failed || "The peaks appear after the next dry run."));
       return;
     }
-    this.#say(found.trip ? "trips" : found.verdict === "completes" ? "" : "muted", found.sentence);
+    this.#say(found.trip || found.verdict === "refused" ? "trips" : found.verdict === "completes" ? "" : "muted", found.sentence);
     this.peaks.replaceChildren(...peaksOf(found));
   }
 

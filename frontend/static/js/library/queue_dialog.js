@@ -46,11 +46,13 @@ async function foresee() {
   asking.abort();
   const { signal } = (asking = new AbortController());
   queue.textContent = "Queue the test";
+  queue.disabled = false;
   found.replaceChildren(el("p", { class: "muted", "aria-busy": "true" }, "Simulating the test …"));
   try {
     const seen = await api.post("/plans/preflight", { plan: asked.plan, rig: rig.value }, signal);
     found.replaceChildren(...outlook(seen));
     if (seen.verdict === "trips") queue.textContent = "Queue the test although it would trip";
+    queue.disabled = seen.verdict === "refused"; // another rig may take it
   } catch (error) {
     if (!signal.aborted) found.replaceChildren(el("p", { class: "note bad" }, `No preflight: ${explain(error)}`));
   }
@@ -65,7 +67,7 @@ function outlook({ verdict, sentence, uses, notes }) {
     el("dd", {}, `${significant((peak ?? 0) / factor)} of ${significant(bound / factor)} ${shown_label} (${significant(100 * (share ?? 0), 2)} %)`),
   ]);
   return [
-    el("p", { class: { completes: "good", trips: "note bad" }[verdict] ?? "note" }, sentence),
+    el("p", { class: { completes: "good", trips: "note bad", refused: "note bad" }[verdict] ?? "note" }, sentence),
     parts.length > 0 && el("p", { class: "muted" }, "Largest shares of limits and capacities"),
     parts.length > 0 && el("dl", { class: "shares" }, ...parts),
     ...notes.map((note) => el("p", { class: "muted" }, note)),
