@@ -15,7 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
 from rths_engine.foundation import location
-from rths_engine.foundation.errors import Issue, RecordingError, RthsError
+from rths_engine.foundation.errors import Issue, RecordingError, RthsError, limited
 
 log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"
@@ -83,8 +83,9 @@ def _request_error(request: Request, error: Exception) -> Response:
     if expected:
         given = request.headers.get("content-type") or "missing"
         return problem(415, f"The Content-Type of the body is {given}. Send {expected}.")
-    issues = [_issue(detail, request) for detail in error.errors()]
-    unread = any(detail["type"] == "json_invalid" for detail in error.errors())
+    details = error.errors()
+    issues = list(limited((_issue(detail, request) for detail in details), len(details)))
+    unread = any(detail["type"] == "json_invalid" for detail in details)
     return problem(400 if unread else 422, "; ".join(str(issue) for issue in issues), [issue.as_dict() for issue in issues])
 
 
@@ -94,6 +95,10 @@ def _issue(detail: Any, request: Request) -> Issue:
         return Issue("", f"the body is not valid JSON: {detail['ctx']['error']} at character {detail['loc'][-1]}")
     given = detail["input"]
     value = None if detail["type"] == "missing" or isinstance(given, dict | list) else given
+    if detail["type"] == "extra_forbidden":
+        return Issue(where, "is not a field of this request", value, "correct its name, or leave it out")
+    if detail["type"] == "string_too_short" and not str(given).strip():
+        return Issue(where, "is blank", value, "give text with at least one character that is not a space")
     message = str(detail["msg"]).removeprefix("Value error, ")
     return Issue(where, message[:1].lower() + message[1:], value)
 

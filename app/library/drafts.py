@@ -102,12 +102,13 @@ class DraftService:
         issues = tuple(_unstorable(plan))
         if issues:
             raise PlanError(issues)
-        name = plan.get("name")
+        name, found = plan.get("name"), self._problems(plan)[:MOST_PROBLEMS]
+        known = titles(plan) if found else {}
         return {
             "plan": plan,
             "owner": named(owner),
             "name": name.strip()[:200] if isinstance(name, str) else "",
-            "problems": [_worded(issue, plan) for issue in self._problems(plan)[:MOST_PROBLEMS]],
+            "problems": [_worded(issue, known) for issue in found],
         }
 
     def _problems(self, plan: dict[str, Any]) -> tuple[Issue, ...]:
@@ -126,9 +127,9 @@ class DraftService:
         return [_out(draft, names) for draft in drafts]
 
 
-def _worded(issue: Issue, plan: dict[str, Any]) -> dict[str, Any]:
-    """The issue with the label and the unit of its field, or of the nearest field around it."""
-    known, path = titles(plan), issue.where
+def _worded(issue: Issue, known: dict[str, tuple[str, str]]) -> dict[str, Any]:
+    """The issue with the label and the unit of its field, or of the nearest field around it. `known` are those of the plan."""
+    path = issue.where
     while path and path not in known:
         path = path.rpartition(".")[0]
     title, unit = known.get(path, (issue.where, ""))

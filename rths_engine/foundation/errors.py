@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
+from itertools import islice
 from typing import Any
+
+MOST_ISSUES = 100  # listed of one input; chosen; see docs/decisions/0023
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +51,13 @@ class RthsError(Exception):
             issues = Issue("", issues)
         self.issues: tuple[Issue, ...] = (issues,) if isinstance(issues, Issue) else tuple(issues)
         super().__init__("\n".join(str(issue) for issue in self.issues))
+
+
+def limited(issues: Iterable[Issue], count: int) -> Iterator[Issue]:
+    """The first MOST_ISSUES of `count` issues, then one that tells how many are left. The rest is never made."""
+    yield from islice(issues, MOST_ISSUES)
+    if count > MOST_ISSUES:
+        yield Issue("", f"has {count - MOST_ISSUES} more errors that are not listed", fix="mend the listed ones first")
 
 
 def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:

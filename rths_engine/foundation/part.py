@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from rths_engine.foundation import location, units
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, PlanError, RthsError
+from rths_engine.foundation.errors import Issue, PlanError, RthsError, limited
 
 # chosen; see docs/decisions/0023
 LONGEST_TEXT = 80  # characters of an invalid text that an error repeats
@@ -90,7 +90,8 @@ def validated(model: type[T], data: Any) -> T:
         return model.model_validate(data)
     except ValidationError as error:
         details = error.errors(include_url=False)
-        raise PlanError(_issue(detail, model) for detail in details if not _follows(detail, details)) from None
+        kept = [detail for detail in details if not _follows(detail, details)]
+        raise PlanError(limited((_issue(detail, model) for detail in kept), len(kept))) from None
 
 
 def _follows(detail: Any, details: list[Any]) -> bool:

@@ -7,6 +7,9 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
+from app.library import drafts
+from rths_engine.foundation.errors import MOST_ISSUES
+from rths_engine.planning.differences import titles
 from tests.app.conftest import plan
 from tests.app.test_library import URL as PLANS
 from tests.app.test_library import keep
@@ -131,3 +134,19 @@ def test_a_draft_that_is_not_there_is_not_found(client: TestClient) -> None:
     assert client.get(f"{URL}/nothing").status_code == put(client, plan(), 4).status_code == 404
     assert client.post(f"{URL}/nothing/close").status_code == client.post(f"{URL}/nothing/reopen").status_code == 404
     assert put(client, plan(), draft="no~id").status_code == 422
+
+
+def test_many_unknown_fields_are_titled_once_and_listed_in_part(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[int] = []
+
+    def counted(typed: Any) -> dict[str, tuple[str, str]]:
+        calls.append(len(typed))
+        return titles(typed)
+
+    monkeypatch.setattr(drafts, "titles", counted)
+    typed = plan() | {f"unknown{number}": number for number in range(3000)}
+    assert len(put(client, typed).json()["problems"]) == drafts.MOST_PROBLEMS and calls == [len(typed)]
+    refused = client.post("/api/v1/plans/check", json=typed)
+    errors = refused.json()["errors"]
+    assert refused.status_code == 422 and len(errors) == MOST_ISSUES + 1
+    assert errors[-1]["problem"] == f"has {3000 - MOST_ISSUES} more errors that are not listed"
