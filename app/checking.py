@@ -45,6 +45,8 @@ def checked(data: Any, motions: MotionLibrary) -> Checked:
     refuse_unstorable(data)
     model = read_model(data)
     plan = model.plan
+    if not plan.name.strip():
+        raise PlanError(Issue("name", "is blank", plan.name, "give the test a name"))
     if isinstance(plan.motion, FileMotion):
         fix = "upload the record and give its name"
         raise PlanError(Issue("motion.kind", "only the command line reads a record from a path", plan.motion.path, fix))

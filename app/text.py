@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import Annotated, Any
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, StringConstraints
 
 from rths_engine.foundation.errors import Issue, PlanError
 
@@ -22,6 +22,8 @@ def storable(text: str) -> str:
 
 
 Storable = Annotated[str, AfterValidator(storable)]
+Named = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1), AfterValidator(storable)]
+"""Text without the spaces around it, which is not blank."""
 
 
 def cleaned(data: Any) -> Any:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints
 
 from app.jobs.states import State
 from app.openapi import Issue, PlanData
-from app.text import Storable
+from app.text import Storable, storable
 
 LONGEST_COMMENT, MOST_TAGS = 2000, 20
 By = Annotated[Storable, Field(max_length=80, description="the person who makes the request")]
-Name = Annotated[Storable, StringConstraints(strip_whitespace=True, min_length=1, max_length=200)]
-Tag = Annotated[Storable, StringConstraints(strip_whitespace=True, min_length=1, max_length=40)]
+Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=200), AfterValidator(storable)]
+Tag = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=40), AfterValidator(storable)]
 Tags = Annotated[list[Tag], Field(max_length=MOST_TAGS)]
 Comment = Annotated[Storable, Field(max_length=LONGEST_COMMENT, description="what changed in this version")]
 Text = Annotated[str, Field(max_length=80)]

@@ -107,7 +107,13 @@ class LibraryService:
         name = asked.name or self._copied(source.name)
         comment = f"Copy of {source.name}, version {version.number}."
         return self.save(
-            NewPlan(plan=version.plan, name=name, comment=comment, tags=list(source.tags), saved_by=asked.saved_by)
+            NewPlan(
+                plan=version.plan,
+                name=name,
+                comment=comment,
+                tags=[tag for tag in source.tags if tag.strip()],
+                saved_by=asked.saved_by,
+            )
         )
 
     def change(self, plan_id: str, asked: Changes) -> LibraryPlanDetail:

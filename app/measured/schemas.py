@@ -8,7 +8,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.contents import Stated
-from app.text import Storable
+from app.text import Named, Storable
 
 
 class Mapped(BaseModel):
@@ -30,7 +30,7 @@ class Preview(Mapped):
 class NewMapping(Mapped):
     """A mapping to save: a file that has the layout, the mapping, its name, and the person who saves it."""
 
-    name: Storable = Field(min_length=1, max_length=200)
+    name: Named = Field(max_length=200)
     saved_by: Storable = Field("", max_length=80)
 
 
@@ -39,7 +39,7 @@ class NewName(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    name: Storable = Field(min_length=1, max_length=200)
+    name: Named = Field(max_length=200)
 
 
 class Import(Mapped):

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.text import Storable
+from app.text import Named, Storable
 from rths_engine.planning.plan import MOST_STATIONS
 
 
@@ -33,7 +33,7 @@ class RigIn(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    name: Storable = Field(min_length=1, max_length=80)
+    name: Named = Field(max_length=80)
     kind: RigKind = RigKind.PHYSICAL
     tests_at_a_time: int | None = Field(
         None, ge=1, le=1000, description="number of tests at the same time; null: any number, or 1 on a physical rig"
@@ -50,6 +50,7 @@ class RigOut(RigIn):
     model_config = ConfigDict(from_attributes=True)
 
     id: str
+    name: str
     running: int
     queued: int
 

@@ -98,6 +98,8 @@ class SweepService:
         """The design of a definition, whose records exist. Raises PlanError or MotionError with every issue."""
         refuse_unstorable(data)
         design = read_design(data)
+        if not design.definition.name.strip():
+            raise PlanError(Issue("name", "is blank", design.definition.name, "give the sweep a name"))
         check_records(design, self.runs.motions)
         return design
 

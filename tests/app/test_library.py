@@ -205,3 +205,20 @@ def test_plans_run_before_the_library_was_there_can_be_kept(earlier: TestClient)
 def test_a_plan_that_is_not_there_is_not_found(client: TestClient, path: str) -> None:
     answer = client.get(f"{URL}/nothing{path}")
     assert answer.status_code == 404 and "There is no plan nothing" in answer.json()["detail"]
+
+
+def test_a_name_or_tag_of_spaces_is_refused_and_spaces_around_one_are_not_kept(client: TestClient) -> None:
+    kept = keep(client)
+    path = f"{URL}/{kept['id']}"
+    for answer, where in (
+        (client.post(URL, json={"plan": plan(), "name": "   "}), "name"),
+        (client.post(URL, json={"plan": plan(name=" ")}), "plan.name"),
+        (client.post(URL, json={"plan": plan(), "name": "Other", "tags": ["a", "  "]}), "tags.1"),
+        (client.patch(path, json={"name": " \t"}), "name"),
+        (client.post(f"{path}/duplicate", json={"name": "   "}), "name"),
+    ):
+        assert answer.status_code == 422
+        (error,) = answer.json()["errors"]
+        assert (error["where"], error["problem"]) == (where, "is blank")
+    long = f"  {'x' * 200}  "
+    assert client.patch(path, json={"name": long, "tags": [" a "]}).json()["name"] == long.strip()

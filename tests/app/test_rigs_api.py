@@ -102,3 +102,11 @@ def test_a_deleted_run_does_not_go_back_to_the_queue(client: TestClient) -> None
     assert client.delete(f"/api/v1/runs/{run}").status_code == 204
     answer = client.post(f"/api/v1/runs/{run}/undo-cancel", json={})
     assert answer.status_code == 409 and "is deleted" in answer.json()["detail"]
+
+
+def test_a_rig_is_named_without_the_spaces_around_its_name(client: TestClient) -> None:
+    given = {"kind": "emulated"}
+    assert client.post(RIGS, json={"name": " Phys ", **given}).json()["name"] == "Phys"
+    assert client.post(RIGS, json={"name": " phys ", **given}).status_code == 409
+    blank = client.post(RIGS, json={"name": " ", **given})
+    assert (blank.status_code, blank.json()["errors"][0]["problem"]) == (422, "is blank")

@@ -293,3 +293,8 @@ def test_a_sweep_has_a_report_with_the_chosen_result(done: tuple[TestClient, str
     assert client.get(f"{SWEEPS}/{sweep}/report.pdf").content.startswith(b"%PDF-")
     refused = client.get(f"{SWEEPS}/{sweep}/report.html", params={"measure": "colour"})
     assert refused.status_code == 422 and refused.json()["errors"][0]["where"] == "measure"
+
+
+def test_a_sweep_with_a_blank_name_is_refused(client: TestClient) -> None:
+    refused = client.post(SWEEPS, json={"sweep": definition(name="  ")})
+    assert (refused.status_code, refused.json()["errors"][0]["problem"]) == (422, "is blank")
