@@ -26,7 +26,7 @@ def add(run_id: str, annotations: Annotations, written: Annotated[Written, Body(
     return annotations.add(run_id, written)
 
 
-@router.put("/{annotation_id}")
+@router.put("/{annotation_id}", responses=told(409))
 def edit(run_id: str, annotation_id: str, annotations: Annotations, written: Annotated[Written, Body()]) -> AnnotationOut:
     """Replace an annotation."""
     return annotations.edit(run_id, annotation_id, written)

@@ -9,13 +9,15 @@ from sqlalchemy.orm import Session
 
 from app.annotations.repository import AnnotationRepository
 from app.annotations.schemas import AnnotationList, AnnotationOut, Written
+from app.jobs.states import State
 from app.models import Annotation, Run
 from app.problems import Conflict, NotFound
 from app.runs.service import RunService
 from rths_engine.foundation.errors import Issue, RthsError
 
 MOST = 200  # annotations of a run
-SPARE = 1.0  # s beyond the planned end: a trip is stated one sample later
+SPARE = 1.0  # s beyond the planned end of a running test: a trip is stated one sample later
+ROUNDED = 1e-3  # s: times come from a page that rounds them
 
 
 class AnnotationService:
@@ -30,7 +32,7 @@ class AnnotationService:
         return AnnotationList(annotations=[_out(row, number) for number, row in enumerate(rows, start=1)])
 
     def add(self, run_id: str, written: Written) -> AnnotationOut:
-        """Add an annotation. Raises NotFound, Conflict for too many, and RthsError outside the test."""
+        """Add an annotation. Raises NotFound, Conflict for too many or without a recording, and RthsError outside the test."""
         run = self.runs.get(run_id)
         _check(run, written)
         if len(self.rows.of(run.number)) >= MOST:
@@ -40,7 +42,7 @@ class AnnotationService:
         return self._numbered(row)
 
     def edit(self, run_id: str, annotation_id: str, written: Written) -> AnnotationOut:
-        """Replace an annotation. Raises NotFound, and RthsError outside the test."""
+        """Replace an annotation. Raises NotFound, Conflict without a recording, and RthsError outside the test."""
         run = self.runs.get(run_id)
         _check(run, written)
         row = self._row(run, annotation_id)
@@ -72,14 +74,23 @@ def _fields(written: Written) -> dict[str, object]:
     return {**written.model_dump(), "text": written.text.strip(), "by": written.by.strip()}
 
 
+def _end(run: Run) -> tuple[float, float]:
+    """The end of a test (s), and the last time that a person may annotate. Raises Conflict where nothing is recorded."""
+    if run.state is State.RUNNING:
+        return run.duration_s, run.duration_s + SPARE
+    if run.recording_sha256 is None or run.simulated_s is None:
+        until = "after its start" if run.state is State.QUEUED else "of a run with a recording"
+        raise Conflict(f"Run #{run.number} is {run.state} and has no recording to annotate. Annotate a time {until}.")
+    tripped = run.trip["time_s"] if run.trip else 0.0
+    return run.simulated_s, max(run.simulated_s, tripped) + ROUNDED
+
+
 def _check(run: Run, written: Written) -> None:
     issues = []
-    last = run.duration_s + SPARE
+    end, last = _end(run)
     for name, time in (("from_s", written.from_s), ("to_s", written.to_s)):
         if time is not None and time > last:
-            issues.append(
-                Issue(name, f"is after the end of the test at {run.duration_s:g} s", time, "choose a time of the test")
-            )
+            issues.append(Issue(name, f"is after the end of the test at {end:.2f} s", time, "choose a time of the test"))
     if written.to_s is not None and written.to_s <= written.from_s:
         issues.append(
             Issue("to_s", f"needs a time after from_s = {written.from_s:g} s", written.to_s, "leave it out for a single time")

@@ -16,8 +16,11 @@ NOTE = {"from_s": 1.5, "to_s": None, "station": 2, "text": "Saturates", "by": "A
 
 
 @pytest.fixture
-def run(client: TestClient) -> str:
-    return submit(client)
+def run(client: TestClient, settings: Settings) -> str:
+    """A run of 2 s with its recording."""
+    run = submit(client)
+    execute(client, settings, run)
+    return run
 
 
 def notes(client: TestClient, run: str) -> list[dict[str, Any]]:
@@ -46,7 +49,7 @@ def test_annotations_are_numbered_in_order_of_time_edited_and_deleted(client: Te
 @pytest.mark.parametrize(
     ("change", "where", "problem"),
     [
-        ({"from_s": 99.0}, "from_s", "after the end of the test at 2 s"),
+        ({"from_s": 99.0}, "from_s", "after the end of the test at 2.00 s"),
         ({"to_s": 1.0}, "to_s", "needs a time after from_s = 1.5 s"),
         ({"station": 3}, "station", "needs a station from 1 to 2"),
         ({"text": "  "}, "text", "is empty"),
@@ -62,6 +65,22 @@ def test_an_annotation_outside_the_test_is_refused_with_the_bound(
     (error,) = answer.json()["errors"]
     assert error["where"] == where and problem in error["problem"]
     assert notes(client, run) == []
+
+
+def test_a_time_after_a_trip_and_a_run_without_a_recording_are_refused(client: TestClient, settings: Settings) -> None:
+    data = plan()
+    data["stations"][0]["limits"]["velocity"] = 0.001
+    tripped = submit(client, stations=data["stations"])
+    address = f"/api/v1/runs/{tripped}/annotations"
+    early = client.post(address, json=NOTE)
+    assert early.status_code == 409 and "is queued and has no recording to annotate" in early.json()["detail"]
+    end = execute(client, settings, tripped)["simulated_s"]
+    (error,) = client.post(address, json=NOTE).json()["errors"]
+    assert end < 1.0 and error["problem"] == f"is after the end of the test at {end:.2f} s"
+    assert client.post(address, json={**NOTE, "from_s": round(end, 3)}).status_code == 201
+    cancelled = submit(client)
+    client.post(f"/api/v1/runs/{cancelled}/cancel", json={"by": "Ana"})
+    assert client.post(f"/api/v1/runs/{cancelled}/annotations", json={**NOTE, "from_s": 0.0}).status_code == 409
 
 
 def test_a_run_has_at_most_as_many_annotations_as_a_report_can_show(client: TestClient, run: str) -> None:
