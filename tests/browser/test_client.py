@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rths.client import Client, NotCompleted, Refused, TooLong, Unreachable
+from rths.client import Client, ClientError, NotCompleted, Refused, TooLong, Unreachable
 from tests.browser.service import Service
 
 NOTEBOOK = Path(__file__).parents[2] / "docs" / "client.ipynb"
@@ -60,3 +60,12 @@ def test_waiting_is_bounded_and_a_cancelled_test_has_not_completed(lab: Client) 
 def test_a_laboratory_that_is_not_there_is_named() -> None:
     with Client("http://127.0.0.1:9") as lab, pytest.raises(Unreachable, match=r"127.0.0.1:9.*rths serve"):
         lab.templates()
+
+
+@pytest.mark.parametrize("plan", [None, 3, {"duration": float("nan")}, {"duration": object()}, "nowhere.yaml"])
+def test_what_is_no_plan_is_refused_with_a_sentence_before_it_is_sent(plan: Any) -> None:
+    with Client("http://127.0.0.1:9") as lab:
+        for use in (lab.check, lab.submit):
+            with pytest.raises(ClientError, match=r"a plan is a mapping|cannot be sent as JSON|cannot be read") as refused:
+                use(plan)
+            assert not isinstance(refused.value, Unreachable)

@@ -56,11 +56,17 @@ class Client:
 
     def plan(self, plan: Plan) -> dict[str, Any]:
         """A plan as JSON in SI units: from the name of a template, from the path of a YAML file, or the plan itself."""
+        if not isinstance(plan, Mapping | str | Path):
+            given = type(plan).__name__
+            raise ClientError(f"a plan is a mapping, the name of a template or the path of a YAML file, not {given}")
         if isinstance(plan, Mapping):
             return dict(plan)
         if isinstance(plan, str) and not plan.endswith((".yaml", ".yml")):
             return dict(self._json("GET", f"/templates/{plan}")["plan"])
-        text = Path(plan).read_bytes()
+        try:
+            text = Path(plan).read_bytes()
+        except OSError as error:
+            raise ClientError(f"the plan {plan} cannot be read: {error.strerror}") from error
         return dict(self._json("POST", "/plans/read", content=text, headers={"Content-Type": "application/yaml"}))
 
     def check(self, plan: Plan) -> dict[str, Any]:
@@ -176,7 +182,13 @@ class Client:
 
     def _answer(self, method: str, path: str, **request: Any) -> httpx.Response:
         try:
-            answer = self._http.request(method, path, **request)
+            asked = self._http.build_request(method, path, **request)
+        except (TypeError, ValueError) as error:
+            raise ClientError(
+                f"the request cannot be sent as JSON, which has text, finite numbers, lists and mappings: {error}"
+            ) from error
+        try:
+            answer = self._http.send(asked)
         except httpx.HTTPError as error:
             at = self._http.base_url
             raise Unreachable(f"no answer from {at}: {error}. Is the control room running there (rths serve)?") from error
