@@ -113,7 +113,7 @@ def test_a_request_that_cannot_be_taken_is_a_problem_that_says_why(
 
 def test_a_method_that_is_not_possible_is_told_which_are(client: TestClient) -> None:
     assert client.put(RUNS).headers["allow"] == "GET, HEAD, POST"
-    assert client.post(f"{RUNS}/one").headers["allow"] == "GET, HEAD"
+    assert client.post(f"{RUNS}/one").headers["allow"] == "DELETE, GET, HEAD, PATCH"
     assert client.post("/runs").headers["allow"] == "GET, HEAD"  # a page
 
 

@@ -18,7 +18,7 @@ def test_a_note_is_written_by_a_key_deleted_and_brought_back_and_a_data_set_says
     page.locator("#name").click()
     page.keyboard.press("n")
     page.get_by_label("Time, s").fill("1.5")
-    page.get_by_label("Note").fill("The command saturates")
+    page.get_by_label("Note", exact=True).fill("The command saturates")
     page.get_by_label("Your name").fill("Ana Ruiz")
     page.get_by_role("button", name="Save the annotation").press("Enter")
     expect(page.locator(".note-line")).to_contain_text("The command saturates")

@@ -32,11 +32,11 @@ class Line:
 def plot(panel: Panel, size: Size, points: int, style: str = "") -> str:
     """The figure of a panel, with at most about `points` points for each line. `style`: see `frame.svg`."""
     spec = panel.spec
-    if spec.get("rows"):
+    if "rows" in spec:
         return svg(size, rows(spec, size), panel.alt, style)
-    if spec.get("tornado"):
+    if "tornado" in spec:
         return svg(size, tornado(spec, size), panel.alt, style)
-    if spec.get("surface"):
+    if "surface" in spec:
         return svg(size, cells(spec, size), panel.alt, style)
     lines = [_line(trace) for trace in spec["traces"]]
     return svg(size, _lines(spec, lines, size, points), panel.alt, style)

@@ -29,7 +29,7 @@ export function renew(host, ...children) {
   const present = [...host.childNodes];
   const shown = children.map((child) => {
     const node = typeof child === "string" ? document.createTextNode(child) : child;
-    const at = present.findIndex((one) => one.isEqualNode(node));
+    const at = present.findIndex((one) => one.isEqualNode(node) || unfolded(one)?.isEqualNode(node));
     return at < 0 ? node : present.splice(at, 1)[0];
   });
   for (const gone of present) gone.remove();
@@ -38,6 +38,14 @@ export function renew(host, ...children) {
     if (node === place) place = place.nextSibling;
     else host.insertBefore(node, place);
   }
+}
+
+/** An open fold as it is when closed: what a person has opened stays open. @param {Node} node */
+function unfolded(node) {
+  if (!(node instanceof HTMLDetailsElement) || !node.open) return null;
+  const closed = /** @type {HTMLDetailsElement} */ (node.cloneNode(true));
+  closed.open = false;
+  return closed;
 }
 
 /** @param {string} id @returns {any} */

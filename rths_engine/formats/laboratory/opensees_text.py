@@ -35,6 +35,8 @@ def looks_like(source: Source) -> bool:
 def read(source: Source) -> Table:
     """The columns of the recorder. Raises FileError for a row of another width and for an envelope."""
     data = [(at, line.rstrip()) for at, line in enumerate(source.lines, start=1) if line.strip()]
+    if not data:
+        raise FileError(Issue("file", "has no line with numbers", fix="choose the file of a recorder"))
     width = Counter(len(line.split()) for _, line in data).most_common(1)[0][0]
     names = [f"column {k}" for k in range(1, width + 1)]
     values, _ = rows.values(data, "", ".", range(width), range(width, width + 1), names)
