@@ -41,7 +41,11 @@ def free(taken: int) -> int:
 def serving(port: int, data: Path, *options: str) -> Iterator[httpx.Client]:
     """The control room from its first word to Ctrl-C, which must end it and all that it started."""
     command = [*RTHS, "serve", "--port", str(port), "--data", str(data), *options]
-    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    # without the measuring of lines, whose own saving a Ctrl-C can interrupt
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("COV")}
+    running = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, env=environment
+    )
     try:
         assert running.stdout is not None
         heading = [running.stdout.readline().strip() for _ in range(4)]
