@@ -44,7 +44,7 @@ class Event(Base):
 
 
 class Webhook(Base):
-    """An address that is told of events of some kinds; `secret` signs what is sent."""
+    """A webhook: an address that receives events of some kinds. `secret` signs each message."""
 
     __tablename__ = "webhook"
 

@@ -33,7 +33,7 @@ class Hold:
         self._tell(EventKind.HELD, f"{by} held the queue{': ' if reason else '.'}{reason}")
 
     def release(self, by: str) -> None:
-        """Release the queue; nothing is told where it was not held."""
+        """Release the queue. A queue that was not held makes no event."""
         if self.locked().held:
             self._change(held=False, held_by=None, held_at=None, held_reason="")
             self._tell(EventKind.RELEASED, f"{by} released the queue.")

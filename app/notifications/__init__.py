@@ -1,1 +1,1 @@
-"""What people and their other programs are told of: events by REST and by webhooks."""
+"""Events for people and for other programs, by REST and by webhooks."""

@@ -1,4 +1,4 @@
-"""Rules of notifications: which events are told. No SQL, no HTTP."""
+"""Rules of notifications: which events go to which receivers. No SQL, no HTTP."""
 
 from __future__ import annotations
 

@@ -1,9 +1,7 @@
 // @ts-check
 import { el } from "../dom.js";
-import { FloorGauges } from "./floor_gauges.js";
-import { Gauges } from "./gauges.js";
 import { LoopChart } from "./loop_chart.js";
-import { Schematic } from "./schematic.js";
+import { Picture } from "./picture.js";
 import { floorStrips, inputStrips, pair, stationStrips } from "./signals.js";
 import { TimePanel } from "./time_panel.js";
 
@@ -19,26 +17,21 @@ export const FIRST = {
 
 /** The first screen: what is tested and how it moves, gauges of all stations, the loop of one station and its signals on one time axis. */
 export class Stage {
-  visible = true;
-
   /** @param {HTMLElement} host @param {View} view @param {any} plan @param {Record<string, any>} declared channels of the service */
   constructor(host, view, plan, declared) {
     this.view = view;
     this.plan = plan;
     this.declared = declared;
-    const { channels } = view.store;
     const cell = (/** @type {string} */ name) => el("div", { class: `stage-${name}` });
     const [schematic, gauges, loop, time] = ["schematic", "gauges", "loop", "time"].map(cell);
     this.loopCell = loop;
     const tested = plan.stations.length > 0;
     this.element = el("div", { class: `stage of-${plan.test}` }, schematic, gauges, ...(tested ? [loop] : []), time);
     host.replaceChildren(this.element);
-    this.schematic = new Schematic(schematic, plan, channels);
-    this.gauges = tested ? new Gauges(gauges, plan, channels, (station) => this.select(station)) : new FloorGauges(gauges, channels);
     this.panel = new TimePanel(time, view);
     /** @type {LoopChart | null} */
     this.loop = null;
-    view.add(this.element, this);
+    new Picture(view, plan, this.element, schematic, gauges, (station) => this.select(station));
     this.select(0);
   }
 
@@ -53,30 +46,5 @@ export class Stage {
     this.loopCell.replaceChildren(this.loop.figure.element);
     this.panel.show(stationStrips(view.store, plan, station, FIRST[plan.test], this.declared));
     view.redraw();
-  }
-
-  resize() {
-    this.schematic.fit();
-  }
-
-  draw() {
-    this.#show(false);
-  }
-
-  follow() {
-    this.#show(false);
-  }
-
-  readout() {
-    this.#show(true);
-  }
-
-  /** @param {boolean} numbers */
-  #show(numbers) {
-    const { store, trip } = this.view;
-    const time = this.view.shown();
-    const moment = store.moment(time);
-    if (this.gauges instanceof Gauges) this.gauges.trip = time >= store.now ? trip : null;
-    this.schematic.show(moment, this.gauges.show(moment, numbers), numbers);
   }
 }

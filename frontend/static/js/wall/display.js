@@ -1,12 +1,10 @@
 // @ts-check
 import { el } from "../dom.js";
 import { fixed } from "../format.js";
-import { FloorGauges } from "../run/floor_gauges.js";
-import { Gauges } from "../run/gauges.js";
 import { ended, reason } from "../run/facts.js";
 import { follow } from "../run/live.js";
 import { LoopChart } from "../run/loop_chart.js";
-import { Schematic } from "../run/schematic.js";
+import { Picture } from "../run/picture.js";
 import { floorStrips, inputStrips, pair, stationStrips } from "../run/signals.js";
 import { Store } from "../run/store.js";
 import { TimePanel } from "../run/time_panel.js";
@@ -17,8 +15,6 @@ const FEW = 2; // stations whose tracking indicators have room beneath the displ
 
 /** One test on the wall: its name and time, what is tested, the gauges, the loops and the displacements of all stations. */
 export class Display {
-  visible = true;
-
   /** @param {any} run with its plan @param {Record<string, any>} declared channels of the service @param {boolean} alone whether no other test is shown */
   constructor(run, declared, alone) {
     this.run = run;
@@ -82,13 +78,11 @@ export class Display {
     const { plan } = this.run;
     const [drawing, gauges, loops, strips] = ["schematic", "gauges", "loops", "strips"].map((name) => el("div", { class: `wall-${name}` }));
     this.body.replaceChildren(drawing, gauges, ...(plan.stations.length && this.alone ? [loops] : []), strips);
-    this.schematic = new Schematic(drawing, plan, store.channels);
-    this.gauges = plan.stations.length ? new Gauges(gauges, plan, store.channels) : new FloorGauges(gauges, store.channels);
     const some = plan.stations.slice(0, MOST_LOOPS);
     loops.dataset.loops = String(some.length);
     loops.replaceChildren(...some.map((/** @type {any} */ _, /** @type {number} */ i) => this.#loop(view, i)));
     new TimePanel(strips, view).show(this.#strips(store));
-    view.add(this.body, this);
+    new Picture(view, plan, this.body, drawing, gauges);
     this.state({});
   }
 
@@ -107,26 +101,6 @@ export class Display {
     return plan.stations.slice(0, MOST_LOOPS).flatMap((/** @type {any} */ _, /** @type {number} */ i) =>
       stationStrips(store, plan, i, names, this.declared).map((strip) => ({ ...strip, title: count > 1 ? `${i + 1}: ${strip.title}` : strip.title })),
     );
-  }
-
-  draw() {
-    this.#show(false);
-  }
-
-  follow() {
-    this.#show(false);
-  }
-
-  readout() {
-    this.#show(true);
-  }
-
-  /** @param {boolean} numbers */
-  #show(numbers) {
-    if (!this.view || !this.gauges) return;
-    const moment = this.view.store.moment();
-    if (this.gauges instanceof Gauges) this.gauges.trip = this.view.trip;
-    this.schematic?.show(moment, this.gauges.show(moment, numbers), numbers);
   }
 
   close() {

@@ -14,7 +14,7 @@ export function stateOf(queue, running) {
 /** The next tests in words. @param {any} queue @param {number} more running tests that are not shown */
 export function nextTests(queue, more) {
   const also = more > 0 ? `${more} more ${more === 1 ? "test runs" : "tests run"}. ` : "";
-  const [next] = queue.waiting ?? [];
+  const [next] = queue.waiting;
   if (!next) return `${also}Next: the queue is empty`;
   const at = next.expected_start ? `, about ${clock(next.expected_start)}` : "";
   const others = queue.queued > 1 ? ` · ${queue.queued - 1} more in the queue` : "";

@@ -1,0 +1,35 @@
+"""Tables of the service. Times are UTC; the name of a number ends with its unit."""
+
+from app.events.tables import Event
+from app.models.diagnoses import Diagnosis, DiagnosisInput
+from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
+from app.models.measured import ImportBatch, MeasuredRecording, RawFile, SavedMapping
+from app.models.runs import EMULATED, LONGEST_VALUE, Annotation, Rig, Run, RunPlan, RunStation, RunValue, RunView, ValuePath
+from app.models.sweeps import Sweep, SweepPart, SweepShard
+
+__all__ = [
+    "EMULATED",
+    "LONGEST_VALUE",
+    "Annotation",
+    "Diagnosis",
+    "DiagnosisInput",
+    "Event",
+    "ImportBatch",
+    "LibraryPlan",
+    "MeasuredRecording",
+    "PlanDraft",
+    "PlanTag",
+    "PlanVersion",
+    "RawFile",
+    "Rig",
+    "Run",
+    "RunPlan",
+    "RunStation",
+    "RunValue",
+    "RunView",
+    "SavedMapping",
+    "Sweep",
+    "SweepPart",
+    "SweepShard",
+    "ValuePath",
+]
