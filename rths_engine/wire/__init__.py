@@ -1,0 +1,1 @@
+"""Messages of other programs and machines as bytes: pure conversions, without sockets."""
