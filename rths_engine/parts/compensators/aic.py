@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
+
+# chosen; see docs/decisions/0023
+ADAPTATION_TIME = 1.0  # s, in which the delay error falls to 1/e under the expected motion
 
 
-class AdaptiveInverseCompensation(Part):
+class AdaptiveInverseCompensation(Compensating):
     """Adaptive inverse compensation (AIC).
 
     d_p[q] = alpha d_c[q] - (alpha - 1) d_c[q-1],  alpha = alpha_es + d_alpha   (7a)
@@ -28,6 +32,12 @@ class AdaptiveInverseCompensation(Part):
     kp: float = quantity("Proportional gain kp", "1/(m^2)", "1/(mm^2)", ge=0, le=1e8, default=0.4e6)
     ki: float = quantity("Integral gain ki", "1/(m^2*s)", "1/(mm^2*s)", ge=0, le=1e8, default=0.04e6, help="published as kp/10")
     title: ClassVar[str] = "Adaptive inverse (AIC)"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """alpha_es of the delay; kp from TI' = d v^2 with delay error d and RMS velocity v, to adapt within a second."""
+        kp = system.rate / (ADAPTATION_TIME * system.velocity**2)
+        return cls(alpha_es=1 + system.delay / system.dt, kp=kp, ki=kp / 10)
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.alpha_es, self.kp, self.ki]), np.zeros(3)

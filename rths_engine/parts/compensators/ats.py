@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.kernel import compiled
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
 
 # chosen; see docs/decisions/0023
 MOST_SAMPLES = 2048  # of the moving window; a longer window skips substeps
@@ -38,7 +39,7 @@ def _descend(s, own, diagonal, mixed, low, high):
         s[COEFFICIENTS + own] = min(max((s[SUMS + 6 + own] - mixed) / diagonal, low), high)
 
 
-class AdaptiveTimeSeries(Part):
+class AdaptiveTimeSeries(Compensating):
     """Adaptive time series compensation (ATS).
 
     d_p = a0 d_c + a1 d_c' + a2 d_c'',  a minimising the sum over the window of (d_p - a0 d_m - a1 d_m' - a2 d_m'')^2
@@ -68,6 +69,16 @@ class AdaptiveTimeSeries(Part):
     cutoff: float = quantity("Low-pass filter before the fit", "Hz", gt=0, le=1000, default=20.0)
     threshold: float = quantity("Smallest RMS displacement for adaptation", "m", "mm", ge=0, le=1, default=0.25e-3)
     title: ClassVar[str] = "Adaptive time series (ATS)"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """Start at the delay, at most twice as large; derivatives over one integration step."""
+        return cls(
+            delay=system.delay,
+            largest_delay=2 * system.delay,
+            derivative_step=max(system.step, system.dt),
+            threshold=system.displacement / 2,
+        )
 
     def build(self, dt: float) -> tuple[Array, Array]:
         spacing = max(1, round(self.derivative_step / dt))

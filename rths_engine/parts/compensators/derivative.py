@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
 
 
-class DerivativeFeedForward(Part):
+class DerivativeFeedForward(Compensating):
     """Derivative feed-forward: adds the velocity and the acceleration of the command to the command.
 
     d_p[q] = d_c[q] + g_v (3 d_c[q] - 4 d_c[q-1] + d_c[q-2]) / (2 dt) + g_a (d_c[q] - 2 d_c[q-1] + d_c[q-2]) / dt^2
@@ -29,6 +30,13 @@ class DerivativeFeedForward(Part):
         "Root of the acceleration gain √g_a", "s", "ms", ge=0, le=1, default=0.0, help="1/ω of a second-order actuator"
     )
     title: ClassVar[str] = "Derivative feed-forward"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """g_v and g_a of the inverse up to s^2, over its gain; g_a = 0 where the command has kinks."""
+        gain, first, second = system.inverse(2)
+        smooth = system.step <= system.dt
+        return cls(velocity_gain=first / gain, acceleration_root=max(0.0, second / gain) ** 0.5 if smooth else 0.0)
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.velocity_gain / (2 * dt), (self.acceleration_root / dt) ** 2]), np.zeros(2)

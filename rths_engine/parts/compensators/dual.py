@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
+
+# chosen; see docs/decisions/0023
+GAIN_MARGIN = 4.0  # of the feedback of the tracking error
 
 
-class DualCompensation(Part):
+class DualCompensation(Compensating):
     """Dual compensation: inverse compensation corrected by the tracking error.
 
     d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1] + kp (d_c[q-1] - d_m[q-1])
@@ -29,6 +33,12 @@ class DualCompensation(Part):
     )
     kp: float = quantity("Proportional gain on the tracking error", ge=0, le=100, default=1.0)
     title: ClassVar[str] = "Dual (inverse and proportional)"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """alpha_es of the delay; kp with a gain margin of 4 in the loop of the tracking error, at most the default."""
+        kp = min(system.critical_gain / GAIN_MARGIN, cls().kp)
+        return cls(alpha_es=1 + system.delay / system.dt, kp=kp)
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.alpha_es, self.kp]), np.zeros(1)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
 
 
-class InverseCompensation(Part):
+class InverseCompensation(Compensating):
     """Inverse compensation: the inverse of the first-order delay, as an extrapolation of the command.
 
     d_p[q] = alpha_es d_c[q] - (alpha_es - 1) d_c[q-1]   (7a with d_alpha = 0)
@@ -25,6 +26,11 @@ class InverseCompensation(Part):
         "Estimated delay constant α_es", ge=1, le=1000, default=30.0, help="compensates (α_es − 1) controller steps"
     )
     title: ClassVar[str] = "Inverse"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """alpha_es of the delay at low frequency."""
+        return cls(alpha_es=1 + system.delay / system.dt)
 
     def build(self, dt: float) -> tuple[Array, Array]:
         return np.array([self.alpha_es]), np.zeros(1)

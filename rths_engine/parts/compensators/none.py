@@ -7,10 +7,10 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part
+from rths_engine.parts.compensators.compensator import Compensating
 
 
-class NoCompensation(Part):
+class NoCompensation(Compensating):
     """No compensation, d_p[q] = d_c[q]: the delay of the actuator is not corrected and adds energy to the structure."""
 
     kind: Literal["none"] = "none"

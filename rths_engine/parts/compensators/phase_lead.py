@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
 
 
-class PhaseLead(Part):
+class PhaseLead(Compensating):
     """First-order phase-lead compensation.
 
     r T d_p' + d_p = d_c + T d_c',  0 <= r < 1;  frequency response (1 + i omega T) / (1 + i omega r T)
@@ -27,6 +28,11 @@ class PhaseLead(Part):
     lead_time: float = quantity("Lead time T", "s", "ms", ge=0, le=1, default=0.032)
     lag_ratio: float = quantity("Lag time over lead time r", ge=0, lt=1, default=0.1, help="amplifies noise by at most 1/r")
     title: ClassVar[str] = "Phase lead"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """T that removes the delay at the default lag ratio."""
+        return cls(lead_time=system.delay / (1 - cls().lag_ratio))
 
     def build(self, dt: float) -> tuple[Array, Array]:
         lag = self.lag_ratio * self.lead_time

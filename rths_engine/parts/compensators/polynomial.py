@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.part import Part, quantity
+from rths_engine.foundation.part import quantity
+from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
 
 
-class PolynomialExtrapolation(Part):
+class PolynomialExtrapolation(Compensating):
     """Polynomial extrapolation of the command over the actuator's delay.
 
     d_p(t) = sum over i = 0 ... n of w_i d_c(t - i h) = P(t + tau),  P the polynomial of order n through these samples
@@ -27,6 +28,11 @@ class PolynomialExtrapolation(Part):
     delay: float = quantity("Delay τ", "s", "ms", ge=0, le=0.1, default=29 / 1024)
     order: int = quantity("Order of the polynomial n", ge=1, le=3, default=3)
     title: ClassVar[str] = "Polynomial extrapolation"
+
+    @classmethod
+    def tuned_for(cls, system: TransferSystem) -> Self:
+        """The delay at low frequency and the published order 3."""
+        return cls(delay=system.delay)
 
     def build(self, dt: float) -> tuple[Array, Array]:
         spacing = max(1, round(self.delay / dt))
