@@ -9,6 +9,7 @@ from typing import Any
 
 import openseespy.opensees as ops
 from frame_in_opensees import Frame
+from habits_in_opensees import habits
 from materials_in_opensees import pressed, shaken
 
 
@@ -46,5 +47,5 @@ def timing(request: dict[str, Any]) -> dict[str, Any]:
 
 if __name__ == "__main__":
     request = json.load(sys.stdin)
-    tasks = {"modes": modes, "history": history, "timing": timing, "pressed": pressed, "shaken": shaken}
+    tasks = {"modes": modes, "history": history, "timing": timing, "pressed": pressed, "shaken": shaken, "habits": habits}
     print(json.dumps(tasks[request["task"]](request)))

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 from rths_engine.formats.format import Format
-from rths_engine.formats.laboratory.opensees_xml import UNITLESS
+from rths_engine.formats.laboratory.opensees_xml import FIRST_ROW, UNITLESS
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import MOST_COLUMNS, Column, Table, refuse_many
 from rths_engine.foundation.errors import FileError, Issue
@@ -37,7 +37,7 @@ def read(source: Source) -> Table:
         raise FileError(Issue(f"row {bad[0] + 1}", "does not end with a line feed", fix="record it again, as text"))
     values = np.ascontiguousarray(raw[:, :-1]).view("<f8" if sys.byteorder == "little" else "=f8").astype(float)
     columns = tuple(Column(f"column {k + 1}", np.ascontiguousarray(values[:, k])) for k in range(width))
-    return Table("OpenSees recorder (binary)", columns, named=False, notes=(UNITLESS,))
+    return Table("OpenSees recorder (binary)", columns, named=False, notes=(UNITLESS, FIRST_ROW))
 
 
 def _width(source: Source) -> int | None:

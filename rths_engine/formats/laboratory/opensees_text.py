@@ -8,9 +8,10 @@ from pathlib import PurePosixPath
 
 import numpy as np
 
+from rths_engine.formats import few_digits
 from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import rows
-from rths_engine.formats.laboratory.opensees_xml import UNITLESS
+from rths_engine.formats.laboratory.opensees_xml import FIRST_ROW, UNITLESS
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Column, Table
 from rths_engine.foundation.arrays import Array
@@ -44,12 +45,12 @@ def read(source: Source) -> Table:
         problem = "holds the minimum, the maximum and the largest absolute value of each response, not a time history"
         raise FileError(Issue("file", problem, fix="record with a Node or Element recorder instead of an Envelope recorder"))
     response = _RESPONSE.search(PurePosixPath(source.name.replace("\\", "/")).stem)
-    first = 1 if width > 1 and len(values) > 1 and bool(np.all(np.diff(values[:, 0]) > 0)) else 0
+    first = 1 if width > 1 and len(values) > 1 and _rises(values[:, 0]) else 0
     columns = [
         _column(names[k], np.ascontiguousarray(values[:, k]), response if k >= first else None, k - first + 1)
         for k in range(width)
     ]
-    notes = [UNITLESS, "it does not state whether the first column is time, or the load factor of a static analysis"]
+    notes = [UNITLESS, "it does not state whether the first column is time, or the load factor of a static analysis", FIRST_ROW]
     if response is not None:
         notes.append(f"{response[0]} is from the name of the file, which the file does not confirm")
     return Table("OpenSees recorder (text)", tuple(columns), named=response is not None, notes=tuple(notes))
@@ -60,6 +61,11 @@ def _column(name: str, values: Array, response: re.Match[str] | None, number: in
         return Column(name, values)
     quantity = _QUANTITY[response[2][0].lower()]
     return Column(f"{_ORIGIN[response[1].lower()]} {quantity} {number} ({response[0]})", values, quantity=quantity)
+
+
+def _rises(values: Array) -> bool:
+    """Whether values increase; times of six digits can be equal to each other."""
+    return bool(np.all(np.diff(values) > 0)) or few_digits.equal_steps(values) is not None
 
 
 def _is_envelope(values: Array) -> bool:

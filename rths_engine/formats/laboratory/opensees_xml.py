@@ -15,6 +15,9 @@ from rths_engine.formats.table import Column, Table, distinct
 from rths_engine.foundation.errors import FileError, Issue
 
 UNITLESS = "OpenSees states no units: give the unit of time and of every column"
+FIRST_ROW = (
+    "without times: the first row is the end of the first step, not time 0; with -dT, rows are whole steps apart, at least dT"
+)
 
 _ROOT = re.compile(r"<\s*(Open(?:Sees|Fresco)\w*)")
 _DATA, _END = "<Data>", "</Data>"
@@ -47,7 +50,10 @@ def read(source: Source) -> Table:
         Column(name, np.ascontiguousarray(values[:, k]), quantity=_QUANTITIES.get(re.sub(r"\d+$", "", response), ""))
         for k, (name, response) in enumerate(found)
     ]
-    return Table("OpenSees recorder (XML)", distinct(columns), notes=(UNITLESS,), header=header)
+    timed = any(one.quantity == "time" for one in columns)
+    return Table(
+        "OpenSees recorder (XML)", distinct(columns), notes=(UNITLESS,) if timed else (UNITLESS, FIRST_ROW), header=header
+    )
 
 
 def _responses(header: str) -> Iterator[tuple[str, str]]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rths_engine.formats import few_digits
 from rths_engine.formats.scratch import on_disk, release
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.measured.blocks import SHORT, parts
@@ -57,7 +58,7 @@ def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
     if on_disk(times) and len(times) > 2 and (even := _even(times)) is not None:
         return even, []
     if refused := _refused(times, channel):
-        return None, [refused]
+        return _of_few_digits(times, channel) or (None, [refused])
     differences = np.diff(times)
     steps = np.maximum(1, np.rint(differences / np.median(differences) - UNEVEN))
     index = np.concatenate([[0.0], np.cumsum(steps)])
@@ -69,6 +70,8 @@ def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
     missing = np.flatnonzero(steps > 1)
     irregular = len(missing) > IRREGULAR * len(steps)
     findings = [] if irregular else [_gap(times, steps, int(k), channel) for k in missing]
+    if (irregular or off > JITTER) and (recovered := _of_few_digits(times, channel)) is not None:
+        return recovered
     longest = int(np.argmax(steps))
     if irregular and steps[longest] > LONGEST_GAP:
         findings.append(_gap(times, steps, longest, channel))
@@ -77,6 +80,19 @@ def of_stamps(times: Array, channel: str) -> tuple[Clock | None, list[Finding]]:
         problem = "time steps vary; the channels were interpolated to equal steps"
         findings.append(Finding("warning", channel, problem, value, fix="if the time stamps are wrong, give the rate instead"))
     return Clock(times, step, uniform=not irregular and off <= JITTER and not len(missing)), findings
+
+
+def _of_few_digits(times: Array, channel: str) -> tuple[Clock, list[Finding]] | None:
+    """The clock of stamps whose digits do not resolve their equal steps, and a warning; None for other stamps."""
+    if on_disk(times) or (found := few_digits.equal_steps(times)) is None:
+        return None
+    round_rate = 1 / float(f"{1 / found.step:.4g}")
+    step = round_rate if found.smallest <= round_rate <= found.largest else _rounded(found.step, len(times) - 1)
+    start, unit = few_digits.start(times, step), float(few_digits.last_digit(times)[-1])
+    problem = f"has {few_digits.DIGITS} digits, which do not resolve its steps; equal steps were recovered"
+    value = f"steps of {1e3 * step:.6g} ms ({1 / step:.6g} Hz); the last stamps are rounded to {1e3 * unit:.4g} ms"
+    fix = "if the steps were not equal, write the time with more digits (OpenSees: -precision 16)"
+    return of_step(step, len(times), start), [Finding("warning", channel, problem, value, fix=fix)]
 
 
 def _even(times: Array) -> Clock | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rths_engine.formats import few_digits
 from rths_engine.formats.plain import time_columns
 from rths_engine.formats.table import Column
 from rths_engine.foundation.arrays import Array
@@ -118,6 +119,8 @@ def _steps(progress: Progress, name: str) -> None:
 
 def _rises(values: Array, equally: bool = False) -> bool:
     steps = np.diff(values)
-    if len(steps) < 2 or not np.isfinite(steps).all() or (steps <= 0).any():
+    if len(steps) < 2 or not np.isfinite(steps).all():
         return False
-    return not equally or float(np.ptp(steps)) < 0.5 * float(np.median(steps))
+    if (steps > 0).all() and (not equally or float(np.ptp(steps)) < 0.5 * float(np.median(steps))):
+        return True
+    return few_digits.equal_steps(values) is not None
