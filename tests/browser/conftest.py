@@ -89,6 +89,20 @@ class Watch:
         assert found == []
 
 
+def visit(page: Page, path: str) -> None:
+    """Open an address and wait until the page has shown the data that it asks for first.
+
+    After a click that leads to another page, too, no locator acts or is asserted before that page is loaded.
+    """
+    page.goto(path)
+    loaded(page)
+
+
+def loaded(page: Page) -> None:
+    """Wait until the page is loaded: js/ready.js."""
+    page.locator("html:not([data-loading])").wait_for(state="attached")
+
+
 @pytest.fixture
 def opened(browser: Browser, service: Service) -> Iterator[Opener]:
     """Open a page of the service; `allow` names faults that the test provokes."""
@@ -99,11 +113,12 @@ def opened(browser: Browser, service: Service) -> Iterator[Opener]:
         context.add_init_script(f"localStorage.setItem('rths.name', {who!r})" if who else "")
         context.set_default_timeout(15_000)
         contexts.append(context)
+        context.on("page", lambda page: page.add_locator_handler(page.locator("html[data-loading]"), lambda: None))
         page = context.new_page()
         watch = Watch(page)
         watch.allowed = allow
         watches.append(watch)
-        page.goto(path)
+        visit(page, path)
         return page
 
     yield open_page

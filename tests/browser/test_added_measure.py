@@ -18,6 +18,7 @@ from playwright.sync_api import Browser, expect
 
 from app import db
 from rths_engine.recordings import run_file
+from tests.browser.conftest import visit
 from tests.browser.service import ROOT, Service, importing, running
 
 KEY, HEADING = "mean_force_kN", "Mean force, kN"
@@ -86,11 +87,11 @@ def test_the_pages_show_the_measure(extended: tuple[Service, str], browser: Brow
     service, run_id = extended
     wanted = expected(service, run_id)
     page = browser.new_page(base_url=service.url)
-    page.goto(f"/runs/{run_id}")
+    visit(page, f"/runs/{run_id}")
     table = page.locator("#metrics table").first
     expect(table).to_contain_text(HEADING)
     expect(table).to_contain_text(f"{wanted[0]:.3f}")
-    page.goto("/runs")
+    visit(page, "/runs")
     expect(page.locator("#heads")).to_contain_text(HEADING.partition(",")[0])
     expect(page.locator("#rows")).to_contain_text(f"{max(wanted, key=abs):#.3g}")
     page.close()
@@ -103,7 +104,7 @@ def test_a_running_test_shows_a_dash_for_a_measure_without_a_form_so_far(
     run_id = service.submit(pace={"kind": "real_time", "factor": 1.0}, duration=20.0)
     service.wait(run_id, "running")
     page = browser.new_page(base_url=service.url)
-    page.goto(f"/runs/{run_id}")
+    visit(page, f"/runs/{run_id}")
     tiles = page.locator(".tiles").first
     expect(tiles.locator("div", has_text="Peak stroke")).to_contain_text(".")
     expect(tiles.locator("div", has_text="Mean force")).to_contain_text("–")

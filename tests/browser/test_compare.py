@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service
 
 
@@ -73,13 +73,13 @@ def test_another_item_becomes_the_reference_and_the_run_page_leads_to_comparison
     page.get_by_role("link", name="Make Run", exact=False).click()
     expect(page).to_have_url(re.compile(f"&reference=run:{pair[1]}$"))
     expect(page.locator("#measures")).to_contain_text("Measures, with their differences to Run")
-    page.goto(f"/runs/{pair[1]}")
+    visit(page, f"/runs/{pair[1]}")
     page.get_by_role("link", name="Compare with other runs").click()
     expect(page.locator("#count")).to_have_text("1 item is chosen; choose 2 to 20.")
     expect(page.get_by_role("button", name="Compare items")).to_be_disabled()
     page.locator(f"input[value='run:{pair[0]}']").check()
     page.get_by_role("button", name="Compare items").click()
     expect(page).to_have_url(re.compile(f"items=run:{pair[1]},run:{pair[0]}$"))
-    page.goto(f"/runs/{pair[1]}")
+    visit(page, f"/runs/{pair[1]}")
     page.get_by_role("link", name="Compare with the previous run").click()
     expect(page.locator("[role=alert].banner")).to_contain_text("There is no earlier run of the same template or name")

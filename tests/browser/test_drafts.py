@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.checks import unfold
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, loaded, visit
 from tests.browser.service import Service, until
 from tests.browser.test_pages import expect_accessible
 
@@ -37,7 +37,7 @@ def test_an_invalid_plan_survives_a_closed_tab_and_is_found_again(form: Page, id
     with form.expect_event("close"):
         form.close(run_before_unload=True)  # within the 0.8 s before it would be saved
     again = form.context.new_page()
-    again.goto("/new")
+    visit(again, "/new")
     expect(again.get_by_text("You left a draft from template two-storeys")).to_be_visible()
     expect_accessible(again)
     again.get_by_role("link", name="Open the draft Half typed").click()
@@ -51,7 +51,7 @@ def test_two_windows_never_overwrite_each_other(form: Page) -> None:
     form.get_by_label("Notes").fill("of the first window")
     expect(form.locator("#draft")).to_contain_text(SAVED)
     second = form.context.new_page()
-    second.goto(form.url)
+    visit(second, form.url)
     expect(second.get_by_label("Notes")).to_have_value("of the first window")
     with second.expect_response(lambda answer: "/library/drafts/" in answer.url and answer.request.method == "PUT") as saved:
         second.get_by_label("Notes").fill("of the second window")
@@ -63,6 +63,7 @@ def test_two_windows_never_overwrite_each_other(form: Page) -> None:
     expect(form.locator("#draft")).to_contain_text(SAVED)
     assert form.url != second.url
     second.reload()
+    loaded(second)
     expect(second.get_by_label("Notes")).to_have_value("of the second window")
 
 
@@ -71,8 +72,8 @@ def test_edits_are_held_by_the_browser_while_the_service_is_away(form: Page) -> 
     form.get_by_label("Notes").fill("typed without a service")
     expect(form.locator("#draft")).to_contain_text("Not saved: The service does not answer.")
     form.unroute_all()
-    form.context.new_page().goto("/new")
-    again = form.context.pages[-1]
+    again = form.context.new_page()
+    visit(again, "/new")
     again.get_by_role("link", name="Open the draft").click()
     expect(again.get_by_label("Notes")).to_have_value("typed without a service")
     expect(again.locator("#draft")).to_contain_text(SAVED)

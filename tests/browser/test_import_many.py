@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from rths_engine.recordings.measured import Mapping, mapping_yaml
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service
 from tests.browser.test_pages import LOOKS, expect_accessible
 from tests.engine import batch_files as made
@@ -72,7 +72,7 @@ def test_several_files_are_imported_by_keyboard_with_a_saved_mapping(opened: Ope
     expect(page.get_by_role("heading", name="Batch of 3 files: 3 imported, 0 refused")).to_be_visible()
     page.get_by_role("link", name="run01.csv").click()
     expect(page.get_by_role("heading", name="run01", exact=True)).to_be_visible()
-    page.goto("/recordings")
+    visit(page, "/recordings")
     expect(page.get_by_role("link", name="3 imported, 0 refused").first).to_be_visible()
     service.http.delete(f"/api/v1/mappings/{saved['id']}").raise_for_status()
 

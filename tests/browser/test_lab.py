@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, loaded
 from tests.browser.service import Service
 
 
@@ -17,6 +17,7 @@ def test_a_running_test_has_a_card_and_the_tour_stays_hidden(idle: Service, open
     page.get_by_role("button", name="Hide the tour").click()
     expect(page.locator("#tour")).to_be_hidden()
     page.reload()
+    loaded(page)
     expect(page.locator("#tour")).to_be_hidden()
     page.get_by_role("button", name="Show the tour").press("Enter")
     expect(page.locator("#tour")).to_be_visible()
@@ -27,5 +28,6 @@ def test_the_page_tells_what_happened_since_the_last_visit(idle: Service, opened
     idle.completed(name="Meanwhile")
     page.add_init_script("localStorage.setItem('rths.seen', new Date(Date.now() - 3600e3).toISOString())")
     page.reload()
+    loaded(page)
     expect(page.locator("#since")).to_contain_text("Since you were last here, 1 h")
     expect(page.locator("#since .news")).to_contain_text("Meanwhile")

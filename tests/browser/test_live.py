@@ -6,7 +6,7 @@ import re
 
 from playwright.sync_api import Locator, Page, WebSocketRoute, expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, loaded, visit
 from tests.browser.service import Service
 
 REAL_TIME = {"kind": "real_time", "factor": 1.0}
@@ -17,6 +17,7 @@ def test_a_reload_mid_run_shows_the_whole_history(idle: Service, opened: Opener)
     page = opened(f"/runs/{run}")
     _expect_simulated(page, 3)
     page.reload()
+    loaded(page)
     expect(page.locator(".chart canvas").first).to_be_visible()
     error = page.get_by_role("img", name=re.compile("^Tracking error")).first
     _to_the_left_edge(page, error)
@@ -51,7 +52,7 @@ def test_a_lost_connection_is_told_and_mended(idle: Service, opened: Opener) -> 
             socket.connect_to_server()
 
     page.route_web_socket("**/live*", answer)
-    page.goto(f"/runs/{run}")
+    visit(page, f"/runs/{run}")
     expect(page.get_by_text("Connection lost, reconnecting …")).to_be_visible()
     _expect_simulated(page, 3)
     expect(page.get_by_text("Connection lost, reconnecting …")).to_be_hidden()
@@ -81,7 +82,7 @@ def test_abort_asks_once_more_then_stops_the_test_and_holds_the_queue(idle: Serv
     expect(bar.get_by_role("button", name="Press again to abort")).to_be_focused()
     page.keyboard.press("Enter")
     assert idle.wait(run)["state"] == "cancelled"
-    page.goto("/")
+    visit(page, "/")
     expect(page.locator("#held")).to_contain_text("The queue is held by Ana Ruiz")
     waiting = idle.submit(name="Held back", duration=1.0)
     expect(page.locator(f"#queued-{waiting}")).to_contain_text("Held back")

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
+import time
 from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from tests.app.test_diagnoses import LEFT_OUT, ask, until_state
 from tests.app.test_diagnoses import plan as specimen
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service, until
 from tests.engine import batch_files
 
@@ -20,6 +21,8 @@ LOOKS: dict[str, dict[str, Any]] = {
     "dark": {"color_scheme": "dark"},
     "phone": {"color_scheme": "light", "viewport": {"width": 390, "height": 800}},
 }
+LATE_S = 0.03  # of each answer: pages are painted before it comes
+MOST_MOVED = 0.01  # share of the window, weighted by the distance; a bar that pushes the page down by a line makes 0.02
 # what shows that a page has all its content
 CONTENT = {
     "/": ".headline:has(#recent-title) + div tbody tr",
@@ -101,6 +104,36 @@ def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, shown: dict[
     expect(page.locator(CONTENT[path]).first).to_be_visible()
     expect_accessible(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
+
+
+FILLED = (
+    *("/queue", "/new?template=two-storeys", "/plans", "/plans/{plan}", "/runs", "/runs/{run}"),
+    *("/recordings", "/stability/{run}", "/settings"),
+)
+MOVES = """() => {
+  window.moved = 0;
+  const sum = (list) => { for (const { value } of list.getEntries()) window.moved += value; };
+  new PerformanceObserver(sum).observe({ type: "layout-shift", buffered: true });
+}"""
+
+
+def test_nothing_moves_under_the_pointer_while_a_page_loads(shown: dict[str, str], opened: Opener) -> None:
+    """A link that moves between press and release loses the click. The answers of the service come late here."""
+    page = opened("/help")
+    page.add_init_script(f"({MOVES})()")
+    page.route("**/api/v1/**", late)
+    moved = {}
+    for path in FILLED:
+        visit(page, path.format(**shown))
+        page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        moved[path] = page.evaluate("window.moved")
+    page.unroute_all(behavior="ignoreErrors")
+    assert {path: moves for path, moves in moved.items() if moves > MOST_MOVED} == {}
+
+
+def late(route: Route) -> None:
+    time.sleep(LATE_S)
+    route.continue_()
 
 
 def test_an_unknown_page_says_so_and_leads_back(opened: Opener) -> None:

@@ -7,7 +7,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service
 from tests.browser.test_pages import expect_accessible
 
@@ -90,7 +90,7 @@ def test_two_versions_are_compared_and_one_is_queued_with_its_preflight(kept: st
 
 
 def test_a_plan_is_renamed_tagged_and_opened_in_the_form(kept: str, plans: Page) -> None:
-    plans.goto(f"/plans/{kept}")
+    visit(plans, f"/plans/{kept}")
     plans.get_by_text("Rename or tag the plan").click()
     plans.get_by_label("Tags, separated by commas").fill("valve, spring 2027")
     plans.get_by_role("button", name="Save name and tags").click()

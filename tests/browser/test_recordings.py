@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.test_pages import expect_accessible
 
 T = np.arange(0, 4, 0.01)
@@ -72,7 +72,7 @@ def test_an_earlier_mapping_is_offered_and_can_be_used_and_a_recording_deleted(o
         page.get_by_role("button", name="Import the recording").click()
         expect(page.get_by_role("heading", name=name.partition(".")[0], exact=True)).to_be_visible()
         if name == "first.csv":
-            page.goto("/recordings")
+            visit(page, "/recordings")
     page.on("dialog", lambda dialog: dialog.accept())
     page.get_by_role("button", name="Delete second").click()
     page.wait_for_url("**/recordings")

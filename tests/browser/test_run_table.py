@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service
 from tests.browser.test_pages import expect_accessible
 
@@ -97,7 +97,7 @@ def test_the_panel_changes_name_and_notes_of_the_focused_run(braces: list[str], 
     expect(page.locator("#rows .at-name")).to_have_text("Table brace 1, reference")
     run = service.get(f"/runs/{braces[0]}")
     assert (run["name"], run["notes"]) == ("Table brace 1, reference", "New oil.") and run["plan"]["name"] == "Table brace 1"
-    page.goto(f"/runs/{braces[0]}")
+    visit(page, f"/runs/{braces[0]}")
     expect(page.locator(".headline")).to_contain_text(f"#{run['number']}")
     expect(page.get_by_label("Notes")).to_have_value("New oil.")
     service.http.patch(f"/api/v1/runs/{braces[0]}", json={"name": "Table brace 1"})

@@ -6,7 +6,7 @@ import re
 
 from playwright.sync_api import expect
 
-from tests.browser.conftest import Opener
+from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service
 
 
@@ -48,5 +48,5 @@ def test_a_sweep_is_set_up_previewed_queued_and_its_points_are_compared(opened: 
     expect(page.get_by_role("link", name="Compare the 2 runs")).to_have_attribute(
         "href", re.compile("/compare\\?items=run:.+,run:.+")
     )
-    page.goto("/sweeps")
+    visit(page, "/sweeps")
     expect(page.locator("tbody tr").first).to_contain_text("6 of 6")

@@ -1,4 +1,5 @@
 // @ts-check
+import { loading } from "./ready.js";
 
 /** @typedef {{where: string, problem: string, value?: any, fix?: string | null, lines?: {number: number, text: string}[]}} Problem */
 
@@ -42,7 +43,7 @@ const json = (data, signal) => ({
 
 export const api = {
   /** @param {string} path @param {AbortSignal} [signal] @returns {Promise<any>} */
-  get: async (path, signal) => (await request(path, { signal })).json(),
+  get: (path, signal) => loading(request(path, { signal }).then((answer) => answer.json())),
   /** @param {string} path @param {any} data @param {AbortSignal} [signal] @returns {Promise<any>} */
   post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
   /** @param {string} path @param {any} data @returns {Promise<any>} */

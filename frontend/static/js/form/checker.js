@@ -1,5 +1,6 @@
 // @ts-check
 import { ApiError, api } from "../api.js";
+import { loading } from "../ready.js";
 import { planProblems } from "./bounds.js";
 
 const QUIET_MS = 400;
@@ -29,6 +30,6 @@ export function liveCheck(read, tell, failed) {
       clearTimeout(timer);
       timer = setTimeout(ask, QUIET_MS);
     },
-    now: ask,
+    now: () => loading(ask()),
   };
 }

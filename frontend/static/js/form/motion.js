@@ -50,6 +50,7 @@ function recordPart(schema, node, value, records) {
 
   const show = async () => {
     const name = choice.read();
+    shown.style.minHeight = `${shown.offsetHeight}px`; // so that the fields below stay where they are
     shown.replaceChildren(el("p", { class: "muted" }, "Loading the record …"));
     try {
       const preview = await api.get(`/motions/${encodeURIComponent(name)}/preview`);

@@ -3,6 +3,7 @@ import { api, explain } from "../api.js";
 import { cancelConfirmed } from "../confirm.js";
 import { byId, renew } from "../dom.js";
 import { person } from "../person.js";
+import { loading } from "../ready.js";
 import { actions, cancelling } from "./actions.js";
 import { Annotations } from "./annotations.js";
 import { again } from "./again.js";
@@ -30,6 +31,8 @@ let shown = null;
 let attempt = 0;
 /** @type {Annotations | null} */
 let annotations = null;
+/** Fulfilled once the live feed has shown the test, has said that it waits, or is lost. @type {PromiseWithResolvers<void>} */
+const seen = Promise.withResolvers();
 
 async function load() {
   run = await api.get(`/runs/${id}`);
@@ -132,6 +135,7 @@ const viewer = {
     if (!shown?.store.take(frame)) return false;
     shown.view.redraw();
     shown.transport.show();
+    if (!ended(run.state)) seen.resolve(); // of a test that has ended, the end follows
     return true;
   },
   progress(progress) {
@@ -141,13 +145,15 @@ const viewer = {
     }
     Object.assign(run, progress);
     showProgress(progress);
+    if (!ended(run.state)) seen.resolve();
     if (progress.measures) shown?.tiles.show(progress.measures);
   },
   end(last) {
     run = { ...run, ...last };
-    load().catch(complain);
+    load().catch(complain).finally(seen.resolve);
   },
   link(state, why) {
+    if (state !== "open") seen.resolve();
     const told = { open: "", reconnecting: "Connection lost, reconnecting …", refused: why && `No live data: ${why}` };
     byId("link").textContent = told[state];
   },
@@ -172,7 +178,10 @@ try {
   await load();
   annotations = new Annotations(byId("annotations"), run, () => shown?.view);
   await annotations.load();
-  if (!ended(run.state) || run.recording) follow(id, viewer);
+  if (!ended(run.state) || run.recording) {
+    follow(id, viewer);
+    void loading(seen.promise);
+  }
   poll();
 } catch (error) {
   complain(error);

@@ -27,6 +27,7 @@ export class Transport {
     view.moved = () => this.show();
     view.window = Number(byId("window").value) || null;
     byId("transport").hidden = false;
+    byId("transport").classList.remove("awaiting");
     this.show();
   }
 

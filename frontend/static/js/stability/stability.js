@@ -3,6 +3,7 @@ import { api, explain } from "../api.js";
 import { byId, el } from "../dom.js";
 import { keptForStability } from "../form/draft_stability.js";
 import { fixed, number } from "../format.js";
+import { loading } from "../ready.js";
 import { drawMap, mapWords } from "./map.js";
 
 const page = byId("stability");
@@ -96,4 +97,4 @@ tabs.forEach((tab, i) => {
 });
 byId("template").addEventListener("change", (/** @type {any} */ event) => (location.href = `/stability/${event.target.value}`));
 document.addEventListener("themechange", () => found?.map && showMap());
-load();
+void loading(load());
