@@ -5,6 +5,7 @@ KINDS = {
     "specimen": "Test of a specimen",
     "actuator": "Test of an actuator",
     "structure": "Test of a structure alone",
+    "client": "Test with a client",
 }
 # verdict of a diagnosis -> its sentence
 VERDICTS = {

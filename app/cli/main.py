@@ -57,6 +57,15 @@ def parser() -> argparse.ArgumentParser:
     )
     _data(run)
 
+    about = "let another program, such as OpenSees, drive the rig of a plan: docs/opensees-rig.md"
+    rig = _command(commands, "rig", "app.cli.rig:rig", about)
+    rig.add_argument("plan", metavar="PLAN.yaml", help="file with a plan of the kind client; - reads standard input")
+    rig.add_argument("--listen", type=int, metavar="PORT", help="port to listen on (default: that of the plan)")
+    rig.add_argument("--udp", action="store_true", help="listen by UDP (default: the transport of the plan)")
+    rig.add_argument("--host", default="127.0.0.1", help="address to listen on (default %(default)s: this machine only)")
+    rig.add_argument("--out", type=Path, metavar="REC.h5", help="file to write the recording to (HDF5)")
+    rig.add_argument("--json", action="store_true", help="print the result as one JSON object")
+
     about = "simulate a plan before it is queued: would it trip, when and where, with its peaks against limits"
     preflight = _command(commands, "preflight", "app.cli.preflight:preflight", about)
     preflight.add_argument("plan", metavar="PLAN.yaml", help="file with the plan; - reads standard input")

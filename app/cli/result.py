@@ -34,8 +34,20 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
         yield f"{floor.heading}: {', '.join(f'floor {number} {floor.text(value)}' for number, value in values)}"
     for whole in of(RunMeasure, plan.test):
         yield f"{whole.heading}: {whole.text(summary[whole.key])}"
+    yield from _client(summary.get("client"))
     if out:
         yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
+
+
+def _client(client: dict[str, Any] | None) -> Iterator[str]:
+    """The steps of the client of a test, and the warnings about it."""
+    if client is None:
+        return
+    took = client["step_ms"]
+    if took["median"] is not None:
+        times = f"median {took['median']:.3g} ms, 95 % within {took['p95']:.3g} ms, longest {took['longest']:.3g} ms"
+        yield f"Client at {client['peer']}: {client['steps']} steps, {times}"
+    yield from (f"Warning: {one}" for one in client["warnings"])
 
 
 def _table(plan: Plan, summary: dict[str, Any], measures: Sequence[Measure], paper: bool) -> Iterator[str]:

@@ -23,7 +23,8 @@ def read_model(given: Namespace) -> Model:
     model = model_at(given.plan)
     plan = model.plan
     if given.record and plan.driven:
-        problem = f"is not used in this kind of test: the {plan.test} follows its drive"
+        leader = "test follows its client" if plan.test == "client" else f"{plan.test} follows its drive"
+        problem = f"is not used in this kind of test: the {leader}"
         raise PlanError(Issue("--record", problem, given.record, "leave it out"))
     if given.record:
         motion = {"kind": "file", "path": given.record, "unit": given.record_unit, "dt": given.record_dt}

@@ -11,6 +11,7 @@ from rths_engine.foundation.errors import MotionError
 from rths_engine.foundation.units import STANDARD_GRAVITY
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, response_spectrum, spectral_acceleration
 from rths_engine.planning.checks import peaks
+from rths_engine.planning.kinds_of_test import DRIVEN
 from rths_engine.planning.model import Model
 from rths_engine.recordings.run_file import Recording
 
@@ -29,7 +30,7 @@ class Section(NamedTuple):
 def excitation(recording: Recording, motions: MotionLibrary, figures: Figures) -> list[Section]:
     """One section for each excitation of the test."""
     plan = recording.plan
-    found = [_drive(recording)] if plan.driven else []
+    found = [_drive(recording)] if plan.test in DRIVEN else []
     if plan.motion.kind != "none":
         found.append(_ground(recording, motions, figures))
     if plan.forces:

@@ -232,7 +232,9 @@ def _plan(recording: Recording) -> list[Block]:
 def _parts(recording: Recording) -> list[tuple[str, list[Group]]]:
     plan = recording.plan
     found = []
-    if plan.driven:
+    if plan.test == "client":
+        found.append(("Client", groups("Client", plan.client)))
+    elif plan.driven:
         found.append(("Drive", groups("Drive", plan.drive)))
     if plan.motion.kind != "none":
         found.append(("Ground motion", groups(type(plan.motion).title, plan.motion)))
@@ -241,7 +243,7 @@ def _parts(recording: Recording) -> list[tuple[str, list[Group]]]:
         found.append(("Start", groups("Start", plan.start)))
     if plan.structure.kind != "none":
         found.append(("Structure", groups(type(plan.structure).title, plan.structure)))
-    moved = ("motion", "forces", "start", "drive", "structure", "stations")
+    moved = ("motion", "forces", "start", "drive", "client", "structure", "stations")
     found.append(("Test", groups("Time and pace", plan, plan.test, leave_out=moved)))
     for number, station in enumerate(plan.stations, start=1):
         found.append((f"Station {number}: {station.name}", groups("Station", station, plan.test)))

@@ -11,8 +11,8 @@ import numpy as np
 from rths_engine.foundation.errors import Issue
 from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.parts.structures.modes import circular_frequencies
+from rths_engine.planning.client import Client
 from rths_engine.planning.excitation import Drive
-from rths_engine.planning.kinds_of_test import DRIVEN
 from rths_engine.planning.known import issues_of_known
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
@@ -26,7 +26,9 @@ def issues(model: Model) -> Iterator[Issue]:
     """All issues between the fields of the model's plan, according to its kind of test."""
     plan = model.plan
     lasting = list(_too_long(plan))
-    yield from lasting or (_driven(plan) if plan.test in DRIVEN else _computed(model))
+    yield from lasting or (_following(plan) if plan.driven else _computed(model))
+    if plan.test != "client" and plan.client != Client():
+        yield Issue("client", "is used only in tests with a client", fix="remove it, or choose the kind of test 'client'")
     yield from _names(plan)
     yield from _capacity(plan)
     yield from issues_of_known(plan)
@@ -46,8 +48,12 @@ def too_long(where: str, shape: Any) -> Iterator[Issue]:
         yield Issue(where, problem, shape.kind, "reduce the number of cycles or raise the frequency")
 
 
-def _driven(plan: Plan) -> Iterator[Issue]:
-    fix = f"choose none: a test of {'a' if plan.test == 'specimen' else 'an'} {plan.test} follows its drive"
+def _following(plan: Plan) -> Iterator[Issue]:
+    """Issues of a test without structure: its stations follow the drive or the client."""
+    article = "an" if plan.test == "actuator" else "a"
+    leader = "its client" if plan.test == "client" else "its drive"
+    named = "a test with a client" if plan.test == "client" else f"a test of {article} {plan.test}"
+    fix = f"choose none: {named} follows {leader}"
     if plan.structure.kind != "none":
         yield Issue("structure", "is not used in this kind of test", plan.structure.kind, fix)
     if plan.motion.kind != "none":
@@ -59,18 +65,35 @@ def _driven(plan: Plan) -> Iterator[Issue]:
     for name in ("structure_physics", "motion_physics"):
         if getattr(plan, name):
             yield Issue(name, "is not used in this kind of test", len(getattr(plan, name)), "remove it")
-    if len(plan.stations) != 1:
-        yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one station")
-    for station in plan.stations[:1]:
+    yield from _unused(plan)
+    yield from _led(plan) if plan.test == "client" else _driven(plan)
+
+
+def _unused(plan: Plan) -> Iterator[Issue]:
+    """Issues of fields of stations that this kind of test does not use."""
+    for index, station in enumerate(plan.stations):
         for name, field in type(station).model_fields.items():
             extra: Any = field.json_schema_extra or {}
             given = getattr(station, name)
-            if plan.test not in extra.get("tests", DRIVEN) and given != field.default:
-                yield Issue(f"stations.0.{name}", "is not used in this kind of test", given, "remove it")
+            if plan.test not in extra.get("tests", (plan.test,)) and given != field.default:
+                yield Issue(f"stations.{index}.{name}", "is not used in this kind of test", given, "remove it")
+
+
+def _driven(plan: Plan) -> Iterator[Issue]:
+    if len(plan.stations) != 1:
+        yield Issue("stations", "this kind of test has one station", len(plan.stations), "give exactly one station")
     if plan.drive.shape.kind == "still":
         yield Issue("drive.shape", "a test of one station needs a drive", "still", "choose the shape of its displacement")
     elif plan.stations:
         yield from _within_limits(plan)
+
+
+def _led(plan: Plan) -> Iterator[Issue]:
+    if not plan.stations:
+        fix = "give one station for each basic degree of freedom of the client"
+        yield Issue("stations", "this kind of test has at least one station", 0, fix)
+    if plan.drive.shape.kind != "still":
+        yield Issue("drive", "is used only in tests of a specimen or an actuator", plan.drive.shape.kind, "leave it at rest")
 
 
 def _within_limits(plan: Plan) -> Iterator[Issue]:

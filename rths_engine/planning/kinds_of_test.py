@@ -5,5 +5,7 @@ TESTS = {
     "specimen": "Specimen: prescribed displacement",
     "actuator": "Actuator: tracking of a command",
     "structure": "Structure alone: ground motion, forces or free vibration",
+    "client": "Client: another program computes the structure, the rig follows it",
 }
-DRIVEN = ("specimen", "actuator")
+DRIVEN = ("specimen", "actuator")  # one station follows the drive of the plan
+FOLLOWING = (*DRIVEN, "client")  # no structure is computed

@@ -23,17 +23,20 @@ from rths_engine.parts.specimens import Specimen
 from rths_engine.parts.specimens.mr_damper import MrDamper
 from rths_engine.parts.structures import Structure
 from rths_engine.parts.structures.no_structure import NoStructure
+from rths_engine.planning.client import LONGEST_UNKNOWN, Client
 from rths_engine.planning.excitation import Drive, FloorForce, Start
-from rths_engine.planning.kinds_of_test import DRIVEN, TESTS
+from rths_engine.planning.kinds_of_test import DRIVEN, FOLLOWING, TESTS
 from rths_engine.planning.known import HOW, How
 from rths_engine.planning.motion import NoMotion, PlannedMotion
 from rths_engine.planning.safety import Limits
 
 # chosen; see docs/decisions/0023
 COMPUTED: dict[str, Any] = {"tests": ["hybrid", "structure"]}
-TESTED: dict[str, Any] = {"tests": ["hybrid", *DRIVEN], "one_in": [*DRIVEN]}
+TESTED: dict[str, Any] = {"tests": ["hybrid", *FOLLOWING], "one_in": [*DRIVEN]}
 ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}
+ONLY_CLIENT: dict[str, Any] = {"tests": ["client"]}
 ONLY_HYBRID = ["hybrid"]
+LINEARISED = ["hybrid", "client"]
 MOST_STATIONS = 32
 ROOM = 293.15  # K, 20 degrees Celsius
 # fields of a station that earlier plans do not have, with the value under which they leave the digest of a plan unchanged
@@ -54,7 +57,7 @@ class Station(Value):
     storey: int = quantity("Storey", ge=1, le=100, default=1, help="storey 1 is the lowest", tests=ONLY_HYBRID)
     dampers: int = quantity("Dampers in the storey", ge=1, le=1000, default=1, tests=ONLY_HYBRID)
     equivalent_stiffness: float = quantity(
-        "Equivalent stiffness of one damper", "N/m", "kN/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
+        "Equivalent stiffness of one damper", "N/m", "kN/m", ge=0, le=1e12, default=0.0, tests=LINEARISED
     )
     equivalent_damping: float = quantity(
         "Equivalent damping of one damper", "N*s/m", "kN*s/m", ge=0, le=1e12, default=0.0, tests=ONLY_HYBRID
@@ -108,7 +111,8 @@ class Plan(Value):
 
     `reading.read_plan` checks everything that does not need the ground motion. `test` is the kind of test: `hybrid` computes
     the structure and tests the specimens; `structure` tests nothing; `specimen` and `actuator` compute no structure, and their
-    one station follows `drive`. Fields name the kinds that use them. In a plan of another kind they keep their default.
+    one station follows `drive`; the stations of a `client` test follow another program. Fields name the kinds that use them. In
+    a plan of another kind they keep their default.
     """
 
     model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
@@ -117,13 +121,14 @@ class Plan(Value):
     name: str = Field("Untitled test", title="Name", min_length=1, max_length=200)
     notes: str = Field("", title="Notes", max_length=10_000)
     template: str | None = Field(None, title="Template", max_length=80)
-    test: Literal["hybrid", "specimen", "actuator", "structure"] = Field(
+    test: Literal["hybrid", "specimen", "actuator", "structure", "client"] = Field(
         "hybrid", title="Kind of test", json_schema_extra={"titles": {**TESTS}}
     )
     motion: PlannedMotion = Field(NoMotion(), title="Ground motion", json_schema_extra=COMPUTED)
     forces: tuple[FloorForce, ...] = Field((), title="Forces on floors", max_length=32, json_schema_extra=COMPUTED)
     start: Start = Field(Start(), title="Start", json_schema_extra={"tests": ["structure"]})
     drive: Drive = Field(Drive(), title="Drive", json_schema_extra=ONLY_DRIVEN)
+    client: Client = Field(Client(), title="Client", json_schema_extra=ONLY_CLIENT)
     structure: Structure = Field(NoStructure(), title="Structure", json_schema_extra=COMPUTED)
     integrator: Integrator = Field(CrIntegrator(), title="Integration", json_schema_extra=COMPUTED)
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
@@ -142,7 +147,14 @@ class Plan(Value):
         json_schema_extra={"titles": {**HOW}},
     )
     seed: int = Field(0, title="Seed of the sensor noise", ge=0, le=2**63 - 1)
-    duration: float | None = quantity("Duration", "s", gt=0, le=3600, default=None, help="empty: duration of the excitation")
+    duration: float | None = quantity(
+        "Duration",
+        "s",
+        gt=0,
+        le=3600,
+        default=None,
+        help="empty: duration of the excitation; 600 s where a client ends the test",
+    )
     pace: Pace = Field(Fastest(), title="Pace")
 
     def as_dict(self) -> dict[str, Any]:
@@ -155,6 +167,9 @@ class Plan(Value):
         for station in decisive["stations"]:
             for name in [name for name, default in ADDED.items() if station[name] == default]:
                 del station[name]
+        step = decisive.pop("client")["step"]  # how the client is reached decides nothing
+        if step is not None:
+            decisive["client"] = {"step": step}
         return hashlib.sha256(json.dumps(decisive, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
     @property
@@ -164,8 +179,8 @@ class Plan(Value):
 
     @property
     def driven(self) -> bool:
-        """Whether the station follows the drive instead of a structure."""
-        return self.test in DRIVEN
+        """Whether the stations follow a drive or a client, and no structure is computed."""
+        return self.test in FOLLOWING
 
     @property
     def substeps(self) -> int:
@@ -174,11 +189,16 @@ class Plan(Value):
 
     @property
     def step(self) -> float:
-        """Step of the loop (s): the integration step, or the controller step of a driven test."""
+        """Step of the loop (s): the integration step, or the controller step of a test without structure."""
         return self.substep if self.driven else self.integrator.dt
 
     def length(self, record: float) -> float:
-        """Duration (s) of the test: as planned, else that of the excitation; `record` (s) is that of the ground motion."""
+        """Duration (s) of the test: as planned, else that of the excitation; `record` (s) is that of the ground motion.
+
+        The client of a test ends it; the duration is then the longest that is recorded.
+        """
+        if self.test == "client":
+            return self.duration or LONGEST_UNKNOWN
         return self.duration or self.moved(record)
 
     def moved(self, record: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -63,3 +64,27 @@ class Trip:
         """JSON form: a value that is not finite becomes None."""
         finite = self.value if abs(self.value) < float("inf") else None
         return {**asdict(self), "value": finite, "sentence": self.sentence}
+
+
+@dataclass(frozen=True, slots=True)
+class Stop(Trip):
+    """The trip of a run that ended early for a reason other than a limit. It belongs to no station and exceeded no bound.
+
+    `limit` names the cause, and `reason` is a sentence.
+    """
+
+    reason: str
+
+    @classmethod
+    def at(cls, substep: int, dt: float, cause: str, reason: str) -> Stop:
+        """The stop after `substep` controller steps of `dt` (s)."""
+        return cls(0, "", cause, math.nan, math.nan, "1", substep * dt, substep, reason)
+
+    @property
+    def sentence(self) -> str:
+        return f"Stopped at {self.time_s:.3f} s: {self.reason}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """JSON form of a trip, with None for what a stop does not have."""
+        none = {"station": None, "value": None, "bound": None}
+        return {**asdict(self), **none, "sentence": self.sentence}

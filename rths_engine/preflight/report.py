@@ -23,6 +23,7 @@ from rths_engine.results.measure import FloorMeasure
 from rths_engine.results.measures import of
 from rths_engine.results.signals import RunSignals
 
+OF_CLIENT = "Not simulated: the client computes the displacements during the test. The limits act in every controller step."
 # chosen; see docs/decisions/0023
 BUDGET_S = 9.0  # wall time of a preflight: a third each for the dry run, the one without limits, and stability
 SLOW = 1.05  # times the planned wall time: beyond it the computer is too slow for the pace
@@ -41,6 +42,8 @@ def preflight(
     they tell by how much each limit is exceeded. `capacities` are those of the rig's actuators, one for each station.
     """
     model, library = Model.of(planned), motions or MotionLibrary(None)
+    if model.plan.test == "client":
+        return _of_client(model.plan)
     share = budget_s / 3
     dry = dry_run(model, library, share)
     free = dry_run(without_limits(model), library, share) if dry.run.trip else None
@@ -59,6 +62,21 @@ def preflight(
         "covered_s": shown.covered_s,
         "expected_elapsed_s": _expected(dry, free),
         "notes": _notes(dry, free, used),
+    }
+
+
+def _of_client(plan: Plan) -> dict[str, Any]:
+    """The preflight of a test with a client, whose displacements are not known before it."""
+    nothing: dict[str, Any] = {"trip": None, "without_limits": False, "uses": [], "floors": [], "stability": None}
+    return {
+        "name": plan.name,
+        "verdict": "incomplete",
+        "sentence": OF_CLIENT,
+        **nothing,
+        "duration_s": plan.length(0.0),
+        "covered_s": 0.0,
+        "expected_elapsed_s": None,
+        "notes": [],
     }
 
 

@@ -15,7 +15,7 @@ from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, Stati
 
 M = TypeVar("M", bound=Measure)
 
-TESTED = ("hybrid", "specimen", "actuator")
+TESTED = ("hybrid", "specimen", "actuator", "client")
 COMPUTED = ("hybrid", "structure")
 TABLE_IV = "Chen and Ricles (2012), EESD 41, 549-569, equation (10)"
 RIASCOS = "Riascos, Ou and Dyke, Hybrid Simulation Current Assessment Measures (2014)"
@@ -60,7 +60,7 @@ MEASURES: tuple[Measure, ...] = (
         unit="m^2",
         shown="mm^2",
         decimals=1,
-        tests=("hybrid", "actuator"),
+        tests=("hybrid", "actuator", "client"),
         formula="TI at its largest magnitude",
         meaning="maximum tracking indicator; positive: the actuator lagged, negative: it led",
         source=TABLE_IV,
@@ -74,7 +74,7 @@ MEASURES: tuple[Measure, ...] = (
         unit="J",
         shown="kN*m",
         decimals=2,
-        tests=("hybrid",),
+        tests=("hybrid", "client"),
         formula="E at its largest magnitude",
         meaning="maximum energy error of one specimen; negative: lag fed energy into the structure",
         source=TABLE_IV,

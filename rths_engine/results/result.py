@@ -19,7 +19,7 @@ from rths_engine.results.signals import RunSignals
 class Result:
     """Signals (substeps, channels) every `dt` (s) and history (steps + 1, 2, floors) of x and v at integration steps; SI.
 
-    `total` is the number of substeps of the whole test, recorded or not.
+    `total` is the number of substeps of the whole test, recorded or not. `client` tells of the client of a test that has one.
     """
 
     model: Model
@@ -32,6 +32,7 @@ class Result:
     channels: tuple[Channel, ...]
     signals: Array
     history: Array
+    client: dict[str, Any] | None = None
 
     @property
     def plan(self) -> Plan:
@@ -55,4 +56,5 @@ class Result:
             "elapsed_s": self.elapsed_s,
             "simulated_s": self.simulated_s,
             **measured.of_run(whole),
+            **({"client": self.client} if self.client else {}),
         }

@@ -43,6 +43,9 @@ class Run:
     ):
         self.model = model = Model.of(planned)
         self.plan = plan = model.plan
+        if plan.test == "client":
+            problem = "follows a client, which computes its structure: it cannot run alone"
+            raise PlanError(Issue("test", problem, plan.test, "serve the client with `rths rig`, or queue the test"))
         self.motion: Motion = motion.scaled(plan.motion, motions, model.periods)
         self.dt = plan.substep
         self.trip: Trip | None = None

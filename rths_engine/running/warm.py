@@ -12,17 +12,22 @@ from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
 from rths_engine.parts.physics.specimen.backlash import Backlash
 from rths_engine.parts.physics.structure.coulomb_friction import CoulombFriction
 from rths_engine.planning import templates
+from rths_engine.planning.plan import Plan
 from rths_engine.running import replay
+from rths_engine.running.client_run import ClientRun
 from rths_engine.running.run import simulate
 from rths_engine.running.stop import stop
 
 
 def warm() -> None:
-    """Run one integration step of a small plan, without and with a left-out effect, and every replay; read a row of numbers."""
+    """Run one integration step of a small plan, without and with a left-out effect, every replay and a ramp; read a row."""
     plan = templates.template("linear-damper").model_copy(update={"duration": 0.01})
     simulate(plan)
     station = plan.stations[0].model_copy(update={"specimen_physics": (Asymmetry(),)})
     simulate(plan.model_copy(update={"stations": (station,)}))
+    followed = ClientRun(Plan(test="client", stations=plan.stations, duration=1.0))
+    followed.ramp((0.0,), 1)
+    followed.advance(1)
     still = np.zeros(2)
     for specimen_effects in ((Asymmetry(),), (Backlash(),)):
         replay.specimen(station.specimen, specimen_effects, still, np.ones(2), plan.substep)

@@ -12,6 +12,7 @@ from rths_engine.stability.margins import Map, delay_map, margin
 
 ARTICLE = {"specimen": "a", "actuator": "an"}
 NO_LOOP: dict[str, Any] = {"radius": None, "stable": None, "least_damped": None, "modes": [], "stations": []}
+CLIENT = "A client computes the structure. The plan does not describe it, so that the stability of the loop is not predicted."
 ALONE = "The plan has no station. These are the modes of the structure, with the damping that its integrator adds."
 
 
@@ -19,6 +20,8 @@ def summary(planned: Plan | Model) -> dict[str, Any]:
     """Radius, verdict, modes and delay margins as one JSON object (SI); no radius and verdict for a plan without a loop."""
     model = Model.of(planned)
     plan = model.plan
+    if plan.test == "client":
+        return {**NO_LOOP, "notes": [CLIENT]}
     if plan.driven:
         return {
             **NO_LOOP,

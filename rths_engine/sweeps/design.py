@@ -250,7 +250,10 @@ def _fit(definition: Definition, plan: Plan, axes: list[Axis]) -> Iterator[Issue
 
 
 def _shaken(definition: Definition, plan: Plan) -> Iterator[Issue]:
-    """Issues of the ground motion."""
+    """Issues of the excitation: of a client, and of the ground motion."""
+    if plan.test == "client":
+        fix = "choose another kind of test"
+        yield Issue("plan.test", "follows a client, so that its points cannot run alone", plan.test, fix)
     paths = [path for one in definition.fields for path in one.paths]
     for name, path in (("records", RECORD), ("scales", SCALE)):
         if not getattr(definition, name):

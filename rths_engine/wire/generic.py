@@ -20,8 +20,8 @@ from enum import IntEnum
 from typing import NamedTuple
 
 HELLO, WELCOME = b"a", b"b"
-DATAGRAM = 9126  # bytes; MAX_UDP_DATAGRAM of OpenSees
-COMMON_SIZE = 256  # float64 of a message where the client's input does not give it
+DATAGRAM = 9126  # bytes, by definition of MAX_UDP_DATAGRAM in OpenSees
+COMMON_SIZE = 256  # float64 of a message where the input of OpenSees gives no size, by definition of its default
 _SIZES = struct.Struct("<11i")
 SETUP_BYTES = _SIZES.size
 

@@ -1,0 +1,67 @@
+"""TCP: a stream of messages without framing."""
+
+from __future__ import annotations
+
+import socket
+
+from rths_engine.client.ended import Gone
+from rths_engine.client.transport import limit_waits
+
+# Linux: acknowledge at once. OpenSees waits for the acknowledgement of one message before it sends the next (Nagle)
+_QUICK = getattr(socket, "TCP_QUICKACK", None)
+
+
+class TcpPeer:
+    """A client by TCP."""
+
+    def __init__(self, connection: socket.socket, address: tuple[str, int]):
+        self._connection, self._got = connection, 0
+        self.address = f"{address[0]}:{address[1]}"
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        limit_waits(connection)
+
+    def receive(self, message: memoryview) -> bool:
+        connection = self._connection
+        try:
+            while self._got < len(message):
+                if _QUICK is not None:
+                    connection.setsockopt(socket.IPPROTO_TCP, _QUICK, 1)
+                got = connection.recv_into(message[self._got :] if self._got else message)
+                if got == 0:
+                    raise Gone
+                self._got += got
+        except BlockingIOError:
+            return False
+        except OSError:
+            raise Gone from None
+        self._got = 0
+        return True
+
+    def send(self, message: bytes | bytearray | memoryview) -> None:
+        try:
+            self._connection.sendall(message)
+        except OSError:
+            raise Gone from None
+
+    def close(self) -> None:
+        self._connection.close()
+
+
+class TcpListener:
+    """A TCP port. It is closed when a client connects, so that a second client is refused at once."""
+
+    def __init__(self, host: str, port: int):
+        self._socket = socket.create_server((host, port), backlog=1)
+        self.host, self.port = self._socket.getsockname()[:2]
+
+    def accept(self, within_s: float) -> TcpPeer | None:
+        self._socket.settimeout(within_s)
+        try:
+            connection, address = self._socket.accept()
+        except TimeoutError:
+            return None
+        self.close()
+        return TcpPeer(connection, address)
+
+    def close(self) -> None:
+        self._socket.close()
