@@ -10,6 +10,7 @@ from __future__ import annotations
 import builtins
 import dis
 import hashlib
+import sys
 from collections.abc import Callable, Iterator
 from functools import cache
 from types import CodeType, ModuleType
@@ -83,8 +84,13 @@ class Walk:
                     self._walk(f"{module.__name__}.{attribute}", getattr(module, attribute))
 
     def _tuple(self, kind: Any) -> None:
+        if kind in self.tuples:
+            return
         self.tuples.add(kind)
         self.lines.add(f"{kind.__module__}.{kind.__qualname__}: {kind._fields!r}")
+        for held in vars(sys.modules[kind.__module__]).values():  # a field can be any named tuple of the module
+            if is_named_tuple(held):
+                self._tuple(held)
 
 
 def is_named_tuple(value: Any) -> TypeGuard[type]:

@@ -1,4 +1,4 @@
-"""Compilation, all in this module. Parts are plain Python; `compiled`, `entry` and `fold` make machine code of them.
+"""Compilation, all in this module. Parts are plain Python; `compiled`, `piece`, `entry` and `fold` make machine code of them.
 
 Entry points are stored on disk under a digest of everything that they are compiled from (`fingerprint`). numba's own cache
 checks only the file of the entry point: it would use old code after a change in a part, and would compile again after a change
@@ -19,14 +19,16 @@ import numba
 
 from rths_engine.foundation.fingerprint import fingerprint
 
-_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False}
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False, "_nrt": True}
+# numba hands `_nrt`, the counting of references, on to callees that do not state it, so every function states it
+_OF_PIECES: dict[str, Any] = {**_OPTIONS, "forceinline": True, "_nrt": False}
 
 
 class Kept:
     """Where numba stores the machine code of one entry point: an implementation of numba's cache locator protocol."""
 
     def __init__(self, function: Callable[..., Any]):
-        self.digest = fingerprint(function, numba.__version__, _OPTIONS)
+        self.digest = fingerprint(function, numba.__version__, _OF_PIECES)
 
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> Kept:
@@ -61,6 +63,16 @@ def _folder() -> Path:
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a function that other compiled functions call."""
     return numba.njit(**_OPTIONS)(function)
+
+
+def piece(function: Callable[..., Any]) -> Any:
+    """Compile a piece of a loop into each of its callers, without counting references to arrays.
+
+    A piece gets the whole data of a run, and counting a reference to each of its arrays takes as long as the piece itself. The
+    entry point holds these arrays, so a piece does without. In return it creates no array, and receives and returns none except
+    from and to other pieces.
+    """
+    return numba.njit(**_OF_PIECES)(function)
 
 
 def entry(function: Callable[..., Any]) -> Any:

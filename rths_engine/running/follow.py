@@ -7,7 +7,7 @@ is that of the loop of a hybrid test.
 from __future__ import annotations
 
 from rths_engine.foundation.kernel import entry
-from rths_engine.running.loop import _substep
+from rths_engine.running.controller_step import step_stations
 
 
 @entry
@@ -18,15 +18,7 @@ def follow(first, last, n, start, ends, setup, state, left_out, record):
     number of rows recorded since the start of the test.
     """
     for q in range(first + 1, last + 1):
-        done = start + q - 1
-        share = q / n
-        row = record.signals[done]
-        for j in range(ends.shape[0]):
-            x_cmd = ends[j, 0] + share * (ends[j, 1] - ends[j, 0])
-            time, own_row = (done + 1) * setup.dt, row[setup.columns[j, 0] : setup.columns[j, 1]]
-            broken, value = _substep(j, setup, state, left_out, x_cmd, setup.noise[done, j], time, own_row)
-            if broken > 0:
-                record.trip[0], record.trip[1] = j, value
-                record.trip[2], record.trip[3] = setup.limits[j, broken - 1], done + 1
-                return broken, done
+        broken = step_stations(start + q - 1, q / n, setup, state, left_out, ends, record)
+        if broken > 0:
+            return broken, start + q - 1
     return 0, start + last

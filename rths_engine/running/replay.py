@@ -26,7 +26,8 @@ from rths_engine.parts.physics.effect import (
 )
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import ROOM, Plan
-from rths_engine.running import loop, passes, small_structure, starting
+from rths_engine.running import passes, small_structure, starting
+from rths_engine.running.data import F_MEAS, MEMORY, TI, X_CMD, X_MEAS, State
 from rths_engine.running.dispatch import (
     acts,
     actuate,
@@ -35,7 +36,9 @@ from rths_engine.running.dispatch import (
     extend_actuator,
     extend_sensor,
 )
+from rths_engine.running.integration import integrate
 from rths_engine.running.setup import left_out, setup
+from rths_engine.running.station import track
 
 # chosen; see docs/decisions/0023
 KEPT, KEPT_BYTES = 96, 48_000_000  # most forces that are kept for one displacement, and their memory
@@ -146,7 +149,7 @@ def structure(planned: Plan | Model, inputs: Array, reactions: Array) -> Array:
     stations = len(model.plan.stations)
     held, parts = setup(model, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
     x, v, carry = starting.state(model, inputs[0] @ held.loads)
-    state = loop.State(x, v, carry, np.zeros((len(model.built.members.dofs), 3)), parts, np.zeros((stations, loop.MEMORY)))
+    state = State(x, v, carry, np.zeros((len(model.built.members.dofs), 3)), parts, np.zeros((stations, MEMORY)))
     history: Array = np.empty((len(inputs), len(x)))
     history[0] = x
     _structure(held, state, left_out(model), reactions, history)
@@ -173,11 +176,11 @@ def _actuator(command, load, start, dt, code, parameters, state, extended, readi
 
 @entry
 def _compensator(x_cmd, x_meas, dt, code, parameters, state, sent):
-    memory = np.zeros(loop.MEMORY)
+    memory = np.zeros(MEMORY)
     for q in range(x_cmd.size):
-        last, read, ti = memory[loop.X_CMD], memory[loop.X_MEAS], memory[loop.TI]
+        last, read, ti = memory[X_CMD], memory[X_MEAS], memory[TI]
         sent[q] = compensate(code, parameters, state, x_cmd[q], last, read, ti, dt)
-        loop.track(memory, x_cmd[q], x_meas[q], 0.0)
+        track(memory, x_cmd[q], x_meas[q], 0.0)
 
 
 @entry
@@ -185,7 +188,7 @@ def _structure(held, state, extended, reactions, history):
     residual, work, x_next = np.empty(state.x.size), np.empty(state.x.size), np.empty(state.x.size)
     for i in range(history.shape[0] - 1):
         for j in range(reactions.shape[1]):
-            state.memory[j, loop.F_MEAS] = reactions[i, j]
-        loop.integrate(i, held, state, extended, residual, work, x_next)
+            state.memory[j, F_MEAS] = reactions[i, j]
+        integrate(i, held, state, extended, residual, work, x_next)
         state.x[:] = x_next
         history[i + 1] = x_next

@@ -20,6 +20,7 @@ from rths_engine.planning.safety import LIMITS, Trip
 from rths_engine.results.channels import Channel, channels
 from rths_engine.results.result import Result
 from rths_engine.running import loop, starting
+from rths_engine.running.data import MEMORY, Record, State
 from rths_engine.running.setup import left_out, setup
 
 # chosen; see docs/decisions/0023
@@ -65,17 +66,17 @@ class Run:
         times = np.arange(self._steps + 1) * dt
         drive = np.repeat(plan.drive.sample(times)[:, None], stations, axis=1)
         self._setup, parts = setup(model, _inputs(plan, self.motion, times), drive, (noise or sensor_noise)(plan, self.total))
-        memory = np.zeros((stations, loop.MEMORY))
+        memory = np.zeros((stations, MEMORY))
         plastic = np.zeros((len(built.members.dofs), 3))
         x, v, carry = starting.state(model, self._setup.inputs[0] @ self._setup.loads)
         if initial:
             x[:], v[:] = initial
-        self._state = loop.State(x, v, carry, plastic, parts, memory)
+        self._state = State(x, v, carry, plastic, parts, memory)
         self._left_out = left_out(model)
         self._columns = columns(plan)
         shared = len(self._columns) - len(set(self._columns.tolist()))
         written = np.zeros((self.total, len(self.channels) + shared)) if shared else self.signals
-        self._record = loop.Record(written, self.history, np.zeros(4))
+        self._record = Record(written, self.history, np.zeros(4))
         self.history[0] = x[self._setup.floors], v[self._setup.floors]
 
     @property

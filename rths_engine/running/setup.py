@@ -16,13 +16,13 @@ from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS
 from rths_engine.results.channels import recorded
-from rths_engine.running import loop
+from rths_engine.running.data import LeftOut, Setup
 from rths_engine.running.dispatch import effects as effects_of
 from rths_engine.running.dispatch import stacked
 from rths_engine.running.restoring import rows
 
 
-def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop.Setup, Array]:
+def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[Setup, Array]:
     """The constant data of a run, and the start states of the stations' parts (4, stations, widest).
 
     inputs (steps + 1, I), drive (steps + 1, stations), noise (substeps, stations, 2).
@@ -30,7 +30,7 @@ def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[loop
     plan, built, scheme = model.plan, model.built, model.scheme
     codes, parameters, parts = _built(plan)
     stations = len(plan.stations)
-    held = loop.Setup(
+    held = Setup(
         n=plan.substeps,
         dt_step=plan.step,
         dt=plan.substep,
@@ -79,14 +79,14 @@ def _columns(plan: Plan, first: int) -> NDArray[np.int64]:
     return np.column_stack([ends[:-1], ends[1:]]).astype(np.int64)
 
 
-def left_out(model: Model) -> loop.LeftOut | None:
+def left_out(model: Model) -> LeftOut | None:
     """The left-out effects of the plan in the form of the loop; None for a plan without effects."""
     plan, built = model.plan, model.built
     against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
     if not against and not any(station.physics for station in plan.stations):
         return None
     drifts = [drift(built, effect.storey) for effect in against]
-    return loop.LeftOut(
+    return LeftOut(
         stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
         storeys=stacked([effects_of([effect], plan.step) for effect in against]),
         drifts=np.array(drifts).reshape(len(drifts), len(built.mass)),

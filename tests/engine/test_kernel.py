@@ -72,7 +72,7 @@ def test_words_bounds_and_guesses_compile_nothing_anew(kept: list[str], tmp_path
             "    NoCompensation\n    | InverseCompensation\n",
             "    InverseCompensation\n    | NoCompensation\n",
         ),
-        ("running/loop.py", "    n: int  # substeps of an integration step\n", ""),
+        ("running/data.py", "    n: int  # substeps of an integration step\n", ""),
         ("foundation/kernel.py", '"fastmath": False', '"fastmath": True'),
     ],
     ids=["step", "helper", "constant", "field of an argument of an argument", "order of a registry", "field", "options"],
