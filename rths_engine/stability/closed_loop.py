@@ -94,7 +94,7 @@ class ClosedLoop:
             found.append(
                 f"Valid for small amplitudes: {names} by its initial tangent. Once it slides or yields, growth is limited."
             )
-        adaptive = [station.name for station in self.plan.stations if station.compensator.kind == "aic"]
+        adaptive = [station.name for station in self.plan.stations if station.compensator.adaptive]
         if adaptive:
             found.append(f"The adaptive compensation of {', '.join(adaptive)} is held at its start value.")
         if len(self.model.built.members.dofs):

@@ -9,13 +9,17 @@ from pydantic import Field
 
 from rths_engine.foundation.part import kinds
 from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.compensators.amb import AdaptiveModelBased
 from rths_engine.parts.compensators.ats import AdaptiveTimeSeries
 from rths_engine.parts.compensators.derivative import DerivativeFeedForward
 from rths_engine.parts.compensators.dual import DualCompensation
 from rths_engine.parts.compensators.inverse import InverseCompensation
+from rths_engine.parts.compensators.kalman import KalmanPredictor
 from rths_engine.parts.compensators.none import NoCompensation
 from rths_engine.parts.compensators.phase_lead import PhaseLead
 from rths_engine.parts.compensators.polynomial import PolynomialExtrapolation
+from rths_engine.parts.compensators.robust import RobustIntegratedControl
+from rths_engine.parts.compensators.two_stage import TwoStageAdaptive
 
 Compensator = Annotated[
     NoCompensation
@@ -25,7 +29,11 @@ Compensator = Annotated[
     | PolynomialExtrapolation
     | DerivativeFeedForward
     | PhaseLead
-    | AdaptiveTimeSeries,
+    | AdaptiveTimeSeries
+    | AdaptiveModelBased
+    | TwoStageAdaptive
+    | KalmanPredictor
+    | RobustIntegratedControl,
     Field(discriminator="kind"),
 ]
 KINDS = kinds(Compensator)

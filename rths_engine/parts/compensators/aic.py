@@ -32,6 +32,7 @@ class AdaptiveInverseCompensation(Compensating):
     kp: float = quantity("Proportional gain kp", "1/(m^2)", "1/(mm^2)", ge=0, le=1e8, default=0.4e6)
     ki: float = quantity("Integral gain ki", "1/(m^2*s)", "1/(mm^2*s)", ge=0, le=1e8, default=0.04e6, help="published as kp/10")
     title: ClassVar[str] = "Adaptive inverse (AIC)"
+    adaptive: ClassVar[bool] = True
 
     @classmethod
     def tuned_for(cls, system: TransferSystem) -> Self:

@@ -69,6 +69,7 @@ class AdaptiveTimeSeries(Compensating):
     cutoff: float = quantity("Low-pass filter before the fit", "Hz", gt=0, le=1000, default=20.0)
     threshold: float = quantity("Smallest RMS displacement for adaptation", "m", "mm", ge=0, le=1, default=0.25e-3)
     title: ClassVar[str] = "Adaptive time series (ATS)"
+    adaptive: ClassVar[bool] = True
 
     @classmethod
     def tuned_for(cls, system: TransferSystem) -> Self:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -72,7 +72,12 @@ def _ascending(coefficients: tuple[float, ...], order: int) -> list[float]:
 
 
 class Compensating(Part):
-    """A delay compensator. `tuned_for` gives its settings for a transfer system, by a rule that each compensator states."""
+    """A delay compensator. `tuned_for` gives its settings for a transfer system, by a rule that each compensator states.
+
+    `adaptive` says whether its coefficients change during a test; a stability prediction holds them at their start values.
+    """
+
+    adaptive: ClassVar[bool] = False
 
     @classmethod
     def tuned_for(cls, system: TransferSystem) -> Self:
