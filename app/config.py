@@ -47,6 +47,7 @@ class Settings:
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     upload_limit: int = 20 * MEGABYTE
     measurements_limit: int = 1100 * MEGABYTE
+    rig_host: str = "127.0.0.1"
     laboratory: str = ""
     laboratory_address: str = ""
     laboratory_logo: Path | None = None
@@ -126,6 +127,9 @@ VARIABLES: dict[str, Variable] = {
     "upload_limit": Variable("RTHS_UPLOAD_LIMIT_MB", _megabytes, "largest request accepted, MB", _in_megabytes),
     "measurements_limit": Variable(
         "RTHS_MEASUREMENTS_LIMIT_MB", _megabytes, "largest file of measurements accepted, MB", _in_megabytes
+    ),
+    "rig_host": Variable(
+        "RTHS_RIG_HOST", str, "address at which the rig of a test with a client listens; whoever reaches it moves the rig"
     ),
     "laboratory": Variable("RTHS_LABORATORY", str, "name of the laboratory in reports, until the settings page sets one"),
     "laboratory_address": Variable("RTHS_LABORATORY_ADDRESS", str, "address line of the laboratory in reports, likewise"),

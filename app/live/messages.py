@@ -7,16 +7,19 @@ from typing import Any
 from rths_engine.results.channels import Channel
 
 
-def schema(attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...]) -> dict[str, Any]:
+def schema(
+    attempt: int, dt: float, bucket: int, total: int, channels: tuple[Channel, ...], open_ended: bool = False
+) -> dict[str, Any]:
     """The layout of frames: substeps of `dt` (s), `bucket` substeps in each of `buckets` buckets, and the channels.
 
-    `factor` is the SI value of one shown unit.
+    `factor` is the SI value of one shown unit. `open_ended` says that the test may end long before its last bucket.
     """
     shown = [
         {"key": c.key, "role": c.role, "number": c.number, "label": c.label, "unit": c.shown_label, "factor": c.factor}
         for c in channels
     ]
-    return {"type": "schema", "attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
+    layout = {"attempt": attempt, "dt": dt, "bucket": bucket, "buckets": -(-total // bucket), "channels": shown}
+    return {"type": "schema", **layout, **({"open_ended": True} if open_ended else {})}
 
 
 def progress(

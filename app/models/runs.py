@@ -51,6 +51,7 @@ class Run(Ordered, Job, Base):
     code_version: Mapped[str] = mapped_column(sa.String(40))
     seed: Mapped[int] = mapped_column(sa.BigInteger)
     trip: Mapped[dict[str, Any] | None]
+    client: Mapped[dict[str, Any] | None]
     duration_s: Mapped[float]
     elapsed_s: Mapped[float | None]
     simulated_s: Mapped[float | None]

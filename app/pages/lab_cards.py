@@ -60,7 +60,7 @@ def card(run: Run, plan: Plan, live: LiveRun | None) -> Card:
         run,
         progress.get("simulated_s", 0.0),
         progress.get("elapsed_s", 0.0),
-        list(_curves(roles, signals, live.schema["buckets"])),
+        list(_curves(roles, signals, len(signals) if live.schema.get("open_ended") else live.schema["buckets"])),
         _margin(plan, roles, signals),
         list(_measures(progress.get("measures") or {})),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,8 @@ def excitation(recording: Recording, motions: MotionLibrary, figures: Figures) -
     """One section for each excitation of the test."""
     plan = recording.plan
     found = [_drive(recording)] if plan.test in DRIVEN else []
+    if recording.summary.get("client"):
+        found.append(_client(recording.summary["client"]))
     if plan.motion.kind != "none":
         found.append(_ground(recording, motions, figures))
     if plan.forces:
@@ -52,6 +54,26 @@ def _drive(recording: Recording) -> Section:
         ("Duration", f"{duration:g} s"),
     ]
     return Section("Drive", facts, [])
+
+
+def _client(client: dict[str, Any]) -> Section:
+    """The program that computed the structure: its steps, and the warnings about it."""
+    took = client["step_ms"]
+    facts = [
+        ("Client", f"{client['peer']}, by {client['transport'].upper()}"),
+        ("Steps of the client", str(client["steps"])),
+        ("End", client["ended"]),
+    ]
+    if took["median"] is not None:
+        words = f"median {took['median']:.3g} ms, 95 % within {took['p95']:.3g} ms, longest {took['longest']:.3g} ms"
+        facts.append(("Wall time of a step", words))
+    if client["iterations"]:
+        followed = f"{client['iterations']}; largest difference at a commit {client['unfollowed_m'] * 1e3:.3g} mm"
+        facts.append(("Displacements that were not followed", followed))
+    if client["waits"]:
+        waited = f"{client['waits']}, the longest {client['longest_wait_s'] * 1e3:.3g} ms"
+        facts.append(("Ramps that began late, as the client was late", waited))
+    return Section("Client", [*facts, *(("Warning", one) for one in client["warnings"])], [])
 
 
 def _forces(recording: Recording, figures: Figures) -> Section:

@@ -44,11 +44,11 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
 
     def order(self, job: Run, settings: Settings) -> RunOrder:
         recording = settings.recordings / f".{job.id}.{job.attempt}.h5"
-        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings.motions.resolve())
+        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings.motions.resolve(), settings.rig_host)
 
     def store(self, job: Run, result: Outcome) -> Ending:
         summary = _finite(result.summary)
-        job.trip = summary["trip"]
+        job.trip, job.client = summary["trip"], summary.get("client")
         job.elapsed_s, job.simulated_s = summary["elapsed_s"], summary["simulated_s"]
         for one in (*of(FloorMeasure), *of(RunMeasure)):
             setattr(job, one.key, summary[one.key])
@@ -76,6 +76,8 @@ RUNS = RunKind()
 def _reason(run: Run, state: State) -> str:
     if state is State.CANCELLED:
         return f"Stopped by {run.cancel_requested_by or NOBODY} at {run.simulated_s:.2f} s."
+    if run.client and not run.trip:
+        return str(run.client["ended"])
     return run.trip["sentence"] if run.trip else "The test ran to its end."
 
 

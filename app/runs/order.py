@@ -11,11 +11,15 @@ from app.jobs.order import Order
 
 @dataclass(frozen=True, slots=True)
 class RunOrder(Order):
-    """The order for one execution of a run: plan, path of the recording, and folder of the uploaded ground motions."""
+    """The order for one execution of a run: plan, path of the recording, and folder of the uploaded ground motions.
+
+    `rig_host` is the address at which the rig of a test with a client listens.
+    """
 
     plan: dict[str, Any]
     recording: Path
     motions: Path
+    rig_host: str = "127.0.0.1"
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,6 +68,33 @@ class RecordingOut(BaseModel):
     size: int
 
 
+class StepTimes(BaseModel):
+    """Wall times of the steps of a client (ms); null for fewer than two steps."""
+
+    median: float | None
+    p95: float | None = Field(description="95 % of the steps took at most this time")
+    longest: float | None
+
+
+class ClientOut(BaseModel):
+    """The client of a test: another program that computed the structure, and how its steps went."""
+
+    address: str = Field(description="address at which the rig listened")
+    transport: str
+    peer: str = Field(description="address of the client")
+    steps: int
+    messages: dict[str, int] = Field(description="number of messages by action code")
+    step_ms: StepTimes
+    iterations: int = Field(description="displacements within a step that the rig did not follow")
+    unfollowed_m: float = Field(
+        description="largest difference (m) between a committed displacement and the command of the rig"
+    )
+    waits: int = Field(description="ramps in real time that began late, because the client had not sent its displacement")
+    longest_wait_s: float = Field(description="longest of these waits (s)")
+    warnings: list[str]
+    ended: str = Field(description="why the test ended, as a sentence")
+
+
 class _Known(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
@@ -95,6 +122,7 @@ class _Known(BaseModel):
     share: float
     reason: str | None
     trip: dict[str, Any] | None
+    client: ClientOut | None = Field(None, description="the client of a test with a client, once the test has ended")
     elapsed_s: float | None
     simulated_s: float | None
     duration_s: float

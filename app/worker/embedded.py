@@ -54,6 +54,7 @@ class EmbeddedWorker:
             "RTHS_DATABASE_URL": settings.database_url,
             "RTHS_WORKERS": str(settings.worker_concurrency),
             "RTHS_SWEEP_PROCESSES": str(settings.sweep_processes),
+            "RTHS_RIG_HOST": settings.rig_host,
             "RTHS_WORKER_TOKEN": settings.worker_token,
         }
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any
 
-from app.live.frames import Decimator, bucket_size
-from app.live.messages import progress, schema
 from app.runs.order import Outcome, RunOrder
+from app.worker import client
 from app.worker.child import Line, Refused
+from app.worker.viewers import Viewers
 
 CHUNK_S = 0.02  # wall time between two checks for a cancel
 PROGRESS_S = 0.1
@@ -30,6 +29,8 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     from rths_engine.recordings.run_file import save
     from rths_engine.running.run import Run
 
+    if order.plan.get("test") == "client":
+        return client.execute(order, line)
     try:
         run = Run(read_model(order.plan), MotionLibrary(order.motions))
     except RthsError as error:
@@ -42,18 +43,8 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     return Outcome(result.summary(), saved.sha256, saved.size)
 
 
-class _Telling:
+class _Telling(Viewers):
     """Advances a run in chunks at its pace, sends frames and progress, and checks for a cancel between chunks."""
-
-    def __init__(self, run: Any, attempt: int, line: Line):
-        from rths_engine.results.running import RunningMeasures
-
-        self.run, self.line = run, line
-        self.elapsed, self.measured = 0.0, 0
-        self.measures = RunningMeasures(run.model, run.channels, run.history[0, 0])
-        bucket = bucket_size(run.total)
-        self.decimator = Decimator(run.channels, bucket, run.dt)
-        line.show(schema(attempt, run.dt, bucket, run.total, self.decimator.channels))
 
     def run_to_end(self) -> bool:
         """Run the test to its end or until it is cancelled; returns whether it was cancelled."""
@@ -65,7 +56,7 @@ class _Telling:
         while not self.run.finished:
             if self.line.cancelled(within_s=self._wait(start, factor)):
                 self.line.stopping()
-                self._tell(time.perf_counter() - start, ended=True)
+                self.tell(time.perf_counter() - start, ended=True)
                 return True
             begun = time.perf_counter()
             self.run.advance(chunk)
@@ -74,27 +65,12 @@ class _Telling:
                 chunk = max(1, round(chunk * min(4.0, CHUNK_S / max(now - begun, 1e-6))))
             if now - start - told >= PROGRESS_S or self.run.finished:
                 told = now - start
-                self._tell(told, ended=self.run.finished)
+                self.tell(told, ended=self.run.finished)
             else:
-                self._frame(ended=False)
+                self.frame(ended=False)
         return False
 
     def _wait(self, start: float, factor: float) -> float:
         """Seconds until the wall clock reaches the time of the test."""
         due: float = self.run.done * self.run.dt / factor
         return max(0.0, due - (time.perf_counter() - start))
-
-    def _tell(self, elapsed: float, ended: bool) -> None:
-        self.elapsed = elapsed
-        self._frame(ended)
-        done, dt = self.run.done, self.run.dt
-        self.measures.take(self.run.signals[self.measured : done])
-        self.measured = done
-        simulated, whole = done * dt, self.run.total * dt
-        self.line.show(progress("running", simulated, elapsed, whole, self.measures.shown()))
-        self.line.progress(f"at {simulated:.1f} s of {whole:.1f} s", done / self.run.total)
-
-    def _frame(self, ended: bool) -> None:
-        frame = self.decimator.frame(self.run.signals, self.run.done, ended)
-        if frame is not None:
-            self.line.show(frame)

@@ -81,8 +81,8 @@ class Session:
                 peer.close()
         self.run.client = self.told()
 
-    def told(self) -> dict[str, Any]:
-        """What the recording tells of the client."""
+    def told(self, last: int = 0) -> dict[str, Any]:
+        """What the recording tells of the client; of a running test, with the times of the `last` steps only."""
         exchange, rig = self.exchange, self.rig
         return {
             "address": self.address,
@@ -90,7 +90,7 @@ class Session:
             "peer": self._peer,
             "steps": exchange.steps if exchange else 0,
             "messages": {str(code): count for code, count in sorted(exchange.counts.items())} if exchange else {},
-            "step_ms": self.times.as_dict(),
+            "step_ms": self.times.as_dict(last),
             "iterations": exchange.iterations if exchange else 0,
             "unfollowed_m": exchange.unfollowed if exchange else 0.0,
             "waits": rig.waits,

@@ -22,9 +22,9 @@ class StepTimes:
             self._taken.append(now - self._last)
         self._last = now
 
-    def as_dict(self) -> dict[str, float | None]:
-        """Median, 95th percentile and longest, in ms; None for a test of fewer than two steps."""
+    def as_dict(self, last: int = 0) -> dict[str, float | None]:
+        """Median, 95th percentile and longest of all steps, or of the `last` ones, in ms; None for fewer than two steps."""
         if not self._taken:
             return {"median": None, "p95": None, "longest": None}
-        median, p95, longest = np.percentile(np.frombuffer(self._taken), (50, 95, 100)) * 1e3
+        median, p95, longest = np.percentile(self._taken[-last:], (50, 95, 100)) * 1e3
         return {"median": float(median), "p95": float(p95), "longest": float(longest)}

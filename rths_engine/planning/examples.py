@@ -173,6 +173,29 @@ def _pulled_at_the_top(storeys: tuple[Storey, ...], top: float) -> tuple[float, 
     return tuple(top * one / flexibility[-1] for one in flexibility)
 
 
+def opensees_client(name: str) -> Plan:
+    """A damper that follows a structure in OpenSees."""
+    damper = Station(
+        name="Damper",
+        compensator=InverseCompensation(alpha_es=20.0),
+        actuator=FirstOrderDelay(alpha=20.0),
+        specimen=LinearSpecimen(stiffness=2.0e6, damping=5.0e4),
+        equivalent_stiffness=2.0e6,
+        noise=SENSORS,
+    )
+    return Plan(
+        name="Damper under a structure in OpenSees",
+        notes="OpenSees computes the structure and sends the displacements of its element genericClient. The rig follows and "
+        "answers the measured forces. The page of the test shows the line for the script.",
+        template=name,
+        test="client",
+        controller_rate=1000.0,
+        stations=(damper,),
+        seed=1,
+        pace=RealTime(),
+    )
+
+
 EXAMPLES: dict[str, Callable[[str], Plan]] = {
     "linear-damper": linear_damper,
     "two-storeys": two_storeys,
@@ -182,4 +205,5 @@ EXAMPLES: dict[str, Callable[[str], Plan]] = {
     "structure-earthquake": structure_earthquake,
     "structure-free-vibration": structure_free_vibration,
     "structure-matrices": structure_matrices,
+    "opensees-client": opensees_client,
 }

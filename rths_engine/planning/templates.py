@@ -14,6 +14,7 @@ GROUPS = {
     "specimen": "Tests of a specimen",
     "actuator": "Tests of an actuator",
     "structure": "Tests of a structure alone",
+    "client": "Tests with a client",
 }
 
 

@@ -93,7 +93,7 @@ def test_given_matrices_are_printed_with_their_unit(reports: dict[str, tuple[Rec
     assert "72000 −32000 0" in page.text
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", [name for name in EXAMPLES if templates.template(name).test != "client"])
 def test_the_command_line_runs_and_prints_every_kind(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, out = tmp_path / "plan.yaml", tmp_path / "rec.h5"
     plan: Any = templates.template(name).as_dict() | {"pace": {"kind": "fastest"}}

@@ -12,6 +12,7 @@ import { StationFold, countErrors } from "./station_fold.js";
 /** The sections of the form: heading, title in the rail, and fields of the plan. */
 const SECTIONS = [
   { title: "Test", short: "Test", names: ["test", "name", "notes"] },
+  { title: "Client", short: "Client", names: ["client"] },
   { title: "Drive", short: "Drive", names: ["drive"] },
   { title: "Ground motion", short: "Ground motion", names: ["motion", "motion_physics"] },
   { title: "Forces on floors", short: "Forces on floors", names: ["forces"] },

@@ -14,7 +14,7 @@ export function cancelling(run, stop) {
 export function actions(run) {
   const address = `/api/v1/runs/${run.id}`;
   const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet" }, label);
-  const driven = run.test === "specimen" || run.test === "actuator";
+  const driven = run.test !== "hybrid" && run.test !== "structure"; // no structure is computed
   /** @type {import("../downloads.js").Download[]} */
   const recorded = [
     ["Report, HTML", `${address}/report.html`],
@@ -32,6 +32,6 @@ export function actions(run) {
     ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run")] : []),
     ...(run.recording ? [link(`/compare/previous/${run.id}`, "Compare with the previous run"), link(`/compare?items=run:${run.id}`, "Compare with other runs")] : []),
     link(`/new?from=${run.id}`, "Edit and run again"),
-    link(`/sweeps/new?run=${run.id}`, "Sweep this plan"),
+    ...(run.test === "client" ? [] : [link(`/sweeps/new?run=${run.id}`, "Sweep this plan")]),
   ];
 }

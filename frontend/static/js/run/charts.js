@@ -14,8 +14,9 @@ const SIGNALS = {
   specimen: ["displacement", "force", "error", "velocity", "current"],
   actuator: ["displacement", "error", "ti", "d_alpha", "force", "velocity", "current"],
   structure: [],
+  client: ["displacement", "force", "error", "ti", "d_alpha", "velocity", "current", "energy_error"],
 };
-const HEAD = { hybrid: "Station", specimen: "Specimen", actuator: "Actuator", structure: "" };
+const HEAD = { hybrid: "Station", specimen: "Specimen", actuator: "Actuator", structure: "", client: "Station" };
 
 /**
  * The charts below the first screen. With one station they are those that the first screen does not show; with several, all charts

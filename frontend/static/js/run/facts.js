@@ -5,7 +5,7 @@ import { of } from "./measures.js";
 
 /** @typedef {import("./measures.js").Measure} Measure */
 
-const KINDS = { hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone" };
+const KINDS = { hybrid: "hybrid", specimen: "specimen alone", actuator: "actuator alone", structure: "structure alone", client: "with a client" };
 const COMPUTED = ["hybrid", "structure"]; // kinds of test with a structure
 const ENDED = ["completed", "tripped", "cancelled", "failed"];
 
@@ -82,9 +82,9 @@ export function awaited({ state, recording }) {
   return ended(state) && !recording ? "This run has no recording, so there is nothing to draw. Edit the plan and run it again." : "Loading the signals of the test …";
 }
 
-/** Simulated time, elapsed time and speed as text. @param {any} at @returns {string} */
+/** Simulated time, elapsed time and speed as text; without `duration_s` where a client ends the test. @param {any} at @returns {string} */
 export function clock({ simulated_s, duration_s, elapsed_s }) {
-  const parts = [`${fixed(simulated_s, 2)} of ${fixed(duration_s, 2)} s simulated`];
+  const parts = [`${fixed(simulated_s, 2)}${duration_s === null ? "" : ` of ${fixed(duration_s, 2)}`} s simulated`];
   if (elapsed_s >= 0.01) parts.push(`${number(elapsed_s, 3)} s elapsed`, `${number(simulated_s / elapsed_s, 3)} × real time`);
   return parts.join(" · ");
 }

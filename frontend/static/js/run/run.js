@@ -8,6 +8,7 @@ import { actions, cancelling } from "./actions.js";
 import { Annotations } from "./annotations.js";
 import { again } from "./again.js";
 import { buildCharts } from "./charts.js";
+import { showClient } from "./client.js";
 import { awaited, clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
 import { floorCount, metricsTables } from "./metrics.js";
@@ -52,6 +53,7 @@ function show() {
   banner.classList.toggle("bad", run.state !== "cancelled");
   const waiting = document.getElementById("waiting");
   if (waiting) waiting.textContent = awaited(run);
+  showClient(byId("client"), run.client);
   renew(byId("facts"), ...facts(run, declared.measures));
   showProgress(run);
   showActions();
@@ -80,9 +82,11 @@ function showTiles() {
 
 /** @param {any} at */
 function showProgress(at) {
-  const { simulated_s = 0, duration_s = 0 } = at;
+  const { simulated_s = 0 } = at;
+  const duration_s = run.test === "client" ? null : (at.duration_s ?? 0);
   byId("clock").hidden = ended(at.state) && simulated_s === null;
-  byId("clock").textContent = at.state === "queued" ? "Waiting in the queue" : clock({ ...at, simulated_s, duration_s });
+  const waits = at.state === "queued" ? "Waiting in the queue" : at.client?.state === "waiting" && !ended(at.state) ? "Waiting for client" : "";
+  byId("clock").textContent = waits || clock({ ...at, simulated_s, duration_s });
 }
 
 function showActions() {
@@ -145,6 +149,7 @@ const viewer = {
     }
     Object.assign(run, progress);
     showProgress(progress);
+    if (progress.client) showClient(byId("client"), progress.client);
     if (!ended(run.state)) seen.resolve();
     if (progress.measures) shown?.tiles.show(progress.measures);
   },

@@ -13,6 +13,7 @@ export const FIRST = {
   specimen: ["displacement", "force", "error", "current"],
   actuator: ["displacement", "error", "ti", "d_alpha"],
   structure: [],
+  client: ["displacement", "force", "error", "d_alpha"],
 };
 
 /** The first screen: what is tested and how it moves, gauges of all stations, the loop of one station and its signals on one time axis. */

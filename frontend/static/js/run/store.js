@@ -3,7 +3,7 @@
 /**
  * `factor` is the SI value of one shown unit.
  * @typedef {{key: string, role: string, number: number | null, label: string, unit: string, factor: number}} Channel
- * @typedef {{run: any, attempt: number, dt: number, bucket: number, buckets: number, channels: Channel[]}} Schema
+ * @typedef {{run: any, attempt: number, dt: number, bucket: number, buckets: number, channels: Channel[], open_ended?: boolean}} Schema
  */
 
 /**
@@ -12,6 +12,7 @@
  * @typedef {{time: number | null, values: Float32Array, lowest: Float32Array, highest: Float32Array}} Moment
  */
 
+const SHORTEST_S = 10; // first time axis of a test whose length is not known
 const BLOCK = 64; // buckets between two stored extremes so far
 
 /** All buckets of a run: minimum, maximum and last sample of every channel, in arrays allocated once. */
@@ -20,6 +21,7 @@ export class Store {
   constructor(schema) {
     this.channels = schema.channels;
     this.buckets = schema.buckets;
+    this.openEnded = schema.open_ended ?? false;
     this.step = schema.bucket * schema.dt;
     this.count = 0;
     const column = () => new Float32Array(schema.buckets);
@@ -50,8 +52,10 @@ export class Store {
     return Math.min(this.count, Math.max(1, Math.round(time / this.step))) - 1;
   }
 
+  /** The end of the time axis (s): that of the test, or, where that is not known, the least of 10, 20, 40 … s that holds all samples. */
   get end() {
-    return this.buckets * this.step;
+    const longest = this.buckets * this.step;
+    return this.openEnded ? Math.min(longest, SHORTEST_S * 2 ** Math.ceil(Math.log2(Math.max(1, this.now / SHORTEST_S)))) : longest;
   }
 
   /** The time of the newest sample (s). */

@@ -57,7 +57,8 @@ export class Display {
     const { state, simulated_s, duration_s } = this.run;
     this.element.dataset.state = state;
     const over = ended(state);
-    this.time.textContent = over ? `${state} at ${fixed(simulated_s, 2)} s` : `${fixed(simulated_s ?? 0, 1)} of ${fixed(duration_s, 1)} s`;
+    this.time.textContent = over ? `${state} at ${fixed(simulated_s, 2)} s` : this.run.client?.state === "waiting" ? "waiting for client" : `${fixed(simulated_s ?? 0, 1)}${plan.test === "client" ? "" : ` of ${fixed(duration_s, 1)}`} s`;
+    this.progress.hidden = plan.test === "client"; // a client ends its test
     this.progress.value = duration_s ? (simulated_s ?? 0) / duration_s : 0;
     const why = over ? reason(this.run) : null;
     this.reason.hidden = !why;
