@@ -69,6 +69,11 @@ class Settings:
     def measured(self) -> Path:
         return self.data / "measured"
 
+    @property
+    def fmus(self) -> Path:
+        """FMUs that plans may name: machine code, put here by whoever operates the service, never uploaded."""
+        return self.data / "fmus"
+
     def body_limit(self, path: str) -> int:
         """Largest body (bytes) of a request to an address: files of measurements have a limit of their own."""
         return self.measurements_limit if path.startswith("/api/v1/recordings") else self.upload_limit
@@ -80,7 +85,7 @@ class Settings:
 
     def prepared(self) -> Settings:
         """Create the folders; returns the same settings."""
-        for folder in (self.data, self.recordings, self.motions, self.measured):
+        for folder in (self.data, self.recordings, self.motions, self.measured, self.fmus):
             folder.mkdir(parents=True, exist_ok=True)
         return self
 

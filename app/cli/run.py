@@ -21,6 +21,7 @@ from app.cli.settings import settings
 from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.recordings.run_file import save
+from rths_engine.running.opening import opened
 from rths_engine.running.run import Run
 from rths_engine.running.warm import warm
 
@@ -34,11 +35,10 @@ def run(given: Namespace) -> int:
     try:
         if given.out:
             check_folder(given.out)
-        test = Run(read_model(given), MotionLibrary(settings(given).motions))
+        with opened(read_model(given), MotionLibrary(settings(given).motions)) as test, Interrupt() as interrupt:
+            elapsed_s = advance(test, interrupt)
     except RthsError as error:
         return _failed(error.issues, given.json, UNUSABLE)
-    with Interrupt() as interrupt:
-        elapsed_s = advance(test, interrupt)
     status = "tripped" if test.trip else "completed" if test.finished else "cancelled"
     result = test.result(status, elapsed_s)
     try:

@@ -10,8 +10,10 @@ from pathlib import Path
 
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.foundation.part import validated
+from rths_engine.parts.connections.fmu import Fmu
 from rths_engine.planning.model import Model
 from rths_engine.planning.motion import FileMotion
+from rths_engine.planning.plan import Station
 from rths_engine.planning.plan_yaml import LARGEST
 from rths_engine.planning.reading import model_from_yaml
 
@@ -45,11 +47,23 @@ def model_at(path: str) -> Model:
 
 
 def _beside(model: Model, path: str) -> Model:
-    """The model with the path of its record relative to the folder of the plan's file `path`."""
-    planned = model.plan.motion
-    if not isinstance(planned, FileMotion) or path == STANDARD_INPUT:
+    """The model with the paths of its record and of its FMUs relative to the folder of the plan's file `path`."""
+    if path == STANDARD_INPUT:
         return model
-    return model.changed(motion=planned.model_copy(update={"path": str(Path(path).parent / planned.path)}))
+    folder, planned = Path(path).parent, model.plan.motion
+    if any(isinstance(one.connection, Fmu) for one in model.plan.stations):
+        model = model.changed(stations=tuple(_near(one, folder) for one in model.plan.stations))
+    if not isinstance(planned, FileMotion):
+        return model
+    return model.changed(motion=planned.model_copy(update={"path": str(folder / planned.path)}))
+
+
+def _near(station: Station, folder: Path) -> Station:
+    """The station with the path of its FMU, if it has one, relative to a folder."""
+    planned = station.connection
+    if not isinstance(planned, Fmu):
+        return station
+    return station.model_copy(update={"connection": planned.model_copy(update={"path": str(folder / planned.path)})})
 
 
 def check_folder(out: Path, option: str = "--out", example: str = "rec.h5") -> None:

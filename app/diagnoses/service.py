@@ -23,6 +23,7 @@ from app.reports.diagnosis_overlay import Overlaid
 from app.runs.service import RunService
 from rths_engine import __version__
 from rths_engine.diagnosis.schema import Pictures, Verdict
+from rths_engine.planning.connections import emulated
 from rths_engine.planning.reading import read_plan
 from rths_engine.recordings.excitation import differences, lead, under_recorded
 from rths_engine.recordings.opening import load
@@ -107,7 +108,7 @@ class DiagnosisService:
             raise Conflict("The plan and the extended plan have already been queued.")
         recording, motions = load(file_of(diagnosis.recording, settings)), self.runs.motions
         pairs = [(read_plan(diagnosis.plan), "before"), (read_plan(extended), "after")]
-        plans = [_called(under_recorded(plan, recording, motions).as_dict(), word) for plan, word in pairs]
+        plans = [_called(emulated(under_recorded(plan, recording, motions)).as_dict(), word) for plan, word in pairs]
         before, after = self.runs.submit(plans, by, prefix="extended_plan.{}")
         diagnosis.before_id, diagnosis.after_id = before.id, after.id
         return before, after

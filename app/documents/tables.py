@@ -25,6 +25,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "actuators": lambda: parts.kinds(actuators.KINDS),
     "specimens": lambda: parts.kinds(specimens.KINDS),
     "controllers": lambda: parts.kinds(controllers.KINDS),
+    "connections": parts.connections,
     "shapes": lambda: parts.kinds(SHAPES),
     "safety limits": parts.limits,
     "effects of a specimen": lambda: effects.effects(physics.SPECIMEN),

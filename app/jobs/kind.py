@@ -71,6 +71,10 @@ class Kind(ABC, Generic[Row, Given, Result]):
         """The name that people gave a job; empty for a kind whose jobs have no names."""
         return ""
 
+    def not_repeated(self, job: Row) -> str | None:
+        """Why a job is not started again after its worker or process died; None where it is."""
+        return None
+
     def may_start(self) -> sa.ColumnElement[bool]:
         """The condition on a queued job of an ordered kind that it may start now; others are passed over meanwhile."""
         return sa.true()

@@ -156,8 +156,9 @@ class JobService(Generic[Row, Result]):
         return self.rows.of_turn(turn) if self.kind.ordered else turn
 
     def _bears_attempt(self, job: Row) -> bool:
-        """Move a running job of a dead worker to the queue, or end it: it was cancelled, or no attempt is left."""
-        if job.state is State.RUNNING:
+        """Move a running job of a dead worker to the queue, or end it: cancelled, not to be repeated, or without attempts."""
+        begun = job.state is State.RUNNING
+        if begun:
             self._move(job, State.QUEUED)
             if self.kind.ordered:
                 self.rows.give_back(job)
@@ -165,6 +166,8 @@ class JobService(Generic[Row, Result]):
         if job.cancel_requested_by:
             died = f"The worker or the process of the {noun} had died."
             self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}. {died}")
+        elif begun and (reason := self.kind.not_repeated(job)):
+            self._end(job, State.FAILED, f"The worker or the process of the {noun} died. {reason}")
         elif job.attempt >= MOST_ATTEMPTS:
             died = f"The worker or the process of the {noun} died {job.attempt} times"
             self._end(job, State.FAILED, f"{died}. There is no further attempt.")

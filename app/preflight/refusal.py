@@ -30,6 +30,8 @@ def _worded(plan: Plan, issue: Issue) -> str:
     if path == ["stations"]:
         return f"the plan {issue.problem}"
     number, limit = int(path[1]), path[-1]
+    if limit == "connection":
+        return f"station {number + 1} ({plan.stations[number].name}) {issue.problem}"
     return f"the {limit} limit of station {number + 1} ({plan.stations[number].name}), {issue.value}, {issue.problem}"
 
 

@@ -12,6 +12,7 @@ from app.reports.document import Block, Facts, Head, Table, Text
 from app.shown import KINDS
 from rths_engine.foundation import units
 from rths_engine.planning import templates
+from rths_engine.planning.connections import sentences
 from rths_engine.planning.differences import differences
 from rths_engine.planning.plan import Plan, RealTime, Station
 from rths_engine.planning.safety import LIMITS
@@ -30,6 +31,7 @@ def record(run: Mapping[str, Any], recording: Recording) -> list[Block]:
         ("Kind of test", KINDS[plan.test]),
         ("Tested by", run.get("submitted_by") or "–"),
         ("Rig", _rig(run, plan)),
+        ("External stations", " ".join(sentences(plan))),
         ("Started", clock(run.get("started_at"))),
         ("Ended", clock(run.get("finished_at"))),
         ("Controller rate", f"{plan.controller_rate:g} Hz"),

@@ -6,8 +6,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from app.models import Rig
+from app.rigs.schemas import RigKind
 from rths_engine.foundation import units
 from rths_engine.foundation.errors import Issue
+from rths_engine.planning.connections import external
 from rths_engine.planning.plan import Plan, Station
 
 CAPACITIES = {"displacement": ("stroke", "mm"), "velocity": ("velocity", "mm/s"), "force": ("force", "kN")}
@@ -15,7 +17,9 @@ CAPACITIES = {"displacement": ("stroke", "mm"), "velocity": ("velocity", "mm/s")
 
 
 def exceeded(plan: Plan, rig: Rig) -> list[Issue]:
-    """What of a plan is too much for a rig, each with the number of the plan and the bound of the rig."""
+    """What of a plan a rig refuses: external machines on an emulated rig, and limits beyond its capacities."""
+    if rig.kind != RigKind.PHYSICAL and (machines := list(_machines(plan, rig))):
+        return machines
     if not rig.actuators:
         return []
     if len(plan.stations) > len(rig.actuators):
@@ -27,6 +31,15 @@ def exceeded(plan: Plan, rig: Rig) -> list[Issue]:
         for index, (station, actuator) in enumerate(zip(plan.stations, rig.actuators, strict=False))
         for issue in _of_station(index, station, actuator, rig)
     ]
+
+
+def _machines(plan: Plan, rig: Rig) -> Iterator[Issue]:
+    """Issues of stations that drive a machine: only a physical rig executes one test at a time within known capacities."""
+    for index, connection in external(plan).items():
+        if connection.physical:
+            problem = f"drives the {connection.peer}, which can be a machine, but rig {rig.name} is emulated"
+            fix = "choose a physical rig; the settings add one with its capacities"
+            yield Issue(f"stations.{index}.connection", problem, None, fix)
 
 
 def _of_station(index: int, station: Station, actuator: Mapping[str, Any], rig: Rig) -> Iterator[Issue]:

@@ -16,6 +16,9 @@ from app.jobs.states import State
 from app.models import Rig, Run, RunStation
 from app.runs import values
 from app.runs.order import Outcome, RunOrder
+from rths_engine.foundation.part import validated
+from rths_engine.planning.connections import external
+from rths_engine.planning.plan import Plan
 from rths_engine.results.measure import FloorMeasure, RunMeasure
 from rths_engine.results.measures import of
 
@@ -42,9 +45,18 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         running = sa.select(sa.func.count()).where(other.state == State.RUNNING, other.rig_id == Rig.id).correlate(Rig)
         return Run.rig_id.not_in(sa.select(Rig.id).where(Rig.tests_at_a_time <= running.scalar_subquery()))
 
+    def not_repeated(self, job: Run) -> str | None:
+        """A test that drives an external rig: nobody knows how the rig stands after the test was torn off."""
+        found = external(validated(Plan, job.plan))
+        if not found:
+            return None
+        named = ", ".join(connection.peer for connection in found.values())
+        return f"The test drove an external rig ({named}), so it is not started again by itself. Inspect the rig, then retry."
+
     def order(self, job: Run, settings: Settings) -> RunOrder:
         recording = settings.recordings / f".{job.id}.{job.attempt}.h5"
-        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings.motions.resolve(), settings.rig_host)
+        places = settings.motions.resolve(), settings.rig_host, settings.fmus.resolve()
+        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), *places)
 
     def store(self, job: Run, result: Outcome) -> Ending:
         summary = _finite(result.summary)

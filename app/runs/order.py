@@ -13,13 +13,14 @@ from app.jobs.order import Order
 class RunOrder(Order):
     """The order for one execution of a run: plan, path of the recording, and folder of the uploaded ground motions.
 
-    `rig_host` is the address at which the rig of a test with a client listens.
+    `rig_host` is the address at which the rig of a test with a client listens; `fmus` is the folder of the service's FMUs.
     """
 
     plan: dict[str, Any]
     recording: Path
     motions: Path
     rig_host: str = "127.0.0.1"
+    fmus: Path = Path("fmus")
 
 
 @dataclass(frozen=True, slots=True)

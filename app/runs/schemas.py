@@ -12,6 +12,9 @@ from app.measures import fields
 from app.models import EMULATED, Run
 from app.openapi import PLAN, PlanData
 from app.text import Storable
+from rths_engine.foundation.part import validated
+from rths_engine.planning.connections import sentences
+from rths_engine.planning.plan import Plan
 from rths_engine.results.measure import FloorMeasure, RunMeasure, StationMeasure
 
 
@@ -158,6 +161,14 @@ class RunDetail(RunOut):
     """A run with its plan."""
 
     plan: PlanData
+    external: list[str] = Field([], description="what each external station of the plan is, as a sentence")
+
+    @classmethod
+    def of(cls, run: Run) -> Self:
+        out = super().of(run)
+        if any(station.get("connection", {}).get("kind", "emulated") != "emulated" for station in run.plan["stations"]):
+            out.external = sentences(validated(Plan, run.plan))
+        return out
 
 
 class RunList(BaseModel):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from contextlib import ExitStack
 
 from app.runs.order import Outcome, RunOrder
 from app.worker import client
@@ -27,16 +28,17 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     from rths_engine.parts.ground_motions import MotionLibrary
     from rths_engine.planning.reading import read_model
     from rths_engine.recordings.run_file import save
-    from rths_engine.running.run import Run
+    from rths_engine.running.opening import opened
 
     if order.plan.get("test") == "client":
         return client.execute(order, line)
-    try:
-        run = Run(read_model(order.plan), MotionLibrary(order.motions))
-    except RthsError as error:
-        raise Refused(str(error)) from None
-    telling = _Telling(run, order.attempt, line)
-    cancelled = telling.run_to_end()
+    with ExitStack() as rigs:
+        try:
+            run = rigs.enter_context(opened(read_model(order.plan), MotionLibrary(order.motions), order.fmus))
+        except RthsError as error:
+            raise Refused(str(error)) from None
+        telling = _Telling(run, order.attempt, line)
+        cancelled = telling.run_to_end()
     status = "cancelled" if cancelled else "tripped" if run.trip else "completed"
     result = run.result(status, telling.elapsed)
     saved = save(order.recording, result)

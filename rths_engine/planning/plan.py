@@ -13,6 +13,8 @@ from rths_engine.parts.actuators import Actuator
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
 from rths_engine.parts.compensators import Compensator
 from rths_engine.parts.compensators.aic import AdaptiveInverseCompensation
+from rths_engine.parts.connections import Connection
+from rths_engine.parts.connections.emulated import Emulated
 from rths_engine.parts.controllers import Controller
 from rths_engine.parts.controllers.no_control import NoControl
 from rths_engine.parts.integrators import Integrator
@@ -40,7 +42,12 @@ LINEARISED = ["hybrid", "client"]
 MOST_STATIONS = 32
 ROOM = 293.15  # K, 20 degrees Celsius
 # fields of a station that earlier plans do not have, with the value under which they leave the digest of a plan unchanged
-ADDED: dict[str, Any] = {"controller": {"kind": "none"}, "coil_resistance": None, "temperature": ROOM}
+ADDED: dict[str, Any] = {
+    "connection": {"kind": "emulated"},
+    "controller": {"kind": "none"},
+    "coil_resistance": None,
+    "temperature": ROOM,
+}
 
 
 class Noise(Value):
@@ -51,7 +58,10 @@ class Noise(Value):
 
 
 class Station(Value):
-    """One experimental substructure: actuator, specimen and sensors. It represents `dampers` equal dampers in its storey."""
+    """One experimental substructure: actuator, specimen and sensors. It represents `dampers` equal dampers in its storey.
+
+    Where its `connection` is an external rig, actuator, specimen and sensors are the models that predict it.
+    """
 
     name: str = Field("Station", title="Name", min_length=1, max_length=80)
     storey: int = quantity("Storey", ge=1, le=100, default=1, help="storey 1 is the lowest", tests=ONLY_HYBRID)
@@ -75,6 +85,7 @@ class Station(Value):
     actuator_physics: tuple[ActuatorEffect, ...] = Field((), title="Left-out physics of the actuator", max_length=8)
     specimen_physics: tuple[SpecimenEffect, ...] = Field((), title="Left-out physics of the specimen", max_length=8)
     sensor_physics: tuple[SensorEffect, ...] = Field((), title="Errors of the sensors", max_length=8)
+    connection: Connection = Field(Emulated(), title="Connection", json_schema_extra={"folded": True})
 
     @property
     def rig(self) -> tuple[Part, Part, Part, Part]:

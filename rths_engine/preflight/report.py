@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.connections import modelled, predicted
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.preflight.dry_run import DryRun, dry_run, without_limits
@@ -41,9 +42,10 @@ def preflight(
     Where the dry run trips, the plan is simulated once more without limits, and `uses` and `floors` are of that simulation:
     they tell by how much each limit is exceeded. `capacities` are those of the rig's actuators, one for each station.
     """
-    model, library = Model.of(planned), motions or MotionLibrary(None)
-    if model.plan.test == "client":
-        return _of_client(model.plan)
+    given, library = Model.of(planned), motions or MotionLibrary(None)
+    if given.plan.test == "client":
+        return _of_client(given.plan)
+    model = modelled(given)
     share = budget_s / 3
     dry = dry_run(model, library, share)
     free = dry_run(without_limits(model), library, share) if dry.run.trip else None
@@ -61,7 +63,7 @@ def preflight(
         "duration_s": dry.planned_s,
         "covered_s": shown.covered_s,
         "expected_elapsed_s": _expected(dry, free),
-        "notes": _notes(dry, free, used),
+        "notes": [*predicted(given.plan), *_notes(dry, free, used)],
     }
 
 

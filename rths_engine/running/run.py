@@ -13,6 +13,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.ground_motions import Motion, MotionLibrary
 from rths_engine.planning import motion
+from rths_engine.planning.connections import external
 from rths_engine.planning.loads import columns
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
@@ -35,6 +36,9 @@ class Run:
     MotionError, before anything runs, when the plan cannot run.
     """
 
+    models_only = True
+    """Whether every station is emulated. A plan with external rigs runs as `opening.opened`, or `connections.modelled`."""
+
     def __init__(
         self,
         planned: Plan | Model,
@@ -47,6 +51,9 @@ class Run:
         if plan.test == "client":
             problem = "follows a client, which computes its structure: it cannot run alone"
             raise PlanError(Issue("test", problem, plan.test, "serve the client with `rths rig`, or queue the test"))
+        if self.models_only and external(plan):
+            fix = "connect it, or emulate the station by its models"
+            raise PlanError(Issue(f"stations.{min(external(plan))}.connection", "is an external rig", None, fix))
         self.motion: Motion = motion.scaled(plan.motion, motions, model.periods)
         self.dt = plan.substep
         self.trip: Trip | None = None
@@ -95,13 +102,18 @@ class Run:
         if self.finished:
             return slice(before, before)
         last = min(self._step + steps, self._steps)
-        broken, self.done = loop.advance(self._step, last, self._setup, self._state, self._left_out, self._record)
-        self._step = last
+        broken, self.done = self._advance(self._step, last)
+        self._step = self.done // self.plan.substeps
         if self._record.signals is not self.signals:
             self.signals[before : self.done] = _summed(self._record.signals[before : self.done], self._columns)
         if broken:
             self.trip = self._tripped(broken - 1)
         return slice(before, self.done)
+
+    def _advance(self, first: int, last: int) -> tuple[int, int]:
+        """Integration steps first to last - 1. Returns as `loop.advance`."""
+        broken, done = loop.advance(first, last, self._setup, self._state, self._left_out, self._record)
+        return broken, done
 
     def result(self, status: str, elapsed_s: float) -> Result:
         """The result so far: recorded signals and their measures. `status` is completed, tripped or cancelled."""

@@ -81,10 +81,14 @@ def _columns(plan: Plan, first: int) -> NDArray[np.int64]:
 
 def left_out(model: Model) -> LeftOut | None:
     """The left-out effects of the plan in the form of the loop; None for a plan without effects."""
+    plan = model.plan
+    return effects_in(model) if _against(plan) or any(station.physics for station in plan.stations) else None
+
+
+def effects_in(model: Model) -> LeftOut:
+    """The left-out effects of the plan in the form of the loop, also where it has none."""
     plan, built = model.plan, model.built
-    against = [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
-    if not against and not any(station.physics for station in plan.stations):
-        return None
+    against = _against(plan)
     drifts = [drift(built, effect.storey) for effect in against]
     return LeftOut(
         stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
@@ -92,6 +96,10 @@ def left_out(model: Model) -> LeftOut | None:
         drifts=np.array(drifts).reshape(len(drifts), len(built.mass)),
         stiffness=np.array([stiffness(built, row) for row in drifts]),
     )
+
+
+def _against(plan: Plan) -> list[OfStorey]:
+    return [effect for effect in plan.structure_physics if isinstance(effect, OfStorey) and effect.hook == STOREY]
 
 
 def _padded(built: list[list[tuple[Array, Array]]], which: int) -> Array:

@@ -6,6 +6,8 @@ import numpy as np
 
 from rths_engine.formats.numeric_block import Layout, read_block
 from rths_engine.formats.source import Source
+from rths_engine.parts.connections.generic_client import GenericClient
+from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.parts.integrators.kr_alpha import KrAlphaIntegrator
 from rths_engine.parts.physics.actuator.dead_band import DeadBand
 from rths_engine.parts.physics.specimen.asymmetry import Asymmetry
@@ -15,6 +17,7 @@ from rths_engine.planning import templates
 from rths_engine.planning.plan import Plan
 from rths_engine.running import replay
 from rths_engine.running.client_run import ClientRun
+from rths_engine.running.external import ExternalRun
 from rths_engine.running.run import simulate
 from rths_engine.running.stop import stop
 
@@ -28,6 +31,8 @@ def warm() -> None:
     followed = ClientRun(Plan(test="client", stations=plan.stations, duration=1.0))
     followed.ramp((0.0,), 1)
     followed.advance(1)
+    connected = plan.stations[0].model_copy(update={"connection": GenericClient()})
+    ExternalRun(plan.model_copy(update={"stations": (connected,)}), MotionLibrary(None)).rehearse()
     still = np.zeros(2)
     for specimen_effects in ((Asymmetry(),), (Backlash(),)):
         replay.specimen(station.specimen, specimen_effects, still, np.ones(2), plan.substep)

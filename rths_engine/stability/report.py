@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rths_engine.foundation.errors import PlanError
+from rths_engine.planning.connections import predicted
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.stability.closed_loop import ClosedLoop, Mode, stable
@@ -37,7 +38,7 @@ def summary(planned: Plan | Model) -> dict[str, Any]:
         "least_damped": _mode(modes[0]) if modes else None,
         "modes": [_mode(mode) for mode in modes],
         "stations": [_station(loop, j) for j in range(len(plan.stations))],
-        "notes": loop.notes() if plan.stations else [ALONE],
+        "notes": [*predicted(plan), *loop.notes()] if plan.stations else [ALONE],
     }
 
 

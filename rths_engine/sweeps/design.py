@@ -16,6 +16,7 @@ from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.foundation.part import Value, validated
 from rths_engine.parts.ground_motions import scaling
 from rths_engine.planning import templates
+from rths_engine.planning.connections import external
 from rths_engine.planning.plan import Plan
 from rths_engine.sweeps.axes import Axis, axis
 from rths_engine.sweeps.definition import MOST_POINTS, Definition, Scales, Varied
@@ -247,6 +248,9 @@ def _fit(definition: Definition, plan: Plan, axes: list[Axis]) -> Iterator[Issue
     if not (definition.fields or definition.records or definition.scales):
         yield Issue("fields", "nothing varies", fix="add a field, records or scales")
     yield from _shaken(definition, plan)
+    for index, connection in external(plan).items():
+        problem = f"is an external rig, {connection.peer}: a sweep runs many tests at a time, and would move it unattended"
+        yield Issue(f"plan.stations.{index}.connection", problem, fix="emulate the station by its models")
 
 
 def _shaken(definition: Definition, plan: Plan) -> Iterator[Issue]:

@@ -10,7 +10,7 @@ import { hintOf, kindLabel } from "./schema.js";
 /** The part of the form for one node of the schema. @param {Schema} schema @param {Node} unresolved @param {string} path @param {any} value @returns {Part} */
 export function part(schema, unresolved, path, value) {
   const node = schema.resolve(unresolved);
-  if (node.oneOf) return unionPart(schema, node, path, value);
+  if (node.oneOf) return node.folded ? foldedPart(schema, node, path, value) : unionPart(schema, node, path, value);
   if (node.type === "object") return groupPart(schema, node, path, value, node.title);
   if (node.type === "array") {
     if (node.items.$ref) return listPart(schema, node, path, value, part);
@@ -69,6 +69,20 @@ function effectsPart(schema, node, path, value) {
   const list = listPart(schema, node, path, value, part);
   const element = el("fieldset", { class: "group effects" }, el("legend", {}, node.title), list.element);
   return { ...list, element };
+}
+
+/** A choice of kinds behind a line that says which kind it is: most plans keep the first. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */
+function foldedPart(schema, node, path, value) {
+  const made = unionPart(schema, node, path, value);
+  const kinds = schema.kinds(node);
+  const initial = [...kinds.keys()][0];
+  const chosen = el("span", { class: "subfold-kind" });
+  const show = () => (chosen.textContent = kindLabel(/** @type {Node} */ (kinds.get(made.read().kind))));
+  const open = (value?.kind ?? initial) !== initial;
+  const element = el("details", { class: "subfold", open }, el("summary", {}, `${node.title}: `, chosen), made.element);
+  element.addEventListener("change", show);
+  show();
+  return { ...made, element };
 }
 
 /** A choice of kinds with the fields of the selected kind. The text typed for a kind is kept while another kind is selected. @param {Schema} schema @param {Node} node @param {string} path @param {any} value @returns {Part} */

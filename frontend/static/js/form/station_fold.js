@@ -27,7 +27,8 @@ export class StationFold {
     const place = this.schema.applies(properties.storey) && `Storey ${station.storey}, ${station.dampers} ${station.dampers === 1 ? "damper" : "dampers"}`;
     const parts = PARTS.map((name) => this.#kind(properties[name], station[name]));
     this.name.textContent = station.name || "Station without a name";
-    this.facts.replaceChildren(...[place, ...parts, this.#limits(station.limits)].filter(Boolean).map((text) => el("span", {}, text)));
+    const external = station.connection && station.connection.kind !== "emulated" && `External: ${this.#kind(properties.connection, station.connection)}`;
+    this.facts.replaceChildren(...[external, place, ...parts, this.#limits(station.limits)].filter(Boolean).map((text) => el("span", {}, text)));
   }
 
   /** @param {Node} unresolved @param {any} value */

@@ -20,6 +20,7 @@ export function facts(run, measures) {
     ["Ended", when(run.finished_at)],
     ["Kind of test", KINDS[/** @type {keyof typeof KINDS} */ (run.test)]],
     ...(run.plan ? excitation(run.plan) : []),
+    ["External stations", run.external?.join(" ")],
     ["Template", run.template],
     ["Plan in the library", run.library_id && el("a", { href: `/plans/${run.library_id}` }, `opened from version ${run.library_version}`)],
     ["Seed", run.seed],
