@@ -97,21 +97,23 @@ class External(Value):
     external: ClassVar[bool] = True
     physical: ClassVar[bool] = True
     """Whether the rig can be a machine: it then needs the pace of a clock, and executes one test at a time."""
-    displacement_unit: Length = Field("mm", title="Unit of displacements at the rig")
-    displacement_reversed: bool = Field(False, title="The rig counts displacements in the opposite direction")
-    force_unit: Force = Field("kN", title="Unit of forces at the rig")
-    force_reversed: bool = Field(False, title="The rig counts forces in the opposite direction")
+    displacement_unit: Length = Field("mm", title="Unit of displacements")
+    displacement_reversed: bool = Field(
+        False, title="Displacements reversed", description="the rig counts them in the opposite direction"
+    )
+    force_unit: Force = Field("kN", title="Unit of forces")
+    force_reversed: bool = Field(False, title="Forces reversed", description="the rig counts them in the opposite direction")
     patience: float = quantity(
-        "Longest wait for a measurement", "s", "ms", ge=0.001, le=60, default=0.5, help="then the test ends safely"
+        "Longest wait for a reading", "s", "ms", ge=0.001, le=60, default=0.5, help="then the test ends safely"
     )
     start_within: float = quantity(
-        "Largest displacement of the rig at the start",
+        "Largest displacement at the start",
         "m",
         "mm",
         ge=0,
         le=1,
         default=0.001,
-        help="a rig that stands farther from zero would jump, so it refuses the test",
+        help="a rig farther from zero would jump: refused",
     )
 
     @property

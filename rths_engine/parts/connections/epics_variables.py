@@ -28,7 +28,7 @@ class ProcessVariables(External):
     current: str = _name("PV of the current", "in A; empty: no current")
     permit: str = _name("PV of the permit", "the test ends when it becomes 0; empty: no permit")
     heartbeat: str = _name("PV of the heartbeat", "gets the number of each step; empty: no heartbeat")
-    echo: str = _name("PV of the echo", "the heartbeat that the readings belong to; empty: readings may be a step old")
+    echo: str = _name("PV of the echo", "the heartbeat that the readings belong to; empty: readings can be old")
     reading: Literal["get", "monitor"] = Field(
         "get", title="How measurements are read", json_schema_extra={"titles": {**READINGS}}
     )

@@ -27,7 +27,7 @@ class GenericClient(External):
     """
 
     kind: Literal["generic_client"] = "generic_client"
-    title: ClassVar[str] = "Generic TCP or UDP server (OpenSees, OpenFresco)"
+    title: ClassVar[str] = "Generic TCP or UDP server"
     host: str = Field("127.0.0.1", title="Host", min_length=1, max_length=255, pattern=r"^[A-Za-z0-9._:-]+$")
     port: int = Field(8090, title="Port", ge=1, le=65_535)
     transport: Literal["tcp", "udp"] = Field("tcp", title="Transport", json_schema_extra={"titles": {**TRANSPORTS}})
