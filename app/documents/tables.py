@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from app.documents import commands, decisions, diagnosis, effects, formats, outputs, parts, rooms, routes, settings
 from rths_engine.parts import actuators, compensators, controllers, integrators, physics, specimens, structures
+from rths_engine.planning.coupling import KINDS
 from rths_engine.planning.shapes import SHAPES
 
 TABLES: dict[str, Callable[[], str]] = {
@@ -24,6 +25,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "compensators": lambda: parts.kinds(compensators.KINDS),
     "actuators": lambda: parts.kinds(actuators.KINDS),
     "specimens": lambda: parts.kinds(specimens.KINDS),
+    "couplings": lambda: parts.kinds(KINDS),
     "controllers": lambda: parts.kinds(controllers.KINDS),
     "connections": parts.connections,
     "shapes": lambda: parts.kinds(SHAPES),

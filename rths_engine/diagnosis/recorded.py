@@ -58,6 +58,10 @@ def components(plan: Plan, recording: Measured, where: str) -> list[Pair]:
 
 
 def _checked(plan: Plan, recording: Measured, where: str) -> None:
+    if plan.couplings:
+        names = ", ".join(coupling.name for coupling in plan.couplings)
+        problem = "has stations that share a specimen; a diagnosis replays each station with a specimen of its own"
+        raise RecordingError(Issue("plan", problem, names, "compare the recording with a run of this plan instead"))
     if recording.samples < LEAST:
         raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis needs at least {LEAST}"))
     if recording.samples > MOST:

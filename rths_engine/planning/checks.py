@@ -13,6 +13,7 @@ from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.planning.client import Client
 from rths_engine.planning.connections import issues_of_connections
+from rths_engine.planning.coupling_checks import issues_of_couplings
 from rths_engine.planning.excitation import Drive
 from rths_engine.planning.known import issues_of_known
 from rths_engine.planning.model import Model
@@ -35,6 +36,7 @@ def issues(model: Model) -> Iterator[Issue]:
     yield from issues_of_known(plan)
     yield from _commands(plan)
     yield from issues_of_connections(plan)
+    yield from issues_of_couplings(plan)
 
 
 def _too_long(plan: Plan) -> Iterator[Issue]:

@@ -19,6 +19,7 @@ from rths_engine.parts.specimens.mr_damper_current import MrDamperCurrent
 from rths_engine.parts.structures.matrices import MatricesStructure
 from rths_engine.parts.structures.moment_frame import FrameStorey, MomentFrame
 from rths_engine.parts.structures.shear_building import ShearBuilding, Storey
+from rths_engine.planning.eccentric_floor import eccentric_floor
 from rths_engine.planning.excitation import Drive, FloorForce, Start
 from rths_engine.planning.motion import RecordMotion
 from rths_engine.planning.plan import Noise, Plan, RealTime, Station
@@ -200,6 +201,7 @@ EXAMPLES: dict[str, Callable[[str], Plan]] = {
     "linear-damper": linear_damper,
     "two-storeys": two_storeys,
     "semi-active": semi_active,
+    "two-actuators": eccentric_floor,
     "specimen-mr-damper": specimen_mr_damper,
     "actuator-sweep": actuator_sweep,
     "structure-earthquake": structure_earthquake,

@@ -19,7 +19,7 @@ from rths_engine.planning.plan import Plan
 
 STRUCTURE = {"structure"}
 MATRICES_OF = STRUCTURE | {"structure_physics"}
-STEPPED = MATRICES_OF | {"stations", "integrator"}
+STEPPED = MATRICES_OF | {"stations", "couplings", "integrator"}
 LOADED = MATRICES_OF | {"forces", "test"}
 # value of a model -> fields of the plan that it depends on
 DEPENDS = {
@@ -79,13 +79,17 @@ class Model:
 
     @cached_property
     def scheme(self) -> Scheme:
-        """The integrator's scheme from M, C and the initial K with the stations' equivalents."""
+        """The integrator's scheme from M, C and initial K with the stations' equivalents and the specimens they share."""
         built = self.built
         damping, stiffness = built.damping.copy(), built.stiffness.copy()
         for station, drift in zip(self.plan.stations, self.drifts, strict=True):
             outer = station.dampers * np.outer(drift, drift)
             damping += station.equivalent_damping * outer
             stiffness += station.equivalent_stiffness * outer
+        for coupling in self.plan.couplings:
+            rows, shared = self.drifts[[number - 1 for number in coupling.stations]], coupling.matrices()
+            damping += rows.T @ shared.damping @ rows
+            stiffness += rows.T @ shared.stiffness @ rows
         return self.plan.integrator.build(built.mass, damping, stiffness)
 
     @cached_property

@@ -26,6 +26,7 @@ from rths_engine.parts.specimens.mr_damper import MrDamper
 from rths_engine.parts.structures import Structure
 from rths_engine.parts.structures.no_structure import NoStructure
 from rths_engine.planning.client import LONGEST_UNKNOWN, Client
+from rths_engine.planning.coupling import Coupling
 from rths_engine.planning.excitation import Drive, FloorForce, Start
 from rths_engine.planning.kinds_of_test import DRIVEN, FOLLOWING, TESTS
 from rths_engine.planning.known import HOW, How
@@ -39,7 +40,9 @@ ONLY_DRIVEN: dict[str, Any] = {"tests": [*DRIVEN]}
 ONLY_CLIENT: dict[str, Any] = {"tests": ["client"]}
 ONLY_HYBRID = ["hybrid"]
 LINEARISED = ["hybrid", "client"]
+COUPLED: dict[str, Any] = {"tests": ONLY_HYBRID, "item": "Shared specimen"}
 MOST_STATIONS = 32
+MOST_COUPLINGS = 8
 ROOM = 293.15  # K, 20 degrees Celsius
 # fields of a station that earlier plans do not have, with the value under which they leave the digest of a plan unchanged
 ADDED: dict[str, Any] = {
@@ -144,6 +147,13 @@ class Plan(Value):
     integrator: Integrator = Field(CrIntegrator(), title="Integration", json_schema_extra=COMPUTED)
     controller_rate: float = quantity("Controller rate", "Hz", ge=1, le=100_000, default=1024.0)
     stations: tuple[Station, ...] = Field((), title="Stations", max_length=MOST_STATIONS, json_schema_extra=TESTED)
+    couplings: tuple[Coupling, ...] = Field(
+        (),
+        title="Specimens that stations share",
+        max_length=MOST_COUPLINGS,
+        description="Several actuators on one specimen. Such a station has no specimen of its own.",
+        json_schema_extra=COUPLED,
+    )
     structure_physics: tuple[StructureEffect, ...] = Field(
         (), title="Left-out physics of the structure", max_length=8, json_schema_extra=COMPUTED
     )
@@ -181,6 +191,8 @@ class Plan(Value):
         step = decisive.pop("client")["step"]  # how the client is reached decides nothing
         if step is not None:
             decisive["client"] = {"step": step}
+        if not self.couplings:  # earlier plans have none
+            del decisive["couplings"]
         return hashlib.sha256(json.dumps(decisive, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 
 from rths_engine.foundation.errors import PlanError
 from rths_engine.planning.model import Model
-from rths_engine.stability import ClosedLoop, margin, stable
+from rths_engine.stability import SHARED, ClosedLoop, margin, stable
 from rths_engine.stability.station import Lifted
 
 
@@ -39,6 +39,8 @@ def margins(model: Model, deadline: float) -> dict[str, Any] | None:
         return None
     names = [station.name for station in plan.stations]
     found: dict[str, Any] = {"radius": None, "stable": None, "stations": [], "notes": []}
+    if plan.couplings:
+        return {**found, "notes": [SHARED]}
     try:
         loop = TimedLoop(model, deadline)
         found["notes"] = loop.notes()

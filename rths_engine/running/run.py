@@ -21,8 +21,9 @@ from rths_engine.planning.safety import LIMITS, Trip
 from rths_engine.results.channels import Channel, channels
 from rths_engine.results.result import Result
 from rths_engine.running import loop, starting
+from rths_engine.running.coupled import advance_coupled, coupled
 from rths_engine.running.data import MEMORY, Record, State
-from rths_engine.running.setup import left_out, setup
+from rths_engine.running.setup import effects_in, left_out, setup
 
 # chosen; see docs/decisions/0023
 LARGEST_RECORDING = 2_000_000_000  # bytes
@@ -79,7 +80,8 @@ class Run:
         if initial:
             x[:], v[:] = initial
         self._state = State(x, v, carry, plastic, parts, memory)
-        self._left_out = left_out(model)
+        self._coupled = coupled(plan)
+        self._left_out = left_out(model) if self._coupled is None else effects_in(model)
         self._columns = columns(plan)
         shared = len(self._columns) - len(set(self._columns.tolist()))
         written = np.zeros((self.total, len(self.channels) + shared)) if shared else self.signals
@@ -112,7 +114,11 @@ class Run:
 
     def _advance(self, first: int, last: int) -> tuple[int, int]:
         """Integration steps first to last - 1. Returns as `loop.advance`."""
-        broken, done = loop.advance(first, last, self._setup, self._state, self._left_out, self._record)
+        of_run = first, last, self._setup, self._state, self._left_out
+        if self._coupled is not None:
+            broken, done = advance_coupled(*of_run, self._coupled, self._record)
+        else:
+            broken, done = loop.advance(*of_run, self._record)
         return broken, done
 
     def result(self, status: str, elapsed_s: float) -> Result:

@@ -23,7 +23,7 @@ from rths_engine.running.stop import stop
 
 
 def warm() -> None:
-    """Run one integration step of a small plan, without and with a left-out effect, every replay and a ramp; read a row."""
+    """Run one integration step of a small plan, without and with an effect and coupled, every replay and a ramp; read a row."""
     plan = templates.template("linear-damper").model_copy(update={"duration": 0.01})
     simulate(plan)
     station = plan.stations[0].model_copy(update={"specimen_physics": (Asymmetry(),)})
@@ -33,6 +33,7 @@ def warm() -> None:
     followed.advance(1)
     connected = plan.stations[0].model_copy(update={"connection": GenericClient()})
     ExternalRun(plan.model_copy(update={"stations": (connected,)}), MotionLibrary(None)).rehearse()
+    simulate(templates.template("two-actuators").model_copy(update={"duration": 0.01}))
     still = np.zeros(2)
     for specimen_effects in ((Asymmetry(),), (Backlash(),)):
         replay.specimen(station.specimen, specimen_effects, still, np.ones(2), plan.substep)

@@ -14,6 +14,9 @@ from rths_engine.stability.margins import Map, delay_map, margin
 ARTICLE = {"specimen": "a", "actuator": "an"}
 NO_LOOP: dict[str, Any] = {"radius": None, "stable": None, "least_damped": None, "modes": [], "stations": []}
 CLIENT = "A client computes the structure. The plan does not describe it, so that the stability of the loop is not predicted."
+SHARED = (
+    "Stability is not predicted, because stations share a specimen. The dry run of the preflight shows whether limits hold."
+)
 ALONE = "The plan has no station. These are the modes of the structure, with the damping that its integrator adds."
 
 
@@ -30,6 +33,8 @@ def summary(planned: Plan | Model) -> dict[str, Any]:
                 f"A test of {ARTICLE[plan.test]} {plan.test} follows its drive. It has no closed loop that can become unstable."
             ],
         }
+    if plan.couplings:
+        return {**NO_LOOP, "notes": [SHARED]}
     loop = ClosedLoop(model)
     radius, modes = loop.radius(), loop.modes()
     return {
@@ -45,7 +50,7 @@ def summary(planned: Plan | Model) -> dict[str, Any]:
 def mapped(planned: Plan | Model, points: int) -> dict[str, Any] | None:
     """The radius over the delays of the first two stations; None for a plan with fewer stations."""
     model = Model.of(planned)
-    if model.plan.driven or len(model.plan.stations) < 2:
+    if model.plan.driven or len(model.plan.stations) < 2 or model.plan.couplings:
         return None
     found: Map = delay_map(ClosedLoop(model), points=points)
     axes = [
@@ -60,6 +65,8 @@ def warning(planned: Plan | Model) -> str | None:
     model = Model.of(planned)
     if not model.plan.stations or model.plan.driven:
         return None
+    if model.plan.couplings:
+        return SHARED
     try:
         loop = ClosedLoop(model)
     except PlanError as error:

@@ -18,7 +18,7 @@ import { kindLabel } from "./schema.js";
  */
 export function listPart(schema, node, path, values, part, fold = null) {
   const item = schema.resolve(node.items);
-  const name = item.title ? kindLabel(item) : "Effect";
+  const name = node.item ?? (item.title ? kindLabel(item) : "Effect");
   const singular = name.toLowerCase();
   /** @type {Part[]} */
   let parts = [];

@@ -20,6 +20,7 @@ const SECTIONS = [
   { title: "Structure", short: "Structure", names: ["structure", "structure_physics"] },
   { title: "Integration and controller", short: "Integration", names: ["integrator", "controller_rate"] },
   { title: "Stations: actuator, specimen, compensator, limits", short: "Stations", names: ["stations"] },
+  { title: "Specimens that stations share", short: "Shared specimens", names: ["couplings"] },
   { title: "How well the numbers are known", short: "Known numbers", names: ["known"] },
   { title: "Duration, pace and seed", short: "Duration and pace", names: ["duration", "pace", "seed"] },
 ];

@@ -98,13 +98,15 @@ export class BuildingDrawing {
   #stations() {
     const frame = /** @type {import("./building.js").Frame} */ (this.frame);
     const { stations } = this.plan;
-    const beside = (/** @type {number} */ storey) => stations.filter((/** @type {any} */ one) => one.storey === storey).length;
+    const drawn = (/** @type {any} */ station) => Math.min(station.storey, this.heights.length); // matrices can have more strokes than floors
+    const beside = (/** @type {number} */ storey) => stations.filter((/** @type {any} */ one) => drawn(one) === storey).length;
     /** @type {Map<number, number>} */
     const seen = new Map();
-    return stations.map((/** @type {any} */ { storey }, /** @type {number} */ i) => {
+    return stations.map((/** @type {any} */ station, /** @type {number} */ i) => {
+      const storey = drawn(station);
       const order = seen.get(storey) ?? 0;
       seen.set(storey, order + 1);
-      return new StationDrawing(frame, Math.min(storey, this.heights.length), i + 1, order, beside(storey));
+      return new StationDrawing(frame, storey, i + 1, order, beside(storey));
     });
   }
 

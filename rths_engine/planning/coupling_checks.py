@@ -1,0 +1,73 @@
+"""Checks of couplings: stations that exist, each on one specimen only, and actuators that can bear its mass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from rths_engine.foundation.errors import Issue
+from rths_engine.parts.connections.connection import External
+from rths_engine.parts.specimens.commanded import Commanded
+from rths_engine.planning.plan import Plan
+
+
+def issues_of_couplings(plan: Plan) -> Iterator[Issue]:
+    """All issues of the couplings of a plan."""
+    if not plan.couplings:
+        return
+    if plan.test != "hybrid":
+        yield Issue("couplings", "are used only in hybrid tests", len(plan.couplings), "remove them, or choose a hybrid test")
+        return
+    for index, station in enumerate(plan.stations):
+        if isinstance(station.connection, External):
+            problem = "is an external rig; a test in which stations share a specimen runs on models"
+            yield Issue(f"stations.{index}.connection", problem, station.connection.kind, "emulate it, or remove the couplings")
+    owners: dict[int, str] = {}
+    for index, coupling in enumerate(plan.couplings):
+        where = f"couplings.{index}"
+        absent = [number for number in coupling.stations if number > len(plan.stations)]
+        if absent:
+            fix = f"give numbers from 1 to {len(plan.stations)}, in the order of the stations"
+            yield Issue(f"{where}.stations", "is not the number of a station", absent[0], fix)
+            continue
+        for number in coupling.stations:
+            if number in owners:
+                problem = f"station {number} is already on the specimen '{owners[number]}'"
+                yield Issue(f"{where}.stations", problem, number, "give each station to one coupling, once")
+            else:
+                yield from _of_station(plan, number)
+            owners[number] = coupling.name
+        yield from _of_laws(coupling, where)
+        yield from _of_mass(plan, coupling, where)
+
+
+def _of_station(plan: Plan, number: int) -> Iterator[Issue]:
+    station, where = plan.stations[number - 1], f"stations.{number - 1}"
+    if station.specimen.kind != "none":
+        problem = "shares a specimen, so it has none of its own"
+        yield Issue(f"{where}.specimen", problem, station.specimen.kind, "choose none; describe the specimen in the coupling")
+    if station.specimen_physics:
+        problem = "acts on the station's own specimen, and the station shares one"
+        yield Issue(f"{where}.specimen_physics", problem, len(station.specimen_physics), "remove it")
+    if station.dampers != 1:
+        yield Issue(f"{where}.dampers", "a station that shares a specimen represents itself only", station.dampers, "give 1")
+
+
+def _of_laws(coupling: Any, where: str) -> Iterator[Issue]:
+    for index, one in enumerate(coupling.specimens):
+        kind = one.specimen.kind
+        if isinstance(one.specimen, Commanded):
+            problem = f"'{one.specimen.title}' follows a current, which a shared specimen does not get"
+            yield Issue(f"{where}.specimens.{index}.specimen", problem, kind, "choose a specimen without a command")
+
+
+def _of_mass(plan: Plan, coupling: Any, where: str) -> Iterator[Issue]:
+    """The issue of a specimen that is too heavy for its actuators, which feel its inertia force one controller step late."""
+    moving = np.array([getattr(plan.stations[number - 1].actuator, "mass", np.inf) for number in coupling.stations])
+    ratio = float(np.max(np.abs(np.linalg.eigvals(coupling.matrices().mass / moving[:, None]))))
+    if ratio >= 1:
+        problem = f"is {ratio:.3g} times the moving mass of the actuators, which feel its inertia a controller step late"
+        fix = "add the mass to the moving mass of the actuators instead: above 1 the rig is unstable"
+        yield Issue(f"{where}.mass", problem, None, fix)
