@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
-from hypothesis import settings
+import pytest
+from hypothesis import is_hypothesis_test, settings
 
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
@@ -14,3 +16,19 @@ RECORDINGS = Path(os.environ.get("RTHS_RECORDINGS") or Path(__file__).parents[2]
 KEPT = ("RTHS_CACHE", "RTHS_TEST_DATABASE_URL", "RTHS_GROUND_MOTIONS", "RTHS_OPENSEES_PYTHON")
 for name in [name for name in os.environ if name.startswith("RTHS_") and name not in KEPT]:
     del os.environ[name]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Lines count where an example executes them: of drawn values they would change with the draw, at twice the time."""
+    for item in items:
+        if is_hypothesis_test(getattr(item, "obj", None)):
+            item.add_marker(pytest.mark.no_cover)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    if config.getvalue("dist") != "loadfile":
+        return None
+    from tests.both_ends import BothEnds
+
+    return BothEnds(config, log)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import pwd
 import shutil
-import socket
 import subprocess
 import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from tests.browser.service import free_port
 
 INSTALL = "PostgreSQL is not installed (on Debian: apt-get install postgresql)"
 STARTED_WITHIN_S = 60
@@ -38,7 +39,7 @@ def server() -> Iterator[str]:
         data, name = folder / "data", owner or pwd.getpwuid(os.geteuid()).pw_name
         initdb = [programs / "initdb", "-D", data, "-A", "trust", "--no-sync", "-E", "UTF8", "--locale", "C"]
         subprocess.run(initdb, check=True, capture_output=True, cwd=folder, **user)  # type: ignore[call-overload]
-        port = _free_port()
+        port = free_port()
         options = ["-D", data, "-p", str(port), "-h", "127.0.0.1", "-k", folder, "-c", "fsync=off", "-c", "max_connections=200"]
         process = subprocess.Popen([programs / "postgres", *options], stderr=subprocess.DEVNULL, cwd=folder, **user)  # type: ignore[call-overload]
         try:
@@ -63,13 +64,6 @@ def _programs() -> Path | None:
     found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
     named = shutil.which("initdb")
     return found[-1].parent if found else Path(named).resolve().parent if named else None
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        return port
 
 
 def _wait(process: subprocess.Popen[bytes], port: int) -> None:

@@ -14,11 +14,14 @@ from typing import Any
 
 import httpx
 import pytest
+from fastapi.testclient import TestClient
 
 from app.cli.main import main
 from app.cli.serve import only_server
 from app.config import from_environment
-from tests.browser.service import until
+from app.demonstration import queue_demonstration
+from tests.app.conftest import app_of
+from tests.browser.service import free_port, until
 
 RTHS = [sys.executable, "-m", "app.cli"]
 
@@ -30,11 +33,8 @@ def taken() -> Iterator[int]:
 
 
 @pytest.fixture
-def free(taken: int) -> int:
-    """A port that nothing listens on."""
-    with socket.create_server(("127.0.0.1", 0)) as other:
-        port: int = other.getsockname()[1]
-    return port
+def free() -> int:
+    return free_port()
 
 
 @contextmanager
@@ -66,23 +66,27 @@ def runs(http: httpx.Client) -> list[dict[str, Any]]:
     return found
 
 
-def test_one_demonstration_waits_however_often_the_control_room_starts(free: int, tmp_path: Path) -> None:
-    with serving(free, tmp_path, "--demo", "--no-worker") as http:
-        (first,) = runs(http)
-        assert first["template"] == "table3-04" and first["state"] == "queued"
-        plan = http.get(f"/runs/{first['id']}").json()["plan"]
-        assert plan["pace"] == {"kind": "real_time", "factor": 1.0}
-    with serving(free, tmp_path, "--demo", "--no-worker") as http:
-        (run,) = runs(http)
-        assert run["id"] == first["id"]
-        http.post(f"/runs/{run['id']}/cancel", json={}).raise_for_status()
-    with serving(free, tmp_path, "--demo", "--no-worker") as http:
-        assert sorted(run["state"] for run in runs(http)) == ["cancelled", "queued"]
+def test_one_demonstration_waits_however_often_the_control_room_starts(client: TestClient) -> None:
+    def waiting() -> list[tuple[str, str]]:
+        queue_demonstration(app_of(client))
+        return sorted((run["state"], run["id"]) for run in client.get("/api/v1/runs").json()["runs"])
+
+    ((state, first),) = waiting()
+    plan = client.get(f"/api/v1/runs/{first}").json()["plan"]
+    assert state == "queued" and plan["pace"] == {"kind": "real_time", "factor": 1.0}
+    assert waiting() == [("queued", first)]
+    client.post(f"/api/v1/runs/{first}/cancel", json={}).raise_for_status()
+    cancelled, (state, _) = waiting()
+    assert cancelled == ("cancelled", first) and state == "queued"
 
 
 def test_ctrl_c_ends_the_worker_and_its_engines_too(free: int, tmp_path: Path) -> None:
+    """And a control room without a worker starts with the data that it finds."""
     with serving(free, tmp_path, "--demo") as http:
         until(lambda: runs(http)[0]["state"], lambda state: state == "running")
+        assert runs(http)[0]["template"] == "table3-04"
+    with serving(free, tmp_path, "--demo", "--no-worker") as http:
+        assert len(runs(http)) == 1
 
 
 def test_a_taken_port_is_refused_with_the_way_to_choose_another(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -19,7 +18,7 @@ from app.live.messages import progress, schema
 from app.main import create_app
 from app.worker.link import Link, Telling
 from rths_engine.results.channels import Channel
-from tests.browser.service import until
+from tests.browser.service import free_port, until
 
 CHANNELS = (Channel("x_cmd", 1, "A"), Channel("d_alpha", 1, "B"))
 RUN = "0" * 36
@@ -29,10 +28,7 @@ ROW = 3 * 3 * 4  # bytes of a bucket: both channels and the command velocity
 
 @pytest.fixture
 def port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        found: int = probe.getsockname()[1]
-        return found
+    return free_port()
 
 
 @contextmanager
@@ -75,7 +71,7 @@ def seen(port: int, first: int, enough: int) -> bytes:
     buckets = b""
     with connect(f"ws://127.0.0.1:{port}/api/v1/runs/{RUN}/live?from={first}") as viewer:
         while len(buckets) < (enough - first) * ROW:
-            message = viewer.recv(timeout=20)
+            message = viewer.recv(timeout=60)
             if isinstance(message, bytes):
                 buckets += message[8:]
     return buckets
@@ -84,7 +80,7 @@ def seen(port: int, first: int, enough: int) -> bytes:
 def known(port: int) -> bool:
     with connect(f"ws://127.0.0.1:{port}/api/v1/runs/{RUN}/live") as viewer:
         try:
-            told = json.loads(viewer.recv(timeout=20))
+            told = json.loads(viewer.recv(timeout=60))
         except Exception:
             return False
         return bool(told["type"] == "schema")

@@ -24,7 +24,7 @@ from app.jobs.service import MOST_ATTEMPTS, JobService
 from app.jobs.states import IllegalTransition, State
 from app.worker.kinds import KINDS
 from tests.app.third_kind import COUNTS, DIES, REFUSED, Count, Other
-from tests.browser.service import DATABASE_URL, ENVIRONMENT, ROOT, until
+from tests.browser.service import DATABASE_URL, ROOT, UNMEASURED, until
 
 LONG = 100_000
 PATIENCE_S = 60  # two busy cores; a dead worker is noticed after 6 s
@@ -61,7 +61,7 @@ class Counts:
     @contextmanager
     def worker(self, name: str) -> Iterator[subprocess.Popen[bytes]]:
         command = [sys.executable, "-m", "tests.app.third_kind", str(self.settings.data), name]
-        process = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT)
+        process = subprocess.Popen(command, cwd=ROOT, env=UNMEASURED)
         try:
             yield process
         finally:

@@ -27,7 +27,9 @@ WIDE = {"width": 1360, "height": 900}
 
 Opener = Callable[..., Page]
 
-expect.set_options(timeout=15_000)
+PATIENCE_MS = 30_000  # of each step, on a busy machine
+
+expect.set_options(timeout=PATIENCE_MS)
 
 
 @pytest.fixture(scope="session")
@@ -111,7 +113,7 @@ def opened(browser: Browser, service: Service) -> Iterator[Opener]:
     def open_page(path: str, allow: tuple[str, ...] = (), who: str = "Ana Ruiz", **options: Any) -> Page:
         context = browser.new_context(base_url=service.url, **{"viewport": WIDE, "accept_downloads": True, **options})
         context.add_init_script(f"localStorage.setItem('rths.name', {who!r})" if who else "")
-        context.set_default_timeout(15_000)
+        context.set_default_timeout(PATIENCE_MS)
         contexts.append(context)
         context.on("page", lambda page: page.add_locator_handler(page.locator("html[data-loading]"), lambda: None))
         page = context.new_page()

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import random
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +21,14 @@ ROOT = Path(__file__).parents[2]
 DATABASE_URL = os.environ.get("RTHS_TEST_DATABASE_URL", "")
 """Database of whole services in tests, such as postgresql://...; by default SQLite in the data folder."""
 ENVIRONMENT = {**os.environ, "RTHS_DATABASE_URL": DATABASE_URL}
+UNMEASURED = {name: value for name, value in ENVIRONMENT.items() if not name.startswith("COV")}
+"""The environment of a process that is killed: it could not save which of its lines were executed."""
 
 
 class Service:
     def __init__(self, url: str, data: Path, pid: int):
         self.url, self.data, self.pid = url, data, pid
-        self.http = httpx.Client(base_url=url, timeout=20)
+        self.http = httpx.Client(base_url=url, timeout=60)
 
     def get(self, path: str) -> Any:
         return self.http.get(f"/api/v1{path}").raise_for_status().json()
@@ -77,6 +80,15 @@ def until(look: Callable[[], Any], good: Callable[[Any], bool], within_s: float 
     return found
 
 
+def free_port() -> int:
+    """A port that nothing listens on, below those that the system gives to connections while a server is starting."""
+    while True:
+        port = random.randrange(20_000, 32_000)
+        with socket.socket() as probe, suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
+
+
 def importing(path: Path) -> dict[str, str]:
     """The environment of a process of this project that imports from the folder `path` first."""
     return {**ENVIRONMENT, "PYTHONPATH": os.pathsep.join([str(path), str(ROOT)])}
@@ -88,9 +100,7 @@ def running(data: Path, path: Path | None = None) -> Iterator[Service]:
 
     Its processes import what the folder `path` holds before they start, such as a module `sitecustomize`.
     """
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
     with (data / "service.log").open("wb") as log:
         folder = data / "rths"
         command = [sys.executable, "-m", "tests.browser.serve", str(folder), str(port)]
@@ -103,7 +113,7 @@ def running(data: Path, path: Path | None = None) -> Iterator[Service]:
         finally:
             service.http.close()
             process.terminate()
-            process.wait(20)
+            process.wait(60)
 
 
 def _ready(service: Service, process: subprocess.Popen[bytes]) -> bool:

@@ -101,7 +101,7 @@ def test_a_running_test_shows_a_dash_for_a_measure_without_a_form_so_far(
     extended: tuple[Service, str], browser: Browser
 ) -> None:
     service, _ = extended
-    run_id = service.submit(pace={"kind": "real_time", "factor": 1.0}, duration=20.0)
+    run_id = service.submit(pace={"kind": "real_time", "factor": 1.0}, duration=40.0)
     service.wait(run_id, "running")
     page = browser.new_page(base_url=service.url)
     visit(page, f"/runs/{run_id}")

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Opener, visit
-from tests.browser.service import Service
+from tests.browser.service import Service, until
 
 
 def cycles(service: Service, frequency: float) -> dict[str, Any]:
@@ -54,8 +54,7 @@ def test_excitations_that_differ_are_said_first_and_curves_follow_the_legend_and
     expect(values.first).not_to_have_text("")
     both = drawn(page, "Command displacement")
     page.locator("#legend input").nth(1).uncheck()
-    page.wait_for_timeout(100)
-    assert drawn(page, "Command displacement") < both
+    until(lambda: drawn(page, "Command displacement"), lambda left: 0 < left < both)
     page.get_by_role("button", name="Show all items").click()
     page.locator("#legend .entry").nth(1).hover()
     expect(page.locator("#legend .entry").nth(1)).to_have_class(re.compile("highlighted"))

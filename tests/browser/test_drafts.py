@@ -36,6 +36,7 @@ def test_an_invalid_plan_survives_a_closed_tab_and_is_found_again(form: Page, id
     form.once("dialog", lambda asked: asked.accept())
     with form.expect_event("close"):
         form.close(run_before_unload=True)  # within the 0.8 s before it would be saved
+    until(lambda: [one["name"] for one in idle.get("/library/drafts")["drafts"]], lambda names: "Half typed" in names)
     again = form.context.new_page()
     visit(again, "/new")
     expect(again.get_by_text("You left a draft from template two-storeys")).to_be_visible()

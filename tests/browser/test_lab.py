@@ -9,7 +9,7 @@ from tests.browser.service import Service
 
 
 def test_a_running_test_has_a_card_and_the_tour_stays_hidden(idle: Service, opened: Opener) -> None:
-    run = idle.submit(name="Watched", duration=20.0, pace={"kind": "real_time", "factor": 1.0})
+    run = idle.submit(name="Watched", duration=40.0, pace={"kind": "real_time", "factor": 1.0})
     page = opened("/")
     card = page.locator(f"#running-{run}")
     expect(card.locator(".card-margin")).to_contain_text("% of the limit on")

@@ -13,7 +13,7 @@ REAL_TIME = {"kind": "real_time", "factor": 1.0}
 
 
 def test_a_reload_mid_run_shows_the_whole_history(idle: Service, opened: Opener) -> None:
-    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    run = idle.submit(duration=40.0, pace=REAL_TIME)
     page = opened(f"/runs/{run}")
     _expect_simulated(page, 3)
     page.reload()
@@ -26,8 +26,10 @@ def test_a_reload_mid_run_shows_the_whole_history(idle: Service, opened: Opener)
 
 
 def test_measures_show_while_the_test_runs_and_end_as_those_stored(idle: Service, opened: Opener) -> None:
+    idle.post("/queue/hold", {"by": "Bo"})
     run = idle.submit(duration=6.0, pace=REAL_TIME)
     page = opened(f"/runs/{run}")
+    idle.post("/queue/release", {})  # the test starts before the eyes of the page
     stroke = page.locator(".tiles").first.get_by_text("Peak stroke").locator("xpath=following-sibling::dd")
     expect(stroke).to_have_text(re.compile(r"^\d+\.\d mm$"))
     expect(page.locator("#state")).to_have_text("running")
@@ -40,7 +42,7 @@ def test_measures_show_while_the_test_runs_and_end_as_those_stored(idle: Service
 
 
 def test_a_lost_connection_is_told_and_mended(idle: Service, opened: Opener) -> None:
-    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    run = idle.submit(duration=40.0, pace=REAL_TIME)
     page = opened("/runs")
     refused: list[str] = []
 
@@ -59,7 +61,7 @@ def test_a_lost_connection_is_told_and_mended(idle: Service, opened: Opener) -> 
 
 
 def test_a_running_test_is_cancelled_and_keeps_what_was_recorded(idle: Service, opened: Opener) -> None:
-    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    run = idle.submit(duration=40.0, pace=REAL_TIME)
     page = opened(f"/runs/{run}")
     _expect_simulated(page, 1)
     page.get_by_role("button", name="Cancel this test").click()
@@ -71,7 +73,7 @@ def test_a_running_test_is_cancelled_and_keeps_what_was_recorded(idle: Service, 
 
 
 def test_abort_asks_once_more_then_stops_the_test_and_holds_the_queue(idle: Service, opened: Opener) -> None:
-    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    run = idle.submit(duration=40.0, pace=REAL_TIME)
     idle.wait(run, "running")
     page = opened("/runs")
     bar = page.get_by_role("region", name="Abort")
@@ -104,7 +106,7 @@ def test_a_link_pressed_while_the_page_is_brought_up_to_date_still_leads_on(serv
 
 
 def test_the_lab_page_keeps_the_focus_while_it_refreshes(idle: Service, opened: Opener) -> None:
-    run = idle.submit(duration=20.0, pace=REAL_TIME)
+    run = idle.submit(duration=40.0, pace=REAL_TIME)
     idle.wait(run, "running")
     page = opened("/")
     cancel = page.locator(f"#cancel-{run}")
@@ -113,7 +115,7 @@ def test_the_lab_page_keeps_the_focus_while_it_refreshes(idle: Service, opened: 
         with page.expect_response("**/lab"):
             pass
     expect(cancel).to_be_focused()
-    expect(page.locator(f"#running-{run} progress")).to_have_js_property("max", 20)
+    expect(page.locator(f"#running-{run} progress")).to_have_js_property("max", 40)
 
 
 def test_the_charts_are_zoomed_with_the_keyboard(idle: Service, opened: Opener) -> None:
@@ -140,4 +142,4 @@ def _to_the_left_edge(page: Page, chart: Locator) -> None:
 
 
 def _expect_simulated(page: Page, seconds: int) -> None:
-    expect(page.locator("#clock")).to_have_text(re.compile(rf"^({seconds}|[1-9]\d)\.\d\d of 20.00 s simulated"))
+    expect(page.locator("#clock")).to_have_text(re.compile(rf"^([{seconds}-9]|[1-9]\d)\.\d\d of 40.00 s simulated"))

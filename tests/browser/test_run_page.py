@@ -119,7 +119,7 @@ def test_a_trip_ends_the_axes_where_the_test_ended_and_is_marked_with_its_senten
 
 
 def test_a_running_test_is_held_and_shown_live_again(idle: Service, opened: Opener) -> None:
-    run = idle.submit(duration=20.0, pace={"kind": "real_time", "factor": 1.0})
+    run = idle.submit(duration=40.0, pace={"kind": "real_time", "factor": 1.0})
     page = ready(opened(f"/runs/{run}", viewport=DESK))
     page.get_by_role("button", name="Pause the replay").click()
     held = page.locator("#shown-time").text_content()
@@ -223,7 +223,7 @@ def test_what_is_tested_is_drawn(template: str, drawn: str, service: Service, op
     moving = ".measured-mark" if template.startswith("specimen") else ".slab"
     seek(page, 3.0)
     seek(page, 1.0)
-    page.wait_for_timeout(200)
+    page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
     before = drawing.locator(moving).last.get_attribute("transform")
     seek(page, 1.9)
     expect(drawing.locator(moving).last).not_to_have_attribute("transform", str(before))

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Opener, visit
-from tests.browser.service import Service
+from tests.browser.service import Service, until
 from tests.browser.test_pages import expect_accessible
 
 ALPHA = "plan.stations.0.compensator.alpha_es"
@@ -95,8 +95,8 @@ def test_the_panel_changes_name_and_notes_of_the_focused_run(braces: list[str], 
     panel.get_by_label("Name").fill("Table brace 1, reference")
     page.keyboard.press("Tab")
     expect(page.locator("#rows .at-name")).to_have_text("Table brace 1, reference")
-    run = service.get(f"/runs/{braces[0]}")
-    assert (run["name"], run["notes"]) == ("Table brace 1, reference", "New oil.") and run["plan"]["name"] == "Table brace 1"
+    run = until(lambda: service.get(f"/runs/{braces[0]}"), lambda run: run["notes"] == "New oil.")
+    assert run["name"] == "Table brace 1, reference" and run["plan"]["name"] == "Table brace 1"
     visit(page, f"/runs/{braces[0]}")
     expect(page.locator(".headline")).to_contain_text(f"#{run['number']}")
     expect(page.get_by_label("Notes")).to_have_value("New oil.")

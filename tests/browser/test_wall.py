@@ -6,7 +6,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Opener
-from tests.browser.service import Service
+from tests.browser.service import Service, until
 
 SMALLEST_PX = 20
 SMALL_TEXT = """(smallest) => {
@@ -46,9 +46,8 @@ def test_the_wall_follows_the_running_test_and_keeps_it_after_its_end(idle: Serv
     assert page.locator("button, a, input, select").count() == 0
     for width, height in ((1920, 1080), (3840, 2160)):
         page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_timeout(200)
-        assert page.evaluate(SMALL_TEXT, SMALLEST_PX) == []
-        assert whole(page)
+        until(lambda: page.evaluate(SMALL_TEXT, SMALLEST_PX), lambda small: small == [])
+        until(lambda: whole(page), bool)
     expect(page.locator("#wall-state")).to_have_text("No test is running")
     expect(page.locator(".wall-time")).to_contain_text("completed at 6.0")
     assert Axe().run(page).violations_count == 0

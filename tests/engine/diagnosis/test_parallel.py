@@ -24,5 +24,5 @@ def test_an_error_of_the_work_is_raised_where_it_was_asked_for() -> None:
 def test_as_many_are_worked_on_at_once_as_there_are_cores() -> None:
     """Each waits for the others: one after another they would break the barrier."""
     count = len(os.sched_getaffinity(0))
-    together = Barrier(count, timeout=10)
+    together = Barrier(count, timeout=60)
     assert sorted(each(lambda _: together.wait(), range(count))) == list(range(count))
