@@ -41,7 +41,7 @@ RESTARTED = "The client set its time back at {time:.6g} s. The rig goes on from 
 
 
 class Exchange:
-    """Takes the messages of one client in order. `warnings` holds a sentence of each kind, `counts` the messages by code.
+    """Takes the messages of one client in order. `warnings` holds a sentence of each kind.
 
     `iterations` counts trial displacements that the rig did not follow, and `unfollowed` (m) is the largest difference between
     a committed displacement and the rig's command.
@@ -50,7 +50,7 @@ class Exchange:
     def __init__(self, layout: Layout, rig: Rig):
         self.layout, self.rig, self.plan = layout, rig, rig.run.plan
         self.warnings: dict[str, str] = {}
-        self.counts: dict[int, int] = {}
+        self._counted = [0] * (Action.END + 1)
         self.steps = self.iterations = 0
         self.unfollowed = 0.0
         count = layout.count
@@ -59,7 +59,7 @@ class Exchange:
         self._time: float | None = None  # of the step
         self._origin, self._first = 0.0, 0  # a time of the client, and its controller step
         self._ahead = 0  # controller steps from a time of the client to the displacement sent with it
-        self._moved, self._open, self._reads_all = False, False, False
+        self._moved = self._open = False
         self._answers = _answers(layout, rig, lambda: self._time or 0.0)
         self._own: dict[float, Callable[[tuple[float, ...]], None]] = {
             Action.SET_TRIAL: self._trial,
@@ -68,13 +68,22 @@ class Exchange:
             SHUTDOWN: self._die,
         }
 
+    @property
+    def counts(self) -> dict[int, int]:
+        """Number of messages by action code."""
+        return {code: count for code, count in enumerate(self._counted) if count}
+
+    @property
+    def _reads_all(self) -> bool:
+        """Whether the client reads all quantities at once, as OpenFresco does, which sends no commit."""
+        return self._counted[Action.DATA] > 0
+
     def take(self, numbers: tuple[float, ...]) -> memoryview | None:
         """The answer to a message, or None for a message without answer. Raises Ended."""
         code = numbers[0]
         answer = self._answers.get(code)
         if answer is not None:
-            self._reads_all = self._reads_all or code == Action.DATA
-            self.counts[int(code)] = self.counts.get(int(code), 0) + 1
+            self._counted[int(code)] += 1
             return answer()
         act = self._own.get(code)
         if act is None and code not in IGNORED:
@@ -82,7 +91,7 @@ class Exchange:
                 f"The client sent the action code {code:g}, which this protocol does not have. Its data size or byte order may "
                 "differ from those it announced; OpenFresco's -initFile is not supported."
             )
-        self.counts[int(code)] = self.counts.get(int(code), 0) + 1
+        self._counted[int(code)] += 1
         if act is not None:
             act(numbers)
         return None

@@ -47,6 +47,8 @@ class Farewell:
                     return
                 if code in ANSWERED:
                     self._peer.send(self._answer)
+                else:
+                    self._peer.acknowledge()
         except (Gone, Ended):
             return
         finally:

@@ -117,20 +117,24 @@ class Session:
     def _met(self, peer: Peer) -> Layout:
         header = bytearray(SETUP_BYTES)
         self._received(peer, memoryview(header))
+        peer.acknowledge()
         return agreed(bytes(header), len(self.run.plan.stations))
 
     def _exchanged(self, peer: Peer, found: Layout) -> None:
         self.exchange = exchange = Exchange(found, self.rig)
         message = memoryview(bytearray(found.bytes))
         unpack, take, clock = found.fields.unpack_from, exchange.take, time.perf_counter
+        acknowledge, send = peer.acknowledge, peer.send
         steps = 0
         while True:
             if not peer.receive(message):
                 self._received(peer, message)
             answer = take(unpack(message))
             if answer is not None:
-                peer.send(answer)
-            elif exchange.steps != steps:
+                send(answer)
+                continue
+            acknowledge()
+            if exchange.steps != steps:
                 steps = exchange.steps
                 self.times.ended()
                 if clock() - self._looked > SHOWN_S:

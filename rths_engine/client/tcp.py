@@ -7,7 +7,7 @@ import socket
 from rths_engine.client.ended import Gone
 from rths_engine.client.transport import limit_waits
 
-# Linux: acknowledge at once. OpenSees waits for the acknowledgement of one message before it sends the next (Nagle)
+# Linux: acknowledge at once
 _QUICK = getattr(socket, "TCP_QUICKACK", None)
 
 
@@ -21,21 +21,26 @@ class TcpPeer:
         limit_waits(connection)
 
     def receive(self, message: memoryview) -> bool:
-        connection = self._connection
+        size = len(message)
         try:
-            while self._got < len(message):
-                if _QUICK is not None:
-                    connection.setsockopt(socket.IPPROTO_TCP, _QUICK, 1)
-                got = connection.recv_into(message[self._got :] if self._got else message)
+            while self._got < size:
+                got = self._connection.recv_into(message[self._got :] if self._got else message)
                 if got == 0:
                     raise Gone
                 self._got += got
+                if self._got < size:
+                    self.acknowledge()
         except BlockingIOError:
             return False
         except OSError:
             raise Gone from None
         self._got = 0
         return True
+
+    def acknowledge(self) -> None:
+        """OpenSees waits for the acknowledgement of one message before it sends the next (Nagle). Linux delays it by 40 ms."""
+        if _QUICK is not None:
+            self._connection.setsockopt(socket.IPPROTO_TCP, _QUICK, 1)
 
     def send(self, message: bytes | bytearray | memoryview) -> None:
         try:

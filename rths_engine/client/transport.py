@@ -19,6 +19,9 @@ class Peer(Protocol):
     def receive(self, message: memoryview) -> bool:
         """Fill `message`, and return True; False where it is not complete after LOOK_S. Raises Gone or Ended."""
 
+    def acknowledge(self) -> None:
+        """Acknowledge a message that gets no answer; an answer acknowledges its message itself."""
+
     def send(self, message: bytes | bytearray | memoryview) -> None:
         """Send a message. Raises Gone."""
 

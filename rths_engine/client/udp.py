@@ -37,6 +37,9 @@ class UdpPeer:
         self._got = 0
         return True
 
+    def acknowledge(self) -> None:
+        """UDP has no acknowledgements."""
+
     def send(self, message: bytes | bytearray | memoryview) -> None:
         try:
             if len(message) <= DATAGRAM:

@@ -12,7 +12,7 @@ from rths_engine.foundation.errors import Issue
 from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.planning.client import Client
-from rths_engine.planning.connections import issues_of_connections
+from rths_engine.planning.connections import external, issues_of_connections
 from rths_engine.planning.coupling_checks import issues_of_couplings
 from rths_engine.planning.excitation import Drive
 from rths_engine.planning.known import issues_of_known
@@ -98,6 +98,9 @@ def _led(plan: Plan) -> Iterator[Issue]:
         yield Issue("stations", "this kind of test has at least one station", 0, fix)
     if plan.drive.shape.kind != "still":
         yield Issue("drive", "is used only in tests of a specimen or an actuator", plan.drive.shape.kind, "leave it at rest")
+    for index, connection in external(plan).items():
+        problem = "is an external rig, but a client moves emulated stations only"
+        yield Issue(f"stations.{index}.connection", problem, connection.kind, "choose an emulated station, or a hybrid test")
 
 
 def _within_limits(plan: Plan) -> Iterator[Issue]:

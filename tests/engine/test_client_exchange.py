@@ -328,3 +328,21 @@ def test_recorded_arrays_grow_with_the_test(monkeypatch: pytest.MonkeyPatch) -> 
             run.ramp((target,), 20)
             run.advance(20)
     assert len(grown.signals) < 200 and np.array_equal(whole.signals[:60], grown.signals[:60])
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"stations": []}, "at least one station"),
+        (
+            {"structure": {"kind": "shear_building", "storeys": [{"mass": 1e5, "stiffness": 1e7}]}},
+            "a test with a client follows",
+        ),
+        ({"drive": {"amplitude": 0.01, "shape": {"kind": "sine"}}}, "only in tests of a specimen"),
+        ({"stations": [station(connection={"kind": "generic_client"})]}, "a client moves emulated stations only"),
+        ({"stations": [station(dampers=2)]}, "dampers = 2: is not used"),
+    ],
+)
+def test_a_plan_that_a_client_cannot_drive_is_refused(changed: dict[str, Any], words: str) -> None:
+    with pytest.raises(PlanError, match=words):
+        read_plan(led().model_dump(mode="json", by_alias=True) | changed)
