@@ -74,7 +74,7 @@ def structure(samples: int, rate: float) -> tuple[Plan, Measured]:
     integrator = plan.integrator.model_copy(update={"dt": 1 / rate / FINER, "substeps": 1})
     left_out = (CubicStiffness(storey=2, stiffness=4e10),)
     true = plan.model_copy(update={"integrator": integrator, "structure_physics": left_out})
-    x = replay.structure(true, ground[:, None], np.zeros((len(ground), len(plan.stations))))
+    x = replay.structure(true, ground[:, None], np.zeros((len(ground), len(plan.stations)))).floors
     random = np.random.default_rng(2)
     channels = [MeasuredChannel("ag", 0, ground[::FINER], "m/s^2")]
     for floor, moved in enumerate(x.T, start=1):

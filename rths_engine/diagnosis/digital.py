@@ -67,8 +67,7 @@ def _structure(plan: Plan, recording: Measured) -> list[Replayed]:
     inputs = np.vstack([first, rows[n - 1 :: n]])
     held = [np.concatenate([[0.0], recording.get("f_meas", number)[n - 1 :: n]]) for number in stations]
     model = Model(plan.model_copy(update={"forces": tuple(FloorForce(floor=floor) for floor, _ in forces)}))
-    x = replay.structure(model, inputs, np.column_stack(held))
-    commands = x @ model.drifts.T
+    commands = replay.structure(model, inputs, np.column_stack(held)).strokes
     found = []
     for number in stations:
         real = recording.get("x_cmd", number)[n - 1 :: n]

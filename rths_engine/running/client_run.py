@@ -15,7 +15,7 @@ from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS, Stop, Trip
 from rths_engine.results.channels import Channel, channels
 from rths_engine.results.result import Result
-from rths_engine.running.data import F_MEAS, MEMORY, X_MEAS, Record, State
+from rths_engine.running.data import F_MEAS, X_MEAS, Record
 from rths_engine.running.follow import follow
 from rths_engine.running.setup import left_out, setup
 
@@ -46,15 +46,13 @@ class ClientRun:
         self.history: Array = np.zeros((1, 2, 0))
         self._random = np.random.Generator(np.random.PCG64(plan.seed))
         still = np.zeros((1, stations))
-        self._setup, parts = setup(model, np.zeros((1, 0)), still, self._noise(rows))
-        none, memory = np.zeros(0), np.zeros((stations, MEMORY))
-        self._state = State(none, none, none, np.zeros((0, 3)), parts, memory)
-        self._left_out = left_out(model)
+        self._setup, self._state = setup(model, np.zeros((1, 0)), still, self._noise(rows))
+        self._left_out = left_out(model, self._setup.kept)
         self._record = Record(self.signals, self.history, np.zeros(4))
         self._ends: Array = np.zeros((stations, 2))
         self._start = self._ramped = self._length = 0
-        self.x_meas: Array = memory[:, X_MEAS]
-        self.f_meas: Array = memory[:, F_MEAS]
+        self.x_meas: Array = self._state.memory[:, X_MEAS]
+        self.f_meas: Array = self._state.memory[:, F_MEAS]
 
     def ramp(self, target: Sequence[float], steps: int) -> None:
         """Begin a ramp of the stations' commands from where they are to `target` (m) within `steps` controller steps."""

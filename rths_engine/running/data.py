@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from rths_engine.parts.structures.assembled import Members
 from rths_engine.results.channels import RECORDED
 from rths_engine.running.oscillation import SIZE
+from rths_engine.running.yield_points import PointStates, YieldPoints
 
 # memory of a station between substeps
 X_CMD, X_MEAS, F_TRUE, F_MEAS, AREA, AREA_TURNED, TI, ENERGY_ERROR, X_TRUE, V_TRUE, X_SENT, X_END, WAVES = range(13)
@@ -29,6 +30,7 @@ class Setup(NamedTuple):
     damping: Any  # C, compressed rows
     elastic: Any  # stiffness beside the members, compressed rows
     members: Members
+    points: YieldPoints  # of a condensed frame; without any, the members yield
     loads: Any  # (I, DOF), forces by a unit of each input: -M @ iota for the ground acceleration
     inputs: Any  # (steps + 1, I) at the integration steps
     floors: Any  # DOF of the floors
@@ -41,6 +43,7 @@ class Setup(NamedTuple):
     noise: Any  # (Q, S, 2)
     temperatures: Any  # of the specimens, K (S)
     columns: Any  # first and last column + 1 of the stations in a row of signals (S, 2)
+    kept: Any  # number of each degree of freedom among those of the model (DOF)
 
 
 class State(NamedTuple):
@@ -50,6 +53,7 @@ class State(NamedTuple):
     v: Any  # (DOF)
     carry: Any  # c of the scheme (DOF)
     plastic: Any  # plastic curvature (members, 3)
+    points: PointStates
     parts: Any  # (4, S, widest)
     memory: Any  # (S, MEMORY)
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rths_engine.foundation.kernel import compiled, fold, named
+from rths_engine.foundation.kernel import compiled, fold, named, piece
 from rths_engine.parts import actuators, compensators, controllers, physics, specimens
 from rths_engine.parts.physics.effect import Effect
 from rths_engine.parts.specimens.commanded import Commanded
@@ -71,9 +71,9 @@ def stacked(rows: Sequence[Effects]) -> Effects:
     return Effects(*tables)
 
 
-@compiled
+@piece
 def own(effects, component):
-    """The effects of one component, from the stacked effects."""
+    """The effects of one component, as views into the stacked effects."""
     return Effects(effects.codes[component], effects.parameters[component], effects.states[component])
 
 

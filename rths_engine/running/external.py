@@ -42,7 +42,7 @@ class ExternalRun(Run):
 
     def __init__(self, planned: Plan | Model, motions: MotionLibrary, folder: Path | None = None):
         super().__init__(planned, motions)
-        self._effects = effects_in(self.model)  # one form of the loop for all plans: it is compiled once
+        self._effects = effects_in(self.model, self._setup.kept)  # one form of the loop for all plans: it is compiled once
         self._connections = external(self.plan)
         self._adapters: dict[int, Adapter] = {}
         self._terms = {j: self._terms_of(j, folder) for j in self._connections}

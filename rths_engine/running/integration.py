@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.kernel import compiled
+from rths_engine.foundation.kernel import piece
 from rths_engine.parts.physics.effect import STOREY
 from rths_engine.running.data import F_MEAS, LeftOut, Setup, State
 from rths_engine.running.dispatch import extend_storey, own
 from rths_engine.running.restoring import subtract_forces, subtract_product
 from rths_engine.running.solve import solve
+from rths_engine.running.yield_points import yield_and_push
 
 
-@compiled
+@piece
 def _resist_drifts(t, dt, state, left_out, residual):
     """Subtract from `residual` the forces of the structure's left-out effects, against the drifts of their storeys."""
     x, v = state.x, state.v
@@ -25,7 +26,7 @@ def _resist_drifts(t, dt, state, left_out, residual):
             residual[a] -= left_out.drifts[k, a] * force
 
 
-@compiled
+@piece
 def integrate(
     i: int, setup: Setup, state: State, left_out: LeftOut | None, residual: Array, work: Array, x_next: Array
 ) -> None:
@@ -43,6 +44,7 @@ def integrate(
     subtract_product(setup.damping, v, residual)
     subtract_product(setup.elastic, x, residual)
     subtract_forces(setup.members, x, state.plastic, residual)
+    yield_and_push(setup.points, state.points, x, setup.weight, setup.shift, setup.dt_step, residual)
     if left_out is not None:
         _resist_drifts(i * setup.dt_step, setup.dt_step, state, left_out, residual)
     remembers = setup.held.value.size > 0

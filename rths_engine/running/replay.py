@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from threading import Lock
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,8 +27,8 @@ from rths_engine.parts.physics.effect import (
 )
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import ROOM, Plan
-from rths_engine.running import passes, small_structure, starting
-from rths_engine.running.data import F_MEAS, MEMORY, TI, X_CMD, X_MEAS, State
+from rths_engine.running import passes, small_structure
+from rths_engine.running.data import F_MEAS, MEMORY, TI, X_CMD, X_MEAS
 from rths_engine.running.dispatch import (
     acts,
     actuate,
@@ -137,23 +138,29 @@ def compensator(part: Part, x_cmd: Array, x_meas: Array, dt: float) -> Array:
     return sent
 
 
-def structure(planned: Plan | Model, inputs: Array, reactions: Array) -> Array:
-    """Displacements (steps + 1, DOF), m, of a plan's structure under inputs and the stations' forces.
+class Moved(NamedTuple):
+    """How a structure moved: displacements (m) of the floors, and strokes (m) of the stations, at steps 0, 1, ..."""
+
+    floors: Array  # (steps + 1, floors)
+    strokes: Array  # (steps + 1, stations)
+
+
+def structure(planned: Plan | Model, inputs: Array, reactions: Array) -> Moved:
+    """The motion of a plan's structure under inputs and the stations' forces.
 
     The inputs (steps + 1, 1 + forces) are the ground acceleration (m/s^2) and the forces on floors (N); the stations' forces
     are (steps + 1, stations), N.
     """
     model = Model.of(planned)
     if small_structure.fits(model):
-        return small_structure.moved(model, inputs, reactions)
+        x = small_structure.moved(model, inputs, reactions)
+        return Moved(x[:, model.built.floors], x @ model.drifts.T)
     stations = len(model.plan.stations)
-    held, parts = setup(model, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
-    x, v, carry = starting.state(model, inputs[0] @ held.loads)
-    state = State(x, v, carry, np.zeros((len(model.built.members.dofs), 3)), parts, np.zeros((stations, MEMORY)))
-    history: Array = np.empty((len(inputs), len(x)))
-    history[0] = x
-    _structure(held, state, left_out(model), reactions, history)
-    return history
+    held, state = setup(model, inputs, np.zeros((len(inputs), stations)), np.zeros((0, stations, 2)))
+    history: Array = np.empty((len(inputs), len(state.x)))
+    history[0] = state.x
+    _structure(held, state, left_out(model, held.kept), reactions, history)
+    return Moved(history[:, held.floors], history @ held.drifts.T)
 
 
 def _stepping(extended: Sequence[Effect]) -> list[Effect]:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.kernel import compiled
+from rths_engine.foundation.kernel import piece
 from rths_engine.parts.structures.frame_model import CURVATURE, WEIGHTS
 
 
@@ -26,7 +26,7 @@ def rows(matrix: Array) -> Rows:
     return Rows(sparse.indptr.astype(np.uint64), sparse.indices.astype(np.uint64), sparse.data)
 
 
-@compiled
+@piece
 def subtract_product(matrix, vector, result):
     """Subtract a product: result -= matrix @ vector."""
     for a in range(result.size):
@@ -36,7 +36,7 @@ def subtract_product(matrix, vector, result):
         result[a] -= total
 
 
-@compiled
+@piece
 def subtract_forces(members, x, plastic, result):
     """Subtract the members' restoring forces: result -= r(x).
 
@@ -45,19 +45,20 @@ def subtract_forces(members, x, plastic, result):
     At each Lobatto point the trial moment is EI (kappa - kappa_p) and the back moment H kappa_p. Where they differ by more than
     the yield moment, kappa_p increases by the excess over EI + H (bilinear law, kinematic hardening, exact return mapping).
     """
-    basic = np.empty(3)
     for e in range(members.dofs.shape[0]):
         dofs, shape = members.dofs[e], members.shape[e]
         length, axial, bending = members.section[e, 0], members.section[e, 1], members.section[e, 2]
         yield_moment, hardening = members.section[e, 3], members.section[e, 4]
-        for row in range(3):
-            basic[row] = 0.0
-            for end in range(6):
-                if dofs[end] >= 0:
-                    basic[row] += shape[row, end] * x[dofs[end]]
+        elongation, turned, turned_end = 0.0, 0.0, 0.0
+        for end in range(6):
+            if dofs[end] >= 0:
+                moved = x[dofs[end]]
+                elongation += shape[0, end] * moved
+                turned += shape[1, end] * moved
+                turned_end += shape[2, end] * moved
         start, finish = 0.0, 0.0
         for point in range(3):
-            curvature = (CURVATURE[point, 0] * basic[1] + CURVATURE[point, 1] * basic[2]) / length
+            curvature = (CURVATURE[point, 0] * turned + CURVATURE[point, 1] * turned_end) / length
             moment = bending * (curvature - plastic[e, point])
             excess = abs(moment - hardening * plastic[e, point]) - yield_moment
             if excess > 0.0:
@@ -68,7 +69,7 @@ def subtract_forces(members, x, plastic, result):
                 moment -= bending * flow
             start += WEIGHTS[point] * CURVATURE[point, 0] * moment
             finish += WEIGHTS[point] * CURVATURE[point, 1] * moment
-        force = axial / length * basic[0]
+        force = axial / length * elongation
         for end in range(6):
             if dofs[end] >= 0:
                 result[dofs[end]] -= shape[0, end] * force + shape[1, end] * start + shape[2, end] * finish

@@ -20,9 +20,9 @@ from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS, Trip
 from rths_engine.results.channels import Channel, channels
 from rths_engine.results.result import Result
-from rths_engine.running import loop, starting
+from rths_engine.running import loop
 from rths_engine.running.coupled import advance_coupled, coupled
-from rths_engine.running.data import MEMORY, Record, State
+from rths_engine.running.data import Record
 from rths_engine.running.setup import effects_in, left_out, setup
 
 # chosen; see docs/decisions/0023
@@ -73,20 +73,16 @@ class Run:
         self.history: Array = np.zeros((self._steps + 1, 2, len(built.floors)))
         times = np.arange(self._steps + 1) * dt
         drive = np.repeat(plan.drive.sample(times)[:, None], stations, axis=1)
-        self._setup, parts = setup(model, _inputs(plan, self.motion, times), drive, (noise or sensor_noise)(plan, self.total))
-        memory = np.zeros((stations, MEMORY))
-        plastic = np.zeros((len(built.members.dofs), 3))
-        x, v, carry = starting.state(model, self._setup.inputs[0] @ self._setup.loads)
-        if initial:
-            x[:], v[:] = initial
-        self._state = State(x, v, carry, plastic, parts, memory)
+        inputs, noises = _inputs(plan, self.motion, times), (noise or sensor_noise)(plan, self.total)
+        self._setup, self._state = setup(model, inputs, drive, noises, initial)
         self._coupled = coupled(plan)
-        self._left_out = left_out(model) if self._coupled is None else effects_in(model)
+        effects = left_out if self._coupled is None else effects_in
+        self._left_out = effects(model, self._setup.kept)
         self._columns = columns(plan)
         shared = len(self._columns) - len(set(self._columns.tolist()))
         written = np.zeros((self.total, len(self.channels) + shared)) if shared else self.signals
         self._record = Record(written, self.history, np.zeros(4))
-        self.history[0] = x[self._setup.floors], v[self._setup.floors]
+        self.history[0] = self._state.x[self._setup.floors], self._state.v[self._setup.floors]
 
     @property
     def noise(self) -> Array:

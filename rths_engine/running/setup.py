@@ -16,35 +16,42 @@ from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS
 from rths_engine.results.channels import recorded
-from rths_engine.running.data import LeftOut, Setup
+from rths_engine.running import starting
+from rths_engine.running.condensed_frame import condensed_equations
+from rths_engine.running.data import MEMORY, LeftOut, Setup, State
 from rths_engine.running.dispatch import effects as effects_of
 from rths_engine.running.dispatch import stacked
+from rths_engine.running.equations import whole
 from rths_engine.running.restoring import rows
 
 
-def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[Setup, Array]:
-    """The constant data of a run, and the start states of the stations' parts (4, stations, widest).
+def setup(
+    model: Model, inputs: Array, drive: Array, noise: Array, initial: tuple[Sequence[float], Sequence[float]] | None = None
+) -> tuple[Setup, State]:
+    """The constant data of a run, and its start state: as planned, or from the displacements (m) and velocities `initial`.
 
     inputs (steps + 1, I), drive (steps + 1, stations), noise (substeps, stations, 2).
     """
     plan, built, scheme = model.plan, model.built, model.scheme
+    solved = condensed_equations(model) or whole(model)
     codes, parameters, parts = _built(plan)
     stations = len(plan.stations)
     held = Setup(
         n=plan.substeps,
         dt_step=plan.step,
         dt=plan.substep,
-        factor=model.factor,
-        held=rows(np.zeros_like(scheme.effective) if scheme.held is None else scheme.held),
+        factor=solved.factor,
+        held=rows(np.zeros_like(solved.damping) if solved.held is None else solved.held),
         weight=scheme.weight,
         shift=scheme.shift,
-        damping=rows(built.damping),
-        elastic=rows(built.elastic),
-        members=built.members,
-        loads=model.loads,
+        damping=rows(solved.damping),
+        elastic=rows(solved.elastic),
+        members=solved.members,
+        points=solved.points,
+        loads=solved.loads,
         inputs=inputs,
-        floors=np.array(built.floors, dtype=np.int64),
-        drifts=model.drifts,
+        floors=np.searchsorted(solved.kept, np.array(built.floors, dtype=np.int64)),
+        drifts=solved.drifts,
         drive=drive,
         dampers=np.array([float(station.dampers) for station in plan.stations]),
         codes=codes,
@@ -53,8 +60,14 @@ def setup(model: Model, inputs: Array, drive: Array, noise: Array) -> tuple[Setu
         noise=noise,
         temperatures=np.array([station.temperature for station in plan.stations]),
         columns=_columns(plan, len(model.loads) + len(built.floors)),
+        kept=solved.kept,
     )
-    return held, parts
+    x, v, carry = starting.state(model, inputs[0] @ model.loads)
+    if initial:
+        x[:], v[:] = initial
+    x, v, carry, points = solved.start(x, v, carry)
+    plastic = np.zeros((len(solved.members.dofs), 3))
+    return held, State(x, v, carry, plastic, points, parts, np.zeros((stations, MEMORY)))
 
 
 _SLOTS: tuple[Sequence[Any], ...] = (compensators.KINDS, actuators.KINDS, specimens.KINDS, controllers.KINDS)  # as Station.rig
@@ -79,13 +92,13 @@ def _columns(plan: Plan, first: int) -> NDArray[np.int64]:
     return np.column_stack([ends[:-1], ends[1:]]).astype(np.int64)
 
 
-def left_out(model: Model) -> LeftOut | None:
-    """The left-out effects of the plan in the form of the loop; None for a plan without effects."""
+def left_out(model: Model, kept: NDArray[np.int64]) -> LeftOut | None:
+    """The left-out effects of the plan in the form of the loop, whose degrees of freedom are `kept`; None without effects."""
     plan = model.plan
-    return effects_in(model) if _against(plan) or any(station.physics for station in plan.stations) else None
+    return effects_in(model, kept) if _against(plan) or any(station.physics for station in plan.stations) else None
 
 
-def effects_in(model: Model) -> LeftOut:
+def effects_in(model: Model, kept: NDArray[np.int64]) -> LeftOut:
     """The left-out effects of the plan in the form of the loop, also where it has none."""
     plan, built = model.plan, model.built
     against = _against(plan)
@@ -93,7 +106,7 @@ def effects_in(model: Model) -> LeftOut:
     return LeftOut(
         stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
         storeys=stacked([effects_of([effect], plan.step) for effect in against]),
-        drifts=np.array(drifts).reshape(len(drifts), len(built.mass)),
+        drifts=np.array(drifts).reshape(len(drifts), len(built.mass))[:, kept],
         stiffness=np.array([stiffness(built, row) for row in drifts]),
     )
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.factor import Factor
-from rths_engine.foundation.kernel import compiled
+from rths_engine.foundation.kernel import entry, piece
 
 
-@compiled
+@piece
 def solve(factor: Factor, right: Array, work: Array, result: Array) -> None:
     """Solve a factored system: result = inv(A) @ right.
 
@@ -18,12 +18,19 @@ def solve(factor: Factor, right: Array, work: Array, result: Array) -> None:
         work[k] = right[factor.order[k]]
     for k in range(count):
         known = work[k]
-        for entry in range(factor.start[k], factor.start[k + 1]):
-            work[factor.row[entry]] -= factor.value[entry] * known
+        for at in range(factor.start[k], factor.start[k + 1]):
+            work[factor.row[at]] -= factor.value[at] * known
     for k in range(count - 1, -1, -1):
         total = work[k] * factor.pivot_inverse[k]
-        for entry in range(factor.start[k], factor.start[k + 1]):
-            total -= factor.value[entry] * work[factor.row[entry]]
+        for at in range(factor.start[k], factor.start[k + 1]):
+            total -= factor.value[at] * work[factor.row[at]]
         work[k] = total
     for k in range(count):
         result[factor.order[k]] = work[k]
+
+
+@entry
+def solve_rows(factor: Factor, right: Array, work: Array, result: Array) -> None:
+    """Solve a factored system for every row: result = right @ inv(A). `right` and `result` (rows, n), `work` (n)."""
+    for row in range(right.shape[0]):
+        solve(factor, right[row], work, result[row])

@@ -37,7 +37,6 @@ from rths_engine.running.data import (
     State,
 )
 from rths_engine.running.dispatch import (
-    Effects,
     actuate,
     command,
     compensate,
@@ -45,6 +44,7 @@ from rths_engine.running.dispatch import (
     extend_actuator,
     extend_sensor,
     extend_specimen,
+    own,
     resist,
     resisted,
 )
@@ -79,12 +79,6 @@ def _resisted(code, parameters, state, flexibility, u, dt, last):
 
 
 @piece
-def _own(effects: Effects, j: int) -> Effects:
-    """The effects of station j, as views into the stacked effects."""
-    return Effects(effects.codes[j], effects.parameters[j], effects.states[j])
-
-
-@piece
 def begin(j: int, setup: Setup, state: State, x_cmd: float) -> tuple[int, float, float, float]:
     """Check the command of station j (m), compensate it and command the controller, whose current energises the specimen.
 
@@ -116,7 +110,7 @@ def move(j: int, setup: Setup, state: State, left_out: LeftOut | None, x_comp: f
     code, parameters, own_state = setup.codes[j, ACTUATOR], setup.parameters[ACTUATOR, j], state.parts[ACTUATOR, j]
     if left_out is None:
         return actuate(code, parameters, own_state, x_comp, memory[F_TRUE])
-    effects, force = _own(left_out.stations, j), memory[F_TRUE]
+    effects, force = own(left_out.stations, j), memory[F_TRUE]
     sent = extend_actuator(COMMAND, effects, x_comp, memory[X_TRUE], memory[V_TRUE], force, time, dt)
     x = actuate(code, parameters, own_state, sent, force)
     x = extend_actuator(PISTON, effects, x, sent, (sent - memory[X_SENT]) / dt, force, time, dt)
@@ -133,7 +127,7 @@ def react(j: int, setup: Setup, state: State, left_out: LeftOut | None, x: float
         force = resist(code, parameters, own_state, x, dt)
         memory[F_TRUE] = force
         return force
-    effects, force = _own(left_out.stations, j), memory[F_TRUE]
+    effects, force = own(left_out.stations, j), memory[F_TRUE]
     v = (x - memory[X_TRUE]) / dt
     u = extend_specimen(INPUT, effects, x, x, v, force, time, dt)
     flexibility = extend_specimen(SERIES, effects, 0.0, x, v, force, time, dt)
@@ -152,7 +146,7 @@ def read(
     """The readings (m, N) of the sensors of station j, with their left-out effects and the noise of the step (2)."""
     if left_out is None:
         return x + noise[0], force + noise[1]
-    effects, v, dt = _own(left_out.stations, j), state.memory[j, V_TRUE], setup.dt
+    effects, v, dt = own(left_out.stations, j), state.memory[j, V_TRUE], setup.dt
     x_meas = extend_sensor(X_SENSOR, effects, x + noise[0], x, v, x, time, dt)
     f_meas = extend_sensor(F_SENSOR, effects, force + noise[1], x, v, force, time, dt)
     return x_meas, f_meas

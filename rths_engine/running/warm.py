@@ -26,6 +26,7 @@ def warm() -> None:
     """Run one integration step of a small plan, without and with an effect and coupled, every replay and a ramp; read a row."""
     plan = templates.template("linear-damper").model_copy(update={"duration": 0.01})
     simulate(plan)
+    simulate(templates.template("table3-02").model_copy(update={"duration": 0.01}))  # a frame that can yield
     station = plan.stations[0].model_copy(update={"specimen_physics": (Asymmetry(),)})
     simulate(plan.model_copy(update={"stations": (station,)}))
     followed = ClientRun(Plan(test="client", stations=plan.stations, duration=1.0))

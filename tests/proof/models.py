@@ -122,7 +122,7 @@ class StructureModel:
         x, ground = self._moved(parts, which)
         found = []
         for key in self.keys:
-            row = x[:, self.floors[int(key[-1]) - 1]]
+            row = x[:, int(key[-1]) - 1]
             if key.startswith("a"):
                 row = np.gradient(np.gradient(row, self.case.dt), self.case.dt) + ground
             found.append(row)
@@ -142,11 +142,11 @@ class StructureModel:
         plan = self.case.plan.model_copy(
             update={"structure_physics": effects, "integrator": CrIntegrator(dt=dt / fine, substeps=1)}
         )
-        return replay.structure(plan, inputs, np.zeros((len(inputs), 0)))[::fine], felt
+        return replay.structure(plan, inputs, np.zeros((len(inputs), 0))).floors[::fine], felt
 
     def seen(self, storey: int = 1) -> Seen:
         x, _ = self._moved(self.base, 0)
-        moved = x @ self.rows[storey - 1]
+        moved = x @ self.rows[storey - 1][list(self.floors)]
         v = np.gradient(moved, self.case.dt)
         k = 1 / float(self.rows[storey - 1] @ np.linalg.solve(self.built.stiffness, self.rows[storey - 1]))
         top = float(np.max(np.abs(moved)))

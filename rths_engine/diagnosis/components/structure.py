@@ -164,8 +164,7 @@ class Structure(Component):
         return 1 if data.stepped or len(self.built.mass) > FEW else int(np.ceil(data.dt / FINE - 1e-9))
 
     def _floors(self, model: Model, inputs: Array) -> Array:
-        x = replay.structure(model, inputs, np.zeros((len(inputs), len(model.plan.stations))))
-        return x[:, self.built.floors]  # the degrees of freedom that effects add follow
+        return replay.structure(model, inputs, np.zeros((len(inputs), len(model.plan.stations)))).floors
 
     @cached_property
     def model(self) -> Model:

@@ -43,8 +43,9 @@ class RunningCorrelation:
             return
         lags, new = self.lags, np.array([x_cmd, x_meas])
         both = np.hstack([self._last, new])
-        self._products[lags:] += _correlated(both[0], x_meas)[::-1]
-        self._products[:lags] += _correlated(both[1], x_cmd)[:-1]
+        self._products += _correlated(both, lags)
+        if self._last.any():  # pairs of two earlier samples were added before
+            self._products -= _correlated(self._last, lags)
         self._power += np.sum(new**2, axis=1, keepdims=True)
         self._first = np.hstack([self._first, new[:, : lags - self._first.shape[1]]])
         self._last = both[:, -lags:]
@@ -71,8 +72,22 @@ class RunningCorrelation:
         return np.hstack([leading, self._power, lagging])
 
 
-def _correlated(longer: Array, shorter: Array) -> Array:
-    """sum_i longer[s + i] shorter[i] at every shift s at which both have samples. scipy.signal would take 1 s to import."""
-    size = 1 << (len(longer) - 1).bit_length()
-    products = np.fft.irfft(np.fft.rfft(longer, size) * np.conj(np.fft.rfft(shorter, size)), size)
-    return products[: len(longer) - len(shorter) + 1]
+def _correlated(both: Array, lags: int) -> Array:
+    """sum_i both[0, i] both[1, i + k] over all pairs of samples, at the lags k from -lags to lags.
+
+    scipy.signal would take 1 s to import.
+    """
+    size = _fast(both.shape[1] + lags)  # the lags do not meet around the end of the transform
+    cmd, meas = np.fft.rfft(both, size)
+    products = np.fft.irfft(meas * np.conj(cmd), size)
+    return np.concatenate([products[-lags:], products[: lags + 1]])
+
+
+def _fast(least: int) -> int:
+    """The smallest length 2^a 3^b 5^c of at least `least`: transforms of such lengths are fast."""
+    found = 1 << (least - 1).bit_length()
+    for five in (5**power for power in range(8)):
+        for three in (3**power for power in range(12)):
+            odd = three * five
+            found = min(found, odd << (-(-least // odd) - 1).bit_length())
+    return found
