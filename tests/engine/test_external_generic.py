@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rths_engine.client.session import Session
 from rths_engine.foundation.errors import PlanError
 from rths_engine.parts.connections.connection import RigError
 from rths_engine.planning.reading import read_plan
@@ -14,7 +15,8 @@ from rths_engine.planning.safety import Stop, Trip
 from rths_engine.running.opening import opened
 from rths_engine.running.run import Run
 from rths_engine.wire.generic import Action
-from tests.engine.external_plans import emulated, executed, hybrid, station
+from tests.engine.clients import led, served
+from tests.engine.external_plans import RATE, emulated, executed, hybrid, station
 from tests.engine.generic_server import serving
 from tests.engine.plans import LIBRARY
 
@@ -33,7 +35,8 @@ def test_a_rig_server_beside_an_emulated_station_gives_the_response_of_its_model
     scale = np.maximum(np.abs(model.signals).max(axis=0), 1e-3)
     assert np.all(np.abs(run.signals - model.signals) <= 1e-9 * scale)  # mm and kN on the wire round the last places
     assert server.asked[:2] == [Action.DISPLACEMENT, Action.FORCE], "the rig is read before it moves"
-    assert server.asked[2:6] == [Action.SET_TRIAL, Action.DISPLACEMENT, Action.FORCE, Action.COMMIT]
+    assert server.asked[2:7] == [Action.SET_TRIAL, Action.SET_TRIAL, Action.DISPLACEMENT, Action.FORCE, Action.COMMIT]
+    assert (server.trials[0].time, server.trials[0].displacement) == (0.0, (0.0,))
 
 
 def test_signs_and_units_of_the_rig_are_converted_and_the_end_holds_the_last_displacement() -> None:
@@ -46,7 +49,28 @@ def test_signs_and_units_of_the_rig_are_converted_and_the_end_holds_the_last_dis
     assert hold.displacement[0] == pytest.approx(last) and hold.velocity[0] == hold.acceleration[0] == 0.0
     assert server.asked[-2:] == [Action.SET_TRIAL, Action.END]
     times = [trial.time for trial in server.trials[:-1]]
-    assert np.allclose(times, np.arange(1, run.total + 1) * run.dt)
+    assert np.allclose(times, np.arange(run.total + 1) * run.dt)
+
+
+def test_the_rig_of_this_program_follows_the_engine_and_both_record_the_same() -> None:
+    """`rths rig` as the peer: its own loop, actuator and specimen behind the protocol."""
+    rig = led([{**station(1), "storey": 1, "connection": {"kind": "emulated"}}], controller_rate=RATE, duration=1.0)
+    runs = []
+
+    def engine(session: Session) -> None:
+        port = int(session.address.rpartition(":")[2])
+        runs.append(executed(hybrid(station(1, generic(port, displacement_unit="m", force_unit="N")), station(2))))
+
+    session = served(rig, engine)
+    (run,) = runs
+    assert run.trip is None and session.run.trip is None and session.told()["ended"] == "The client ended the test."
+    assert np.allclose(run.signals, emulated(run.plan).signals, rtol=1e-9, atol=1e-9)
+    own, theirs = [one.key for one in run.channels], [one.key for one in session.run.channels]
+    assert session.run.done == run.done
+    for key in ("x_meas.1", "f_meas.1"):
+        assert np.array_equal(session.run.signals[: run.done, theirs.index(key)], run.signals[:, own.index(key)])
+    told = session.told()
+    assert (told["steps"], told["iterations"], told["warnings"]) == (run.done, 0, [])
 
 
 @pytest.mark.parametrize(
@@ -58,7 +82,7 @@ def test_signs_and_units_of_the_rig_are_converted_and_the_end_holds_the_last_dis
     ],
 )
 def test_a_lost_rig_ends_the_test_with_what_was_recorded(ends: str, what: str) -> None:
-    with serving(2.0, ends={40: ends}) as server:
+    with serving(2.0, ends={41: ends}) as server:
         run = executed(hybrid(station(1), station(2, generic(server.port, patience=0.1))))
     stop = run.trip
     assert isinstance(stop, Stop) and run.done == 39
@@ -80,7 +104,7 @@ def test_a_command_beyond_its_limit_is_never_sent() -> None:
         run = executed(hybrid(station(1, generic(server.port), limits=limits)))
     assert isinstance(run.trip, Trip) and run.trip.limit == "displacement"
     assert max(abs(trial.displacement[0]) for trial in server.trials) <= 2.0
-    assert len(server.trials) == run.done + 1 and server.asked[-1] == Action.END  # the last one holds
+    assert len(server.trials) == run.done + 2 and server.asked[-1] == Action.END  # the first one is zero, the last one holds
 
 
 def test_a_compensated_command_beyond_the_limit_is_never_sent() -> None:

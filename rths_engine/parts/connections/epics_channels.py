@@ -1,10 +1,13 @@
-"""The channels of an EPICS connection: Channel Access through aioca, with one event loop that runs within each call."""
+"""The channels of an EPICS connection: Channel Access through aioca, whose event loop has a thread of its own.
+
+Channel Access binds its channels to the thread that opened them, so every call of an adapter hands its work to that thread.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import math
+import threading
 from collections.abc import Coroutine
 from typing import Any, ClassVar, TypeVar
 
@@ -28,6 +31,7 @@ class EpicsRig(Adapter):
     def __init__(self, connection: ProcessVariables, terms: Terms):
         self.given, self.terms, self.scale = connection, terms, connection.scale
         self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True, name="rths-epics")
         self._latest: dict[str, Any] = {}  # of monitored variables, by name
         self._monitors: list[Any] = []
         self._put: asyncio.Future[Any] | None = None
@@ -36,6 +40,7 @@ class EpicsRig(Adapter):
     def open(self) -> Reading:
         self._ca = package("aioca", "epics", self.terms)
         EpicsRig._opened.add(id(self))
+        self._thread.start()
         try:
             return self._wait(self._connect(), OPENING_S + self.given.patience)
         except (RigError, KeyboardInterrupt):
@@ -55,19 +60,26 @@ class EpicsRig(Adapter):
 
     def close(self) -> None:
         """The records keep the last command: an IOC holds it until another is put."""
-        if self._loop.is_closed():
+        if not self._thread.is_alive():
             return
+        EpicsRig._opened.discard(id(self))
         with contextlib.suppress(Exception):
-            for monitor in self._monitors:
-                monitor.close()
-            EpicsRig._opened.discard(id(self))
-            if not EpicsRig._opened:
-                self._ca.purge_channel_caches()
-            pending = asyncio.all_tasks(self._loop)
-            for task in pending:
-                task.cancel()
-            self._loop.run_until_complete(asyncio.wait(pending) if pending else asyncio.sleep(0))
-        self._loop.close()
+            asyncio.run_coroutine_threadsafe(self._leave(), self._loop).result(OPENING_S)
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(OPENING_S)
+        if not self._thread.is_alive():
+            self._loop.close()
+
+    async def _leave(self) -> None:
+        for monitor in self._monitors:
+            monitor.close()
+        if not EpicsRig._opened:
+            self._ca.purge_channel_caches()
+        pending = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in pending:
+            task.cancel()
+        if pending:
+            await asyncio.wait(pending)
 
     async def _connect(self) -> Reading:
         given, ca = self.given, self._ca
@@ -174,10 +186,12 @@ class EpicsRig(Adapter):
         await self._news.wait()
 
     def _wait(self, awaited: Coroutine[Any, Any, T], patience: float) -> T:
-        """Run the event loop until the awaited is done. Raises Lost after `patience` seconds and when a channel fails."""
+        """The result of the awaited in the thread of the loop. Raises Lost after `patience` (s) and when a channel fails."""
+        future = asyncio.run_coroutine_threadsafe(awaited, self._loop)
         try:
-            return self._loop.run_until_complete(asyncio.wait_for(awaited, patience if math.isfinite(patience) else None))
+            return future.result(patience)
         except TimeoutError:
+            future.cancel()
             raise Lost(f"it did not answer within {patience:g} s") from None
         except self._ca.CANothing as error:
             raise Lost(str(error)) from None

@@ -22,8 +22,9 @@ TRANSPORTS = {"tcp": "TCP", "udp": "UDP"}
 class GenericClient(External):
     """A server of the generic experimental element, with one degree of freedom: `rths rig`, OpenFresco, or a laboratory's own.
 
-    Every controller step sends the trial displacement (3), asks for displacement (7) and force (10), and commits (5). The end
-    repeats the last displacement with zero velocity and says goodbye (99).
+    The start sends zero displacement at time zero. Every controller step sends the trial displacement (3), asks for the
+    displacement (7) and the force (10), and commits (5). The end repeats the last displacement with zero velocity, and says
+    goodbye (99).
     """
 
     kind: Literal["generic_client"] = "generic_client"
@@ -79,6 +80,8 @@ class GenericRig(Adapter):
             raise self.terms.refused("host", f"the {given.peer} does not answer: {said}", None, fix) from None
 
     def command(self, displacement: float, current: float, time: float) -> None:
+        if self._last is None:
+            self._trial(0.0, 0.0, 0.0, 0.0)  # a server begins to count time at the first message, as OpenSees sends it
         x = displacement / self.scale.displacement
         before, v_before, _ = self._last or (x, 0.0, 0.0)
         v = (x - before) / self.terms.dt
