@@ -112,6 +112,20 @@ def test_stations_are_duplicated_and_removed_and_their_parts_exchanged(form: Pag
     expect(form.locator(".good")).to_be_visible()
 
 
+def test_a_station_becomes_an_external_rig_in_its_folded_connection(form: Page) -> None:
+    connection = form.locator("details.subfold").first
+    connection.locator("summary").click()
+    connection.locator("select").first.select_option("generic_client")
+    expect(connection.locator("summary")).to_have_text("Connection: Generic TCP or UDP server")
+    connection.get_by_label("Port", exact=True).fill("9000")
+    expect(form.locator(".fold-facts").first).to_contain_text("External: Generic TCP or UDP server")
+    expect(form.get_by_text("has no clock that the rig of station 1 (Storey 1 damper) could follow").first).to_be_visible()
+    form.locator("[id='f-pace.kind']").select_option("real_time")
+    expect(form.get_by_text("has no clock")).to_have_count(0)
+    expect(form.locator("[aria-invalid=true]")).to_have_count(0)
+    expect_accessible(form)
+
+
 def test_a_record_is_previewed_and_added_to_the_library(form: Page, tmp_path: Path) -> None:
     record = tmp_path / "Site shake.txt"
     record.write_text("\n".join(f"{0.3 * ((-1) ** n) * n / 400:.6f}" for n in range(400)))
