@@ -15,7 +15,9 @@ LONGEST_UNKNOWN = 600.0  # s, of a test that its client ends
 class Client(Value):
     """How the client reaches the rig: by the protocol of OpenSees' `genericClient`, see docs/opensees-rig.md."""
 
-    transport: Literal["tcp", "udp"] = Field("tcp", title="Transport")
+    transport: Literal["tcp", "udp"] = Field(
+        "tcp", title="Transport", json_schema_extra={"titles": {"tcp": "TCP", "udp": "UDP"}}
+    )
     port: int = Field(8090, title="Port", ge=0, le=65_535, description="0: any free port")
     waiting: float = quantity("Longest wait for the client", "s", gt=0, le=86_400, default=600.0)
     patience: float = quantity(

@@ -82,9 +82,9 @@ class Stop(Trip):
 
     @property
     def sentence(self) -> str:
-        return f"Stopped at {self.time_s:.3f} s: {self.reason}"
+        return f"Stopped at {self.time_s:.3f} s. {self.reason}"
 
     def as_dict(self) -> dict[str, Any]:
         """JSON form of a trip, with None for what a stop does not have."""
-        none = {"station": None, "value": None, "bound": None}
-        return {**asdict(self), **none, "sentence": self.sentence}
+        own = {**asdict(self), "station": None, "value": None, "bound": None, "sentence": self.sentence}
+        return {name: value for name, value in own.items() if name != "reason"}

@@ -25,7 +25,7 @@ function waiting({ address, transport, lines, note }) {
   return [
     el("h2", {}, "Waiting for client"),
     el("p", {}, `The rig listens at ${address} by ${transport.toUpperCase()}. Put this element into the script of the structure, with your numbers for TAG and NODE, and run the script.`),
-    ...(note ? [el("p", { class: "note" }, note)] : []),
+    ...(note ? [el("p", { class: "client-warning" }, note)] : []),
     el("dl", { class: "client-lines" }, ...rows.flat()),
     el("p", { class: "muted" }, el("a", { href: "/help/opensees-rig" }, "How to drive the rig from OpenSees")),
   ];
@@ -44,7 +44,7 @@ function line(language, text) {
 /** @param {Client} client @returns {HTMLElement[]} */
 function connected(client) {
   const { warnings = [] } = client;
-  return [el("p", { class: "client-steps" }, stepsOf(client)), ...warnings.map((text) => el("p", { class: "note" }, text))];
+  return [el("p", { class: "client-steps" }, stepsOf(client)), ...warnings.map((text) => el("p", { class: "client-warning" }, text))];
 }
 
 /** The steps of a client in words. @param {Client} client */
