@@ -26,7 +26,7 @@ run: setup
 	@$(BIN)/rths serve --demo
 
 test: setup browser postgres opensees check
-	$(BIN)/pytest -n 2 --dist loadfile $(if $(PYTEST),,--cov) $(PYTEST)
+	$(BIN)/pytest -n 2 --dist loadfile --durations 25 $(if $(PYTEST),,--cov) $(PYTEST)
 
 test-clone: setup
 	$(BIN)/pytest -m slow tests/test_fresh_clone.py $(PYTEST)

@@ -23,6 +23,7 @@ from rths_engine.results.channels import CHANNELS
 
 RECORDED = (State.COMPLETED, State.TRIPPED, State.CANCELLED)
 OFFERED = 100  # runs, and recordings, to choose from
+ORIGIN = ("template", "notes")  # fields that change no test: below those that do
 LOOKED_AT = 200  # runs among which the previous run of a template is looked for
 
 
@@ -42,7 +43,7 @@ class CompareService:
         index = _reference(refs, reference)
         found = self._opened(refs)
         plans = [one.plan for one in found if one.plan is not None]
-        rows = differences(plans, leave_out=("name", "schema"))
+        rows = sorted(differences(plans, leave_out=("name", "schema")), key=lambda row: row.path in ORIGIN)
         return ComparisonOut(
             items=[_item(one) for one in found],
             reference=index,

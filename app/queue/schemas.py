@@ -12,7 +12,7 @@ from app.text import Storable
 
 MOST_RUNS = 1000  # runs in one request, and in one answer
 Ids = Annotated[list[Annotated[Storable, Field(max_length=36)]], Field(min_length=1, max_length=MOST_RUNS)]
-Priority = Annotated[int, Field(ge=-1, le=2)]
+Priority = Annotated[int, Field(strict=True, ge=-1, le=2)]
 PRIORITIES = {2: "urgent", 1: "high", 0: "normal", -1: "low"}
 
 

@@ -36,7 +36,11 @@ class RigIn(BaseModel):
     name: Named = Field(max_length=80)
     kind: RigKind = RigKind.PHYSICAL
     tests_at_a_time: int | None = Field(
-        None, ge=1, le=1000, description="number of tests at the same time; null: any number, or 1 on a physical rig"
+        None,
+        strict=True,
+        ge=1,
+        le=1000,
+        description="number of tests at the same time; null: any number, or 1 on a physical rig",
     )
     actuators: list[ActuatorCapacity] = Field(
         [], max_length=MOST_STATIONS, description="capacities of the actuators; station 1 of a plan moves the first"

@@ -37,7 +37,7 @@ class Submission(BaseModel):
     submitted_by: Storable = Field("", max_length=80)
     library: FromLibrary | None = None
     rig: Storable = Field(EMULATED, max_length=36, description="id of the rig; by default the emulated laboratory")
-    priority: int = Field(0, ge=-1, le=2, description="2 urgent, 1 high, 0 normal, -1 low")
+    priority: int = Field(0, strict=True, ge=-1, le=2, description="2 urgent, 1 high, 0 normal, -1 low")
 
 
 class Person(BaseModel):

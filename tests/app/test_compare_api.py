@@ -35,7 +35,7 @@ def slow(service: Service) -> str:
 
 @pytest.fixture(scope="module")
 def fast(service: Service) -> str:
-    return done(service, driven(service, 2.0, name="Fast"))
+    return done(service, driven(service, 2.0, name="Fast", notes="Twice as fast"))
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +78,7 @@ def test_only_the_fields_that_differ_are_listed_and_excitations_that_differ_are_
     service: Service, slow: str, fast: str
 ) -> None:
     found = compare(service, slow, fast)
-    assert [one["path"] for one in found["fields"]] == ["drive.shape.frequency", "drive.shape.cycles"]
+    assert [one["path"] for one in found["fields"]] == ["drive.shape.frequency", "drive.shape.cycles", "notes"]
     frequency = found["fields"][0]
     assert (frequency["texts"], frequency["unit"], frequency["differs"]) == (["1", "2"], "Hz", [False, True])
     labels = [one["label"] for one in found["items"]]

@@ -106,7 +106,8 @@ def test_a_move_that_makes_no_sense_is_refused_with_the_reason(lab: Lab) -> None
     assert lab.refused("/queue/order", runs=[b], before=b)[0] == 422
     assert "one of 'before', 'after' and 'to'" in lab.refused("/queue/order", runs=[b])[1]
     assert lab.refused("/queue/order", runs=["none"], to="top") == (404, "There is no run none.")
-    assert lab.refused("/queue/priority", runs=[b], priority=3)[0] == 422
+    for value in (3, True, "1", 1.5):
+        assert lab.refused("/queue/priority", runs=[b], priority=value)[0] == 422
     found = lab.post("/queue/cancel", runs=[a, b, "none"], by="Bo")
     assert found == {"cancelled": [a, b], "refused": [{"id": "none", "reason": "There is no run none."}]}
 

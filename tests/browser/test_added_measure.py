@@ -19,7 +19,7 @@ from playwright.sync_api import Browser, expect
 from app import db
 from rths_engine.recordings import run_file
 from tests.browser.conftest import visit
-from tests.browser.service import ROOT, Service, importing, running
+from tests.browser.service import ROOT, STARTED_WITHIN_S, Service, importing, running
 
 KEY, HEADING = "mean_force_kN", "Mean force, kN"
 
@@ -39,8 +39,9 @@ def added(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def extended(browser: Browser, added: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Service, str]]:
     """A service with the measure, and a run that it has executed."""
     with running(tmp_path_factory.mktemp("extended"), added) as service:
-        service.warm_up()
-        yield service, service.completed()
+        run = service.submit(duration=3.0)
+        service.wait(run, "completed", within_s=STARTED_WITHIN_S)
+        yield service, run
 
 
 def expected(service: Service, run_id: str) -> list[float]:

@@ -71,6 +71,7 @@ def test_rigs_and_webhooks_are_added_in_the_settings(service: Service, opened: O
     expect(page.locator("#rig-rows tr")).to_have_count(2)
     expect(page.locator("#rig-rows tr").last).to_contain_text("physical, one test at a time")
     expect(page.locator("#rig-rows tr").last).to_contain_text("Actuator 1: 150 mm, –, –")
+    assert page.locator("#rigs .scroll").evaluate("table => table.scrollWidth <= table.clientWidth"), "a row is cut"
     assert service.get("/rigs")["rigs"][1]["actuators"][0]["stroke"] == pytest.approx(0.15)
     hooks = page.locator("#webhooks")
     hooks.get_by_label("Address").fill("http://127.0.0.1:9/hook")
