@@ -57,6 +57,16 @@ def parser() -> argparse.ArgumentParser:
     )
     _data(run)
 
+    about = "measure whether this machine meets the deadlines of a test in real time; exit code 1 where a step missed"
+    deadline = _command(commands, "deadline", "app.cli.deadline:deadline", about)
+    deadline.add_argument("--plan", metavar="PLAN.yaml", help="plan whose steps are executed (default: template two-storeys)")
+    deadline.add_argument("--rate", type=float, metavar="HZ", help="steps a second (default: controller rate of the plan)")
+    deadline.add_argument("--steps", type=int, metavar="N", help="number of steps (default: a minute)")
+    deadline.add_argument("--core", type=int, metavar="C", help="core to pin the loop to, counted from 0 (default: any)")
+    deadline.add_argument("--priority", type=int, metavar="P", help="real-time priority, 1 to 99 (default: ordinary)")
+    deadline.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    _data(deadline)
+
     about = "let another program, such as OpenSees, drive the rig of a plan: docs/opensees-rig.md"
     rig = _command(commands, "rig", "app.cli.rig:rig", about)
     rig.add_argument("plan", metavar="PLAN.yaml", help="file with a plan of the kind client; - reads standard input")

@@ -8,6 +8,7 @@ from typing import Any
 
 from rths_engine.planning.paper import PAPER
 from rths_engine.planning.plan import Plan
+from rths_engine.results import timing_text
 from rths_engine.results.measure import FloorMeasure, Measure, RunMeasure, StationMeasure
 from rths_engine.results.measures import of
 
@@ -35,6 +36,8 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
     for whole in of(RunMeasure, plan.test):
         yield f"{whole.heading}: {whole.text(summary[whole.key])}"
     yield from _client(summary.get("client"))
+    if summary.get("timing"):
+        yield from timing_text.lines(summary["timing"])
     if out:
         yield f"Recording: {out} ({out.stat().st_size / 1e6:.1f} MB)"
 

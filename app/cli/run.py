@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import signal
 import sys
 import time
@@ -20,12 +19,13 @@ from app.cli.run_input import check_folder, read_model
 from app.cli.settings import settings
 from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import RealTime
 from rths_engine.recordings.run_file import save
 from rths_engine.running.opening import opened
+from rths_engine.running.paced import PacedRun
 from rths_engine.running.run import Run
 from rths_engine.running.warm import warm
 
-CHUNK_S = 0.02  # of a test in real time
 CHUNK_STEPS = 64  # of a test as fast as possible
 NAP_S = 0.1
 
@@ -70,20 +70,24 @@ class Interrupt:
 def advance(test: Run, interrupt: Interrupt) -> float:
     """Run a test at the pace of its plan, to its end or until interrupted. Returns the wall time (s)."""
     warm()
-    pace, step = test.plan.pace, test.plan.step
-    factor = pace.factor if pace.kind == "real_time" else math.inf
-    steps = max(1, round(CHUNK_S * factor / step)) if math.isfinite(factor) else CHUNK_STEPS
     start = time.perf_counter()
     layout = "{l_bar}{bar}| {n:.1f} of {total:.1f} s simulated in {elapsed}, {remaining} left"
     with tqdm(total=test.total * test.dt, bar_format=layout, leave=False, disable=None) as bar:
+        if isinstance(test.plan.pace, RealTime) and test.models_only:
+            _follow(PacedRun(test, test.plan.pace), interrupt, bar)
         while not test.finished and not interrupt.asked:
-            ahead = test.done * test.dt / factor - (time.perf_counter() - start)
-            if ahead > 0:
-                time.sleep(min(ahead, NAP_S))
-            else:
-                new = test.advance(steps)
-                bar.update((new.stop - new.start) * test.dt)
+            new = test.advance(CHUNK_STEPS)
+            bar.update((new.stop - new.start) * test.dt)
     return time.perf_counter() - start
+
+
+def _follow(paced: PacedRun, interrupt: Interrupt, bar: tqdm[Any]) -> None:
+    """Run a test in real time and show its progress, to its end or until interrupted."""
+    paced.start()
+    while not paced.take(NAP_S):
+        bar.update(paced.run.done * paced.run.dt - bar.n)
+        if interrupt.asked:
+            paced.stop()
 
 
 def _failed(issues: Iterable[Issue], as_json: bool, code: int) -> int:

@@ -70,6 +70,7 @@ class Run(Ordered, Job, Base):
     )
     planned: Mapped[RunPlan] = relationship(cascade="all, delete-orphan")
     plan: AssociationProxy[dict[str, Any]] = association_proxy("planned", "plan", creator=lambda plan: RunPlan(plan=plan))
+    timing: AssociationProxy[dict[str, Any] | None] = association_proxy("planned", "timing")
 
     def __init__(self, **values: Any):
         values.setdefault("test", values.get("plan", {}).get("test", "hybrid"))  # an earlier plan without it is hybrid
@@ -105,12 +106,13 @@ class Rig(Base):
 
 
 class RunPlan(Base):
-    """The plan of a run. It is read for one run at a time."""
+    """The plan of a run, and the timing of a run in real time. They are read for one run at a time."""
 
     __tablename__ = "run_plan"
 
     run_number: Mapped[int] = mapped_column(sa.ForeignKey("run.number", ondelete="CASCADE"), primary_key=True)
     plan: Mapped[dict[str, Any]]
+    timing: Mapped[dict[str, Any] | None]
 
 
 class ValuePath(Base):

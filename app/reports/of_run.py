@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from app.reports.deadlines import deadlines
 from app.reports.document import (
     Block,
     Document,
@@ -76,6 +77,7 @@ def document(
         *_excitations(excitation(recording, motions or MotionLibrary(None), figures), marks),
         *_stations(recording, figures, marks),
         *_structure(recording, figures, marks),
+        *deadlines(recording.summary.get("timing")),
         Section("Test plan", _plan(recording)),
         Section("Test record", record(run, recording)),
         Section("Repeating this test", [Text([SAME]), Facts(_origin(run, recording), long=True)], together=True),

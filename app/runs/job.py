@@ -61,6 +61,7 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
     def store(self, job: Run, result: Outcome) -> Ending:
         summary = _finite(result.summary)
         job.trip, job.client = summary["trip"], summary.get("client")
+        job.timing = summary.get("timing")
         job.elapsed_s, job.simulated_s = summary["elapsed_s"], summary["simulated_s"]
         for one in (*of(FloorMeasure), *of(RunMeasure)):
             setattr(job, one.key, summary[one.key])

@@ -158,9 +158,12 @@ class RunOut(_RunMeasured):
 
 
 class RunDetail(RunOut):
-    """A run with its plan."""
+    """A run with its plan and, of a test in real time, its timing."""
 
     plan: PlanData
+    timing: dict[str, Any] | None = Field(
+        None, description="deadlines of the controller steps of a test in real time; docs/deadlines.md describes each key"
+    )
     external: list[str] = Field([], description="what each external station of the plan is, as a sentence")
 
     @classmethod

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from contextlib import ExitStack
 
@@ -46,33 +45,54 @@ def execute(order: RunOrder, line: Line) -> Outcome:
 
 
 class _Telling(Viewers):
-    """Advances a run in chunks at its pace, sends frames and progress, and checks for a cancel between chunks."""
+    """Runs a test at its pace, sends frames and progress, and stops it when it is cancelled."""
 
     def run_to_end(self) -> bool:
         """Run the test to its end or until it is cancelled; returns whether it was cancelled."""
-        pace = self.run.plan.pace
-        factor = pace.factor if pace.kind == "real_time" else math.inf
-        dt_step = self.run.plan.step
-        chunk = max(1, round(CHUNK_S * factor / dt_step)) if math.isfinite(factor) else 16
-        start, told = time.perf_counter(), -PROGRESS_S
-        while not self.run.finished:
-            if self.line.cancelled(within_s=self._wait(start, factor)):
+        self._start, self._told = time.perf_counter(), -PROGRESS_S
+        if self.run.plan.pace.kind == "real_time" and self.run.models_only:
+            return self._in_real_time()
+        return self._in_parts()
+
+    def _in_real_time(self) -> bool:
+        """Follow the loop, which runs in a thread of its own and waits for nothing here."""
+        from rths_engine.running.paced import PacedRun
+
+        paced = PacedRun(self.run, self.run.plan.pace)
+        paced.start()
+        ended = False
+        while not ended:
+            cancelled = self.line.cancelled(within_s=CHUNK_S)
+            if cancelled:
+                paced.stop()
                 self.line.stopping()
-                self.tell(time.perf_counter() - start, ended=True)
+            ended = paced.take()
+            self._follow(ended)
+        return cancelled and not self.run.finished
+
+    def _in_parts(self) -> bool:
+        """Advance the test in parts of about CHUNK_S: as fast as possible, or at the pace of its external rigs."""
+        chunk = 16
+        while not self.run.finished:
+            if self.line.cancelled(within_s=0.0):
+                self.line.stopping()
+                self._tell(time.perf_counter() - self._start, ended=True)
                 return True
             begun = time.perf_counter()
             self.run.advance(chunk)
-            now = time.perf_counter()
-            if math.isinf(factor):
-                chunk = max(1, round(chunk * min(4.0, CHUNK_S / max(now - begun, 1e-6))))
-            if now - start - told >= PROGRESS_S or self.run.finished:
-                told = now - start
-                self.tell(told, ended=self.run.finished)
-            else:
-                self.frame(ended=False)
+            chunk = max(1, round(chunk * min(4.0, CHUNK_S / max(time.perf_counter() - begun, 1e-6))))
+            self._follow(self.run.finished)
         return False
 
-    def _wait(self, start: float, factor: float) -> float:
-        """Seconds until the wall clock reaches the time of the test."""
-        due: float = self.run.done * self.run.dt / factor
-        return max(0.0, due - (time.perf_counter() - start))
+    def _follow(self, ended: bool) -> None:
+        """Send the new frames, and the progress from time to time."""
+        elapsed = time.perf_counter() - self._start
+        if elapsed - self._told >= PROGRESS_S or ended:
+            self._told = elapsed
+            self._tell(elapsed, ended)
+        else:
+            self.frame(ended=False)
+
+    def _tell(self, elapsed: float, ended: bool) -> None:
+        timing = {"timing": self.run.measured.shown()} if self.run.measured else {}
+        self.tell(elapsed, ended, **timing)

@@ -110,10 +110,17 @@ class Fastest(Value):
 
 
 class RealTime(Value):
-    """The test runs in real time times a speed factor; 2 is twice as fast."""
+    """The test runs in real time times a speed factor; 2 is twice as fast. Every controller step is measured.
+
+    The operating system is asked for `core` and `priority` for the loop. Where it refuses, the test runs without and says so.
+    """
 
     kind: Literal["real_time"] = "real_time"
     factor: float = quantity("Speed factor", shown="1", ge=0.01, le=1000, default=1.0, help="1: real time")
+    core: int | None = quantity("Processor core", ge=0, le=4095, default=None, help="empty: any core; counted from 0")
+    priority: int | None = quantity(
+        "Real-time priority", ge=1, le=99, default=None, help="empty: ordinary priority; the operating system must permit it"
+    )
     title: ClassVar[str] = "Real time"
 
 

@@ -2,8 +2,9 @@
 
 `/signals` float64 (substeps, channels) in SI, gzip 4 with shuffle, one column for each channel; its attributes `keys` and
 `units` describe the columns. `/history` (steps + 1, 2, floors) with x and v at the integration steps. `/plan` JSON text.
-Attributes of the file: `schema`, `summary`, `measures` (declarations of the measures in `summary`), `channels`, `motion`
-(JSON), `dt` (s), `total` (substeps of the whole test), `code_version`, `digest`.
+`/timing` float32 (substeps, 2), only of a test in real time: how long after its due time each controller step began, and how
+long its work took, in s. Attributes of the file: `schema`, `summary`, `measures` (declarations of the measures in `summary`),
+`channels`, `motion` (JSON), `dt` (s), `total` (substeps of the whole test), `code_version`, `digest`.
 """
 
 from __future__ import annotations
@@ -138,6 +139,10 @@ def _write(file: h5py.File, result: Result) -> None:
     signals = file.create_dataset("signals", data=result.signals, **compressed)
     signals.attrs.update(keys=[one.key for one in result.channels], units=[one.unit for one in result.channels])
     file.create_dataset("history", data=result.history, **compressed)
+    if result.timing is not None:
+        times = np.column_stack([result.timing.delays, result.timing.lengths]) * np.float32(1e-9)
+        timing = file.create_dataset("timing", data=times, **compressed)
+        timing.attrs.update(keys=["delay", "length"], units=["s", "s"])
     motion = {"name": result.motion.name, "sha256": result.motion.sha256, "provenance": result.motion.provenance}
     file.attrs.update(
         schema=SCHEMA,

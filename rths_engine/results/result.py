@@ -13,13 +13,15 @@ from rths_engine.planning.safety import Trip
 from rths_engine.results import measured
 from rths_engine.results.channels import Channel
 from rths_engine.results.signals import RunSignals
+from rths_engine.results.timing import Timing
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
     """Signals (substeps, channels) every `dt` (s) and history (steps + 1, 2, floors) of x and v at integration steps; SI.
 
-    `total` is the number of substeps of the whole test, recorded or not. `client` tells of the client of a test that has one.
+    `total` is the number of substeps of the whole test, recorded or not. `client` tells of the client of a test that has one,
+    and `timing` of the deadlines of a test in real time.
     """
 
     model: Model
@@ -33,6 +35,7 @@ class Result:
     signals: Array
     history: Array
     client: dict[str, Any] | None = None
+    timing: Timing | None = None
 
     @property
     def plan(self) -> Plan:
@@ -57,4 +60,5 @@ class Result:
             "simulated_s": self.simulated_s,
             **measured.of_run(whole),
             **({"client": self.client} if self.client else {}),
+            **({"timing": self.timing.summary()} if self.timing else {}),
         }

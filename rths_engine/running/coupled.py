@@ -19,6 +19,7 @@ from rths_engine.running.controller_step import commanded, find_ends, record_str
 from rths_engine.running.data import F_TRUE, V_TRUE, X_END, X_TRUE, LeftOut, Record, Setup, State
 from rths_engine.running.dispatch import resist
 from rths_engine.running.integration import integrate
+from rths_engine.running.pacing import STOPPED, Pacing, await_step, end_step, start
 from rths_engine.running.station import begin, finish, move, react, read
 
 X_CMD, X_COMP, CURRENT, X, FORCE = range(5)  # of a station in the present controller step
@@ -144,20 +145,28 @@ def step_together(
 
 @entry
 def advance_coupled(
-    first: int, last: int, setup: Setup, state: State, left_out: LeftOut, shared: Coupled, record: Record
+    first: int, last: int, setup: Setup, state: State, left_out: LeftOut, shared: Coupled, record: Record, pacing: Pacing
 ) -> tuple[int, int]:
     """Integration steps first to last - 1, as `loop.advance`, with stations that share specimens."""
-    n, stations = setup.n, setup.dampers.size
+    n, stations, paced = setup.n, setup.dampers.size, pacing.period > 0.0
     residual, work, x_next = np.empty(state.x.size), np.empty(state.x.size), np.empty(state.x.size)
     ends = np.empty((stations, 2))
+    if paced:
+        start(pacing)
     for i in range(first, last):
-        integrate(i, setup, state, left_out, residual, work, x_next)
-        find_ends(i, setup, state, x_next, ends)
         for q in range(1, n + 1):
             done = i * n + q - 1
+            if paced:
+                await_step(done, pacing)
+            if q == 1:
+                integrate(i, setup, state, left_out, residual, work, x_next)
+                find_ends(i, setup, state, x_next, ends)
             record_structure(i, q / n, setup, state, x_next, record.signals[done])
             broken = step_together(done, q / n, setup, state, left_out, shared, ends, record)
             if broken > 0:
                 return broken, done
-        settle(i, setup, state, x_next, record)
+            if q == n:
+                settle(i, setup, state, x_next, record)
+            if paced and end_step(done, pacing):
+                return STOPPED, done + 1
     return 0, last * n

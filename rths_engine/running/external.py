@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import time
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 
@@ -18,10 +19,14 @@ from rths_engine.parts.connections.connection import Adapter, External, Lost, Re
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.connections import external
 from rths_engine.planning.model import Model
-from rths_engine.planning.plan import Plan
+from rths_engine.planning.plan import Plan, RealTime
 from rths_engine.planning.safety import Stop
+from rths_engine.results.result import Result
+from rths_engine.results.running_timing import RunningTiming
+from rths_engine.results.timing import Granted, Timing
 from rths_engine.running import external_step
 from rths_engine.running.external_step import ACTUATOR, ALL, CURRENT, NOTHING, SENT, SPECIMEN
+from rths_engine.running.rights import granted
 from rths_engine.running.run import Run
 from rths_engine.running.setup import effects_in
 from rths_engine.running.step_clock import StepClock
@@ -50,12 +55,19 @@ class ExternalRun(Run):
         for j, connection in self._connections.items():
             self._roles[j] = _role(connection)
         pace = self.plan.pace
-        self.clock = StepClock(self.dt / pace.factor if pace.kind == "real_time" else 0.0)
+        self._pace = pace if isinstance(pace, RealTime) else None
+        self.clock = StepClock(self.dt / self._pace.factor if self._pace else 0.0, self.total)
+        self._rate = self.plan.controller_rate * (self._pace.factor if self._pace else 1.0)
+        self.measured = RunningTiming(self._rate, self.dt) if self._pace else None
+        self._rights = ExitStack()
+        self._granted = Granted()
         self._work = external_step.work(len(self._state.x), len(self.plan.stations))
 
     def __enter__(self) -> ExternalRun:
         self.rehearse()
         try:
+            if self._pace:
+                self._granted = self._rights.enter_context(granted(self._pace))
             for j, connection in self._connections.items():
                 self._adapters[j] = connection.adapter(self._terms[j])
                 self._check_start(j, self._adapters[j].open())
@@ -76,6 +88,7 @@ class ExternalRun(Run):
         for adapter in self._adapters.values():
             adapter.close()
         self._adapters = {}
+        self._rights.close()
 
     def _terms_of(self, j: int, folder: Path | None) -> Terms:
         limits = self.plan.stations[j].limits
@@ -97,6 +110,20 @@ class ExternalRun(Run):
             )
             raise terms.refused("", problem, None, "unload the rig, or check the unit of the force")
 
+    def take(self, done: int) -> slice:
+        """Take the rows and times of the controller steps up to `done`; returns the new rows."""
+        new = super().take(done)
+        if self.measured:
+            self.measured.take(self.clock.delays[new], self.clock.lengths[new])
+        return new
+
+    def result(self, status: str, elapsed_s: float) -> Result:
+        """The result so far, in real time with the timing of its controller steps."""
+        if self._pace:
+            done = self.done
+            self.timing = Timing(self._rate, self.dt, self.clock.delays[:done], self.clock.lengths[:done], self._granted)
+        return super().result(status, elapsed_s)
+
     def _advance(self, first: int, last: int) -> tuple[int, int]:
         """Integration steps with the rigs, from `first` to at most last - 1, for about LOOK_S. A lost rig sets `trip`.
 
@@ -116,6 +143,7 @@ class ExternalRun(Run):
                 if not broken and not self._exchanged(done):
                     return 0, done
                 broken = broken or external_step.finish_stations(done, self._roles, setup, state, left_out, work, record)
+                self.clock.end(done)
                 if broken:
                     return broken, done
             external_step.end_step(i, setup, state, work, record)

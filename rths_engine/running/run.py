@@ -20,9 +20,12 @@ from rths_engine.planning.plan import Plan
 from rths_engine.planning.safety import LIMITS, Trip
 from rths_engine.results.channels import Channel, channels
 from rths_engine.results.result import Result
+from rths_engine.results.running_timing import RunningTiming
+from rths_engine.results.timing import Timing
 from rths_engine.running import loop
 from rths_engine.running.coupled import advance_coupled, coupled
 from rths_engine.running.data import Record
+from rths_engine.running.pacing import DONE, UNPACED, Pacing
 from rths_engine.running.setup import effects_in, left_out, setup
 
 # chosen; see docs/decisions/0023
@@ -58,6 +61,8 @@ class Run:
         self.motion: Motion = motion.scaled(plan.motion, motions, model.periods)
         self.dt = plan.substep
         self.trip: Trip | None = None
+        self.measured: RunningTiming | None = None  # of a test in real time, so far
+        self.timing: Timing | None = None
         self.done = 0
         self._step = 0
         n, dt = plan.substeps, plan.step
@@ -96,25 +101,48 @@ class Run:
 
     def advance(self, steps: int) -> slice:
         """Run up to `steps` integration steps; returns the new rows of `signals`. A trip ends the run in its substep."""
-        before = self.done
         if self.finished:
-            return slice(before, before)
+            return slice(self.done, self.done)
         last = min(self._step + steps, self._steps)
-        broken, self.done = self._advance(self._step, last)
-        self._step = self.done // self.plan.substeps
-        if self._record.signals is not self.signals:
-            self.signals[before : self.done] = _summed(self._record.signals[before : self.done], self._columns)
+        broken, done = self._advance(self._step, last)
+        self._step = done // self.plan.substeps
+        new = self.take(done)
         if broken:
             self.trip = self._tripped(broken - 1)
-        return slice(before, self.done)
+        return new
+
+    def touch(self) -> None:
+        """Write to every page of the recording, so that no step of a paced run waits for memory."""
+        for array in (self.signals, self._record.signals, self.history[1:]):
+            array.fill(0.0)
+
+    def run_paced(self, pacing: Pacing) -> None:
+        """Run the whole test paced, outside the interpreter lock. Another thread takes the rows of its steps (`take`)."""
+        broken, done = self._loop(0, self._steps, pacing)
+        pacing.control[DONE] = done
+        self._step = self._steps
+        if broken > 0:
+            self.trip = self._tripped(broken - 1)
+
+    def take(self, done: int) -> slice:
+        """Take the rows that the loop has written up to substep `done` into `signals`; returns the new rows."""
+        new = slice(self.done, done)
+        if self._record.signals is not self.signals:
+            self.signals[new] = _summed(self._record.signals[new], self._columns)
+        self.done = done
+        return new
 
     def _advance(self, first: int, last: int) -> tuple[int, int]:
         """Integration steps first to last - 1. Returns as `loop.advance`."""
+        return self._loop(first, last, UNPACED)
+
+    def _loop(self, first: int, last: int, pacing: Pacing) -> tuple[int, int]:
+        """The compiled loop from integration step `first` to `last` - 1. Returns as `loop.advance`."""
         of_run = first, last, self._setup, self._state, self._left_out
         if self._coupled is not None:
-            broken, done = advance_coupled(*of_run, self._coupled, self._record)
+            broken, done = advance_coupled(*of_run, self._coupled, self._record, pacing)
         else:
-            broken, done = loop.advance(*of_run, self._record)
+            broken, done = loop.advance(*of_run, self._record, pacing)
         return broken, done
 
     def result(self, status: str, elapsed_s: float) -> Result:
@@ -131,6 +159,7 @@ class Run:
             channels=self.channels,
             signals=self.signals[: self.done],
             history=self.history[: steps + 1],
+            timing=self.timing,
         )
 
     def _tripped(self, limit: int) -> Trip:

@@ -84,8 +84,9 @@ export function awaited({ state, recording }) {
 }
 
 /** Simulated time, elapsed time and speed as text; without `duration_s` where a client ends the test. @param {any} at @returns {string} */
-export function clock({ simulated_s, duration_s, elapsed_s }) {
+export function clock({ simulated_s, duration_s, elapsed_s, timing }) {
   const parts = [`${fixed(simulated_s, 2)}${duration_s === null ? "" : ` of ${fixed(duration_s, 2)}`} s simulated`];
   if (elapsed_s >= 0.01) parts.push(`${number(elapsed_s, 3)} s elapsed`, `${number(simulated_s / elapsed_s, 3)} × real time`);
+  if (timing) parts.push(`${timing.missed} ${timing.missed === 1 ? "deadline" : "deadlines"} missed`);
   return parts.join(" · ");
 }

@@ -9,6 +9,7 @@ import { Annotations } from "./annotations.js";
 import { again } from "./again.js";
 import { buildCharts } from "./charts.js";
 import { showClient } from "./client.js";
+import { Deadlines } from "./deadlines.js";
 import { awaited, clock, ended, facts, reason } from "./facts.js";
 import { follow } from "./live.js";
 import { floorCount, metricsTables } from "./metrics.js";
@@ -30,6 +31,8 @@ let declared = { measures: [], channels: {} };
 /** @type {{store: Store, view: View, transport: Transport, tiles: import("./tiles.js").Tiles} | null} */
 let shown = null;
 let attempt = 0;
+/** @type {Deadlines | null} */
+let deadlines = null;
 /** @type {Annotations | null} */
 let annotations = null;
 /** Fulfilled once the live feed has shown the test, has said that it waits, or is lost. @type {PromiseWithResolvers<void>} */
@@ -56,6 +59,7 @@ function show() {
   showClient(byId("client"), run.client);
   renew(byId("facts"), ...facts(run, declared.measures));
   showProgress(run);
+  showDeadlines(run.timing);
   showActions();
   showEnd();
   const measured = ended(run.state) && run.recording && (run.stations?.length || floorCount(run, declared.measures));
@@ -87,6 +91,15 @@ function showProgress(at) {
   byId("clock").hidden = ended(at.state) && simulated_s === null;
   const waits = at.state === "queued" ? "Waiting in the queue" : at.client?.state === "waiting" && !ended(at.state) ? "Waiting for client" : "";
   byId("clock").textContent = waits || clock({ ...at, simulated_s, duration_s });
+}
+
+/** The deadlines of a test in real time, of the whole test or so far. @param {import("./deadlines.js").Timing | null | undefined} timing */
+function showDeadlines(timing) {
+  const host = byId("deadlines");
+  host.hidden = ended(run.state) ? !timing : run.plan?.pace?.kind !== "real_time";
+  if (host.hidden) return;
+  deadlines ??= new Deadlines(host);
+  if (timing) deadlines.show(timing);
 }
 
 function showActions() {
@@ -152,6 +165,7 @@ const viewer = {
     if (progress.client) showClient(byId("client"), progress.client);
     if (!ended(run.state)) seen.resolve();
     if (progress.measures) shown?.tiles.show(progress.measures);
+    if (progress.timing) showDeadlines(progress.timing);
   },
   end(last) {
     run = { ...run, ...last };
