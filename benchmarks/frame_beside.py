@@ -26,7 +26,7 @@ from tests.opensees import peer
 
 CHECKOUT = Path(__file__).parents[1]
 BEFORE = "562ca28"
-ROUNDS = 7
+ROUNDS = 3
 PAPER = (2, 4)  # storeys and bays of the paper's frame, 122 degrees of freedom
 SIZES = ((1, 3), PAPER, (4, 5), (8, 4), (10, 7))
 SYSTEM = "SparseGeneral"  # OpenSees' fastest equation system for this frame (`against_opensees`)

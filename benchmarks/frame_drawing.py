@@ -27,12 +27,12 @@ def _line(points: list[tuple[float, float]], colour: str, dashes: str) -> str:
     return f'<polyline points="{shown}" fill="none" stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes}"/>'
 
 
-def _dots(rows: list[dict[str, Any]], colour: str) -> list[str]:
+def _dots(rows: list[dict[str, Any]], colour: str, beside: int) -> list[str]:
     parts = []
     for row in rows:
         x, y = _x(row["touched_bytes"] / 1024), _y(row["step_us"])
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>')
-        parts.append(_text(x, y - 9, str(row["dof"]), more=f'font-size="11" fill="{colour}"'))
+        parts.append(_text(x, y + beside, str(row["dof"]), more=f'font-size="11" fill="{colour}"'))
     return parts
 
 
@@ -65,7 +65,7 @@ def svg(found: dict[str, Any]) -> str:
     for key, colour, name in (("before", BEFORE, f"before ({found['commit_before']})"), ("now", NOW, "now")):
         rows = found[key]
         parts.append(_line([(row["touched_bytes"] / 1024, row["step_us"]) for row in rows], colour, "none"))
-        parts += _dots(rows, colour)
+        parts += _dots(rows, colour, -9 if key == "before" else 19)
         last = rows[-1] if key == "before" else rows[-2]
         parts.append(_text(edge, _y(last["step_us"]) + 4, name, "start", f'fill="{colour}"'))
     parts.append(_text(edge, TOP + 12, "numbers: degrees of freedom", "start", 'font-size="11" fill="#57606a"'))

@@ -17,7 +17,7 @@ from rths_engine.parts.structures.moment_frame import MomentFrame
 from rths_engine.running.run import Run
 
 DURATION = 30.0
-RUNS_S = 1.5  # processor time of the runs of one frame
+RUNS_S = 0.5  # processor time of the runs of one frame
 
 # what an integration step reads and writes, where a build has it: tables of the run, and its state
 TABLES = ("factor", "damping", "elastic", "members", "points")
