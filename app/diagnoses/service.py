@@ -23,7 +23,9 @@ from app.reports.diagnosis_overlay import Overlaid
 from app.runs.service import RunService
 from rths_engine import __version__
 from rths_engine.diagnosis.schema import Pictures, Verdict
+from rths_engine.foundation.errors import PlanError
 from rths_engine.planning.connections import emulated
+from rths_engine.planning.coupling_checks import not_diagnosed
 from rths_engine.planning.reading import read_plan
 from rths_engine.recordings.excitation import differences, lead, under_recorded
 from rths_engine.recordings.opening import load
@@ -49,6 +51,8 @@ class DiagnosisService:
         Raises PlanError, RthsError, NotFound or Conflict; then nothing is stored.
         """
         plan = self.sources.plan(asked)
+        if plan is not None and (reason := not_diagnosed(plan)) is not None:
+            raise PlanError(reason)
         inputs = self.sources.inputs(asked, plan)
         diagnosis = Diagnosis(
             name=asked.name.strip() or inputs[0].name,

@@ -245,10 +245,14 @@ def _parts(recording: Recording) -> list[tuple[str, list[Group]]]:
         found.append(("Start", groups("Start", plan.start)))
     if plan.structure.kind != "none":
         found.append(("Structure", groups(type(plan.structure).title, plan.structure)))
-    moved = ("motion", "forces", "start", "drive", "client", "structure", "stations")
+    moved = ("motion", "forces", "start", "drive", "client", "structure", "stations", "couplings")
     found.append(("Test", groups("Time and pace", plan, plan.test, leave_out=moved)))
     for number, station in enumerate(plan.stations, start=1):
         found.append((f"Station {number}: {station.name}", groups("Station", station, plan.test)))
+    for coupling in plan.couplings:
+        laws = [group for k, law in enumerate(coupling.specimens, start=1) for group in groups(f"Specimen {k}", law)]
+        shared = groups(coupling.title, coupling, leave_out=("specimens",))
+        found.append((f"Shared specimen: {coupling.name}", [*shared, *laws]))
     return found
 
 

@@ -53,8 +53,14 @@ def clock(moment: str | None) -> str:
 
 def _rig(run: Mapping[str, Any], plan: Plan) -> str:
     named = run.get("rig")
-    parts = "; ".join(dict.fromkeys(f"{type(one.actuator).title} with {type(one.specimen).title}" for one in plan.stations))
+    shared = [f"{one.name} on stations {', '.join(map(str, one.stations))}" for one in plan.couplings]
+    parts = "; ".join(dict.fromkeys([*map(_equipment, plan.stations), *shared]))
     return f"{named} ({parts})" if named and parts else str(named or parts)
+
+
+def _equipment(station: Station) -> str:
+    actuator = type(station.actuator).title
+    return actuator if station.specimen.kind == "none" else f"{actuator} with {type(station.specimen).title}"
 
 
 def _integration(plan: Plan) -> str:

@@ -28,6 +28,7 @@ from rths_engine.foundation.part import Part
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 from rths_engine.parts.physics.sensor.channel import Reading
 from rths_engine.parts.specimens.commanded import Commanded
+from rths_engine.planning.coupling_checks import not_diagnosed
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.recordings.excitation.start import released_start
 from rths_engine.recordings.measured import Measured
@@ -58,10 +59,8 @@ def components(plan: Plan, recording: Measured, where: str) -> list[Pair]:
 
 
 def _checked(plan: Plan, recording: Measured, where: str) -> None:
-    if plan.couplings:
-        names = ", ".join(coupling.name for coupling in plan.couplings)
-        problem = "has stations that share a specimen; a diagnosis replays each station with a specimen of its own"
-        raise RecordingError(Issue("plan", problem, names, "compare the recording with a run of this plan instead"))
+    if (shared := not_diagnosed(plan)) is not None:
+        raise RecordingError(shared)
     if recording.samples < LEAST:
         raise RecordingError(Issue(where, f"has {recording.samples} samples; a diagnosis needs at least {LEAST}"))
     if recording.samples > MOST:

@@ -43,6 +43,15 @@ def issues_of_couplings(plan: Plan) -> Iterator[Issue]:
         yield from _of_mass(plan, coupling, where)
 
 
+def not_diagnosed(plan: Plan) -> Issue | None:
+    """Why recordings of a plan cannot be diagnosed; None where its stations share no specimen."""
+    if not plan.couplings:
+        return None
+    names = ", ".join(coupling.name for coupling in plan.couplings)
+    problem = "has stations that share a specimen; a diagnosis replays each station with a specimen of its own"
+    return Issue("plan", problem, names, "compare the recording with a run of this plan instead")
+
+
 def _of_station(plan: Plan, number: int) -> Iterator[Issue]:
     station, where = plan.stations[number - 1], f"stations.{number - 1}"
     if station.specimen.kind != "none":

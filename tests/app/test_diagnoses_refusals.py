@@ -54,6 +54,7 @@ def queued(client: TestClient, recording: str, **more: Any) -> dict[str, Any]:
         ({"plan": None}, 422, "is required: an imported recording has no plan"),
         ({"template": "two-storeys"}, 422, "is given 2 times"),
         ({"plan": {"test": "specimen", "stations": []}}, 422, "stations"),
+        ({"plan": None, "template": "two-actuators"}, 422, "has stations that share a specimen"),
         ({"plan": "test: [specimen"}, 422, "line"),
         ({"plan": "name: \ud800"}, 422, ""),
         ({"plan": None, "template": "table3-99"}, 404, "There is no template 'table3-99'"),

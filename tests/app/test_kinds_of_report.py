@@ -56,6 +56,15 @@ def test_the_report_of_a_semi_active_test_plots_its_current(tmp_path: Path) -> N
     assert any(spec["y"] == "Current, A" for spec in Page(report_html(RUN, recording)).specs)
 
 
+def test_the_report_of_coupled_stations_tells_of_their_specimen(tmp_path: Path) -> None:
+    page = Page(report_html(RUN, recorded(tmp_path, shortened("two-actuators"))))
+    assert [text for tag, text in page.texts if tag == "h3" and text.startswith("Shared")] == [
+        "Shared specimen: Bearing and damper"
+    ]
+    assert "Spacing of the actuators s" in page.text and "Law: Elastomeric (Maxwell chain)" in page.text
+    assert "Bearing and damper on stations 1, 2" in page.text and "with None" not in page.text
+
+
 def test_a_specimens_report_shows_its_loop_and_the_energy_it_dissipated(
     reports: dict[str, tuple[Recording, Page]],
 ) -> None:
