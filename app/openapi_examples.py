@@ -104,6 +104,7 @@ REQUESTS: dict[str, Callable[[], Any]] = {
         "plan": plan(),
         "rig": "emulated",
     },
+    "POST /api/v1/plans/identify": lambda: {"plan": plan(), "station": 1, "seconds": 5.0},
     "POST /api/v1/plans/drive": lambda: DRIVE,
     "POST /api/v1/plans/read": lambda: plan_to_yaml(templates.template(TEMPLATE)),
     "POST /api/v1/plans/write": plan,

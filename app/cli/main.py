@@ -82,6 +82,19 @@ def parser() -> argparse.ArgumentParser:
     preflight.add_argument("--json", action="store_true", help="print the result as one JSON object")
     _data(preflight)
 
+    about = "identify the delay of a station by a short random test of its emulated actuator and specimen"
+    identify = _command(commands, "identify", "app.cli.identify:identify", about)
+    identify.add_argument("plan", metavar="PLAN.yaml", help="file with the plan; - reads standard input")
+    identify.add_argument("--station", type=int, default=1, metavar="N", help="station, from 1 (default %(default)s)")
+    identify.add_argument("--seconds", type=float, default=20.0, help="duration of the random test (default %(default)g)")
+    identify.add_argument("--low", type=float, default=0.25, metavar="HZ", help="lowest frequency (default %(default)g)")
+    identify.add_argument("--high", type=float, default=6.0, metavar="HZ", help="highest frequency (default %(default)g)")
+    identify.add_argument("--amplitude", metavar="LENGTH", help="peak, such as '2 mm' (default: from the limits)")
+    identify.add_argument("--seed", type=int, default=0, help="seed of the random command (default %(default)s)")
+    identify.add_argument("--rig", action="store_true", help="move the external rig of the station (default: its models)")
+    identify.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    _data(identify)
+
     sweep = _command(commands, "sweep", "app.cli.sweep:sweep", "execute a sweep on all cores of this machine, without a server")
     sweep.add_argument("sweep", type=Path, metavar="SWEEP.yaml", help="file with the definition of the sweep: docs/sweeps.md")
     sweep.add_argument(

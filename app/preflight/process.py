@@ -21,6 +21,7 @@ from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning import templates
 
 MODULE = "rths_engine.preflight"
+IDENTIFYING = "rths_engine.identification"
 IDLE_S = 900.0
 START_S = 90.0  # to load or compile the engine
 ANSWER_S = 30.0  # of a dry run, which bounds its own time to some seconds
@@ -42,6 +43,15 @@ class Order:
     capacities: list[Capacities | None]
 
 
+@dataclass(frozen=True, slots=True)
+class Identification:
+    """A random test: a checked plan, the number of its station from 1, and the settings of the test."""
+
+    plan: dict[str, Any]
+    station: int
+    settings: dict[str, Any]
+
+
 class DryRuns:
     """The process of the dry runs and the pipe to it. Threads may share one instance."""
 
@@ -51,8 +61,8 @@ class DryRuns:
         self._turn = threading.Lock()
         self._waiting = threading.BoundedSemaphore(WAITING)
 
-    def execute(self, order: Order) -> dict[str, Any]:
-        """The preflight of a plan. Raises PlanError, or Unavailable when no answer comes in time."""
+    def execute(self, order: Order | Identification) -> dict[str, Any]:
+        """The answer: a preflight or an identification. Raises PlanError, or Unavailable when no answer comes in time."""
         if not self._waiting.acquire(blocking=False):
             raise Unavailable("Too many dry runs are waiting. Try again in a moment.")
         try:
@@ -74,7 +84,7 @@ class DryRuns:
             self._pipe.close()
         self._process = self._pipe = None
 
-    def _answer(self, order: Order) -> dict[str, Any]:
+    def _answer(self, order: Order | Identification) -> dict[str, Any]:
         late = f"The dry run did not answer within {ANSWER_S:g} s. Shorten the test, or run `rths preflight` on the plan."
         try:
             pipe = self._ready()
@@ -123,12 +133,16 @@ def serve(pipe: Connection) -> None:
         return
 
 
-def _executed(engine: Any, order: Order) -> tuple[str, Any]:
+def _executed(engine: Any, order: Order | Identification) -> tuple[str, Any]:
     from rths_engine.foundation.errors import RthsError
     from rths_engine.parts.ground_motions import MotionLibrary
     from rths_engine.planning.reading import read_model
 
     try:
+        if isinstance(order, Identification):
+            identification = importlib.import_module(IDENTIFYING)
+            settings = identification.RandomTest.model_validate(order.settings)
+            return "done", identification.identify(read_model(order.plan).plan, order.station, settings)
         capacities = [None if one is None else engine.Capacity(*one) for one in order.capacities]
         return "done", engine.preflight(read_model(order.plan), MotionLibrary(order.motions), capacities)
     except RthsError as error:

@@ -8,11 +8,13 @@ from typing import Any
 
 from app.checking import checked
 from app.models import EMULATED, Rig
-from app.preflight.process import Capacities, DryRuns, Order
+from app.preflight.identified import IdentificationIn
+from app.preflight.process import Capacities, DryRuns, Identification, Order
 from app.preflight.refusal import with_refusals
 from app.preflight.schemas import PreflightIn
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.plan import Plan
 
 
 class PreflightService:
@@ -23,15 +25,25 @@ class PreflightService:
 
     def preflight(self, asked: PreflightIn) -> dict[str, Any]:
         """The preflight of the plan. Raises RthsError as the check does and for the rig, and Unavailable."""
-        try:
-            plan = checked(asked.plan, self.motions).plan
-        except RthsError as error:
-            issues = [replace(issue, where=".".join(filter(None, ("plan", issue.where)))) for issue in error.issues]
-            raise PlanError(issues) from None
+        plan = self._checked(asked.plan)
         rig = self._rig(asked)
         capacities = _given(asked, len(plan.stations)) if rig is None else _of_rig(rig, len(plan.stations))
         found = self.runs.execute(Order(plan.as_dict(), self.motions.folder, capacities))
         return with_refusals(found, plan, rig)
+
+    def identify(self, asked: IdentificationIn) -> dict[str, Any]:
+        """The delay of a station by a random test. Raises RthsError as the check does and for the test, and Unavailable."""
+        plan = self._checked(asked.plan)
+        settings = asked.model_dump(exclude={"plan", "station"}, exclude_none=True)
+        return self.runs.execute(Identification(plan.as_dict(), asked.station, settings))
+
+    def _checked(self, data: Any) -> Plan:
+        """The plan, with the paths of its issues below `plan`."""
+        try:
+            return checked(data, self.motions).plan
+        except RthsError as error:
+            issues = [replace(issue, where=".".join(filter(None, ("plan", issue.where)))) for issue in error.issues]
+            raise PlanError(issues) from None
 
     def _rig(self, asked: PreflightIn) -> Rig | None:
         """The rig that a submission would name, by default the emulated laboratory; None where capacities are given instead."""

@@ -141,3 +141,28 @@ def test_a_misspelt_field_and_an_infinite_capacity_are_refused(
     refused = running.post(PATH, content=body, headers={"Content-Type": "application/json"})
     (error,) = refused.json()["errors"]
     assert (refused.status_code, error["where"]) == (422, where) and problem in error["problem"]
+
+
+def test_a_delay_is_identified_and_the_plan_stays_as_it_was(running: TestClient) -> None:
+    data = plan()
+    found = running.post("/api/v1/plans/identify", json={"plan": data, "station": 2, "seconds": 5.0}).json()
+    alpha = next(one for one in found["models"] if one["kind"] == "first_order")["parameters"][0]
+    assert alpha["value"] == pytest.approx(data["stations"][1]["actuator"]["alpha"], rel=0.01)
+    assert found["suggested"][0]["path"] == "stations.1.compensator.alpha_es"
+    assert running.get("/api/v1/runs").json()["total"] == 0
+
+
+def test_an_identification_names_the_field_that_is_wrong(running: TestClient) -> None:
+    refused = running.post("/api/v1/plans/identify", json={"plan": plan(), "station": 9, "seconds": 5.0})
+    assert (refused.status_code, refused.json()["errors"][0]["where"]) == (422, "station")
+    narrow = {"plan": plan(), "low_frequency": 4.0, "high_frequency": 5.0}
+    assert running.post("/api/v1/plans/identify", json=narrow).status_code == 422
+
+
+def test_the_command_prints_the_delay_with_its_interval(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "plan.yaml"
+    path.write_text(plan_to_yaml(templates.template("linear-damper")), encoding="utf-8")
+    assert main(["identify", str(path), "--seconds", "5"]) == 0
+    said = capsys.readouterr().out
+    assert "95 % interval" in said and "stations.0.compensator.alpha_es: " in said
+    assert main(["identify", str(path), "--seconds", "5", "--amplitude", "9 m"]) == 2

@@ -172,3 +172,19 @@ def test_the_rig_is_chosen_where_there_are_several_and_its_capacities_are_compar
         expect_accessible(page)
     finally:
         idle.http.delete(f"/api/v1/rigs/{rig}")
+
+
+def test_a_delay_is_identified_beside_the_compensator_and_written_only_when_asked(idle: Service, opened: Opener) -> None:
+    page = opened_form(opened)
+    unfold(page)
+    alpha = page.locator("[id='f-stations.0.compensator.alpha_es']")
+    alpha.fill("12")
+    page.get_by_role("button", name="Identify delay by a short random test").first.click()
+    answer = page.locator(".identified").first
+    expect(answer).to_contain_text("95 % interval", timeout=90_000)
+    expect(answer).to_contain_text("(now 12)")
+    expect(alpha).to_have_value("12")
+    expect_accessible(page)
+    answer.get_by_role("button", name="Write estimate into the compensator").click()
+    expect(answer).to_contain_text("Written into the fields above.")
+    assert abs(float(alpha.input_value()) - 30) < 0.1

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rths_engine.identification import RandomTest, identify
 from rths_engine.parts.connections.connection import RigError
 from rths_engine.planning.safety import Stop
 from rths_engine.running.opening import opened
 from rths_engine.running.run import Run
 from tests.engine import built_fmu
-from tests.engine.external_plans import RATE, driven, emulated, executed, hybrid, station
+from tests.engine.external_plans import DIRECT, RATE, driven, emulated, executed, hybrid, station
 from tests.engine.plans import LIBRARY
 
 FASTEST = {"kind": "fastest"}
@@ -138,3 +139,14 @@ def test_a_file_that_is_no_fmu_is_refused(tmp_path: Path) -> None:
     (tmp_path / "text.fmu").write_text("not an archive")
     with pytest.raises(RigError, match="cannot be opened"):
         executed(hybrid(station(1, fmu(tmp_path / "text.fmu")), pace=FASTEST))
+
+
+def test_the_lag_of_an_fmu_is_identified_on_the_rig_and_else_that_of_its_model(units: dict[str, Path]) -> None:
+    rig = fmu(units["third"], displacement="displacement")
+    compensator = {"kind": "inverse", "alpha_es": 3.0}
+    plan = hybrid(station(1, rig, compensator=compensator, actuator={**DIRECT, "alpha": 9}), pace=FASTEST)
+    quick = RandomTest(seconds=5)
+    on_rig, model = identify(plan, 1, quick, on_rig=True), identify(plan, 1, quick)
+    assert on_rig["suggested"][0]["value"] == pytest.approx(1 / (1 - math.exp(-1 / RATE / LAG)), rel=1e-3)
+    assert model["suggested"][0]["value"] == pytest.approx(9.0, rel=1e-3)
+    assert "no rig was moved" in model["notes"][0]

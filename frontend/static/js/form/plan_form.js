@@ -1,6 +1,7 @@
 // @ts-check
 import { el, htmlElements } from "../dom.js";
 import { drivePart } from "./drive.js";
+import { offerIdentification } from "./identify.js";
 import { knownPart } from "./known.js";
 import { motionPart } from "./motion.js";
 import { listPart } from "./list.js";
@@ -82,7 +83,10 @@ export class PlanForm {
   #stations(unresolved, values) {
     const node = this.schema.resolve(unresolved);
     const item = this.schema.resolve(node.items);
-    const fold = (/** @type {HTMLElement} */ fields, /** @type {number} */ index, /** @type {boolean} */ open) => new StationFold(this.schema, item, fields, index, open);
+    const fold = (/** @type {HTMLElement} */ fields, /** @type {number} */ index, /** @type {boolean} */ open) => {
+      offerIdentification(fields, index, () => this.read());
+      return new StationFold(this.schema, item, fields, index, open);
+    };
     return listPart(this.schema, node, "stations", values, part, fold);
   }
 
