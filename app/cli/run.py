@@ -35,7 +35,9 @@ def run(given: Namespace) -> int:
     try:
         if given.out:
             check_folder(given.out)
-        with opened(read_model(given), MotionLibrary(settings(given).motions)) as test, Interrupt() as interrupt:
+        model = read_model(given)
+        warm()  # before a rig is connected, which must not wait
+        with opened(model, MotionLibrary(settings(given).motions)) as test, Interrupt() as interrupt:
             elapsed_s = advance(test, interrupt)
     except RthsError as error:
         return _failed(error.issues, given.json, UNUSABLE)
@@ -69,11 +71,10 @@ class Interrupt:
 
 def advance(test: Run, interrupt: Interrupt) -> float:
     """Run a test at the pace of its plan, to its end or until interrupted. Returns the wall time (s)."""
-    warm()
     start = time.perf_counter()
     layout = "{l_bar}{bar}| {n:.1f} of {total:.1f} s simulated in {elapsed}, {remaining} left"
     with tqdm(total=test.total * test.dt, bar_format=layout, leave=False, disable=None) as bar:
-        if isinstance(test.plan.pace, RealTime) and test.models_only:
+        if isinstance(test.plan.pace, RealTime):
             _follow(PacedRun(test, test.plan.pace), interrupt, bar)
         while not test.finished and not interrupt.asked:
             new = test.advance(CHUNK_STEPS)

@@ -50,7 +50,7 @@ class _Telling(Viewers):
     def run_to_end(self) -> bool:
         """Run the test to its end or until it is cancelled; returns whether it was cancelled."""
         self._start, self._told = time.perf_counter(), -PROGRESS_S
-        if self.run.plan.pace.kind == "real_time" and self.run.models_only:
+        if self.run.plan.pace.kind == "real_time":
             return self._in_real_time()
         return self._in_parts()
 
@@ -71,7 +71,7 @@ class _Telling(Viewers):
         return cancelled and not self.run.finished
 
     def _in_parts(self) -> bool:
-        """Advance the test in parts of about CHUNK_S: as fast as possible, or at the pace of its external rigs."""
+        """Advance the test in parts of about CHUNK_S: as fast as possible."""
         chunk = 16
         while not self.run.finished:
             if self.line.cancelled(within_s=0.0):

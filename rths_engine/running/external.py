@@ -7,10 +7,11 @@ faster than the rate of the plan, because a rig would follow them with a higher 
 from __future__ import annotations
 
 import math
+import sys
 import time
-from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 import numpy as np
 
@@ -21,12 +22,9 @@ from rths_engine.planning.connections import external
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan, RealTime
 from rths_engine.planning.safety import Stop
-from rths_engine.results.result import Result
-from rths_engine.results.running_timing import RunningTiming
-from rths_engine.results.timing import Granted, Timing
 from rths_engine.running import external_step
 from rths_engine.running.external_step import ACTUATOR, ALL, CURRENT, NOTHING, SENT, SPECIMEN
-from rths_engine.running.rights import granted
+from rths_engine.running.pacing import DONE, STOP, Pacing
 from rths_engine.running.run import Run
 from rths_engine.running.setup import effects_in
 from rths_engine.running.step_clock import StepClock
@@ -34,6 +32,7 @@ from rths_engine.running.step_clock import StepClock
 LOST = "rig"  # cause of a stop
 # chosen; see docs/decisions/0023
 LOOK_S = 0.02  # wall time after which the caller can look whether the test was cancelled
+SWITCH_S = 0.0002  # longest wait for the interpreter lock while another thread shows the test
 
 
 class ExternalRun(Run):
@@ -55,19 +54,12 @@ class ExternalRun(Run):
         for j, connection in self._connections.items():
             self._roles[j] = _role(connection)
         pace = self.plan.pace
-        self._pace = pace if isinstance(pace, RealTime) else None
-        self.clock = StepClock(self.dt / self._pace.factor if self._pace else 0.0, self.total)
-        self._rate = self.plan.controller_rate * (self._pace.factor if self._pace else 1.0)
-        self.measured = RunningTiming(self._rate, self.dt) if self._pace else None
-        self._rights = ExitStack()
-        self._granted = Granted()
+        self.clock = StepClock(self.dt / pace.factor if isinstance(pace, RealTime) else 0.0)
         self._work = external_step.work(len(self._state.x), len(self.plan.stations))
 
     def __enter__(self) -> ExternalRun:
         self.rehearse()
         try:
-            if self._pace:
-                self._granted = self._rights.enter_context(granted(self._pace))
             for j, connection in self._connections.items():
                 self._adapters[j] = connection.adapter(self._terms[j])
                 self._check_start(j, self._adapters[j].open())
@@ -88,7 +80,6 @@ class ExternalRun(Run):
         for adapter in self._adapters.values():
             adapter.close()
         self._adapters = {}
-        self._rights.close()
 
     def _terms_of(self, j: int, folder: Path | None) -> Terms:
         limits = self.plan.stations[j].limits
@@ -110,43 +101,50 @@ class ExternalRun(Run):
             )
             raise terms.refused("", problem, None, "unload the rig, or check the unit of the force")
 
-    def take(self, done: int) -> slice:
-        """Take the rows and times of the controller steps up to `done`; returns the new rows."""
-        new = super().take(done)
-        if self.measured:
-            self.measured.take(self.clock.delays[new], self.clock.lengths[new])
-        return new
-
-    def result(self, status: str, elapsed_s: float) -> Result:
-        """The result so far, in real time with the timing of its controller steps."""
-        if self._pace:
-            done = self.done
-            self.timing = Timing(self._rate, self.dt, self.clock.delays[:done], self.clock.lengths[:done], self._granted)
-        return super().result(status, elapsed_s)
+    def run_paced(self, pacing: Pacing) -> None:
+        """Run the whole test at its pace. Another thread takes the rows and times of its steps (`paced.PacedRun`)."""
+        self.clock = StepClock(pacing.period / 1e9, pacing.delays, pacing.lengths)
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_S)
+        try:
+            broken, done = self._stepped(0, self._steps, pacing.control, math.inf)
+        finally:
+            sys.setswitchinterval(interval)
+        pacing.control[DONE] = done
+        self._step = self._steps
+        if broken:
+            self.trip = self._tripped(broken - 1)
 
     def _advance(self, first: int, last: int) -> tuple[int, int]:
-        """Integration steps with the rigs, from `first` to at most last - 1, for about LOOK_S. A lost rig sets `trip`.
+        """Integration steps with the rigs, from `first` to at most last - 1, for about LOOK_S. Returns as `loop.advance`."""
+        return self._stepped(first, last, np.zeros(3, dtype=np.int64), time.perf_counter() + LOOK_S)
 
-        Returns as `loop.advance`.
+    def _stepped(self, first: int, last: int, control: Any, until: float) -> tuple[int, int]:
+        """Integration steps first to last - 1, or until `control` asks to stop or the clock shows `until`.
+
+        A lost rig sets `trip`. Returns as `loop.advance`.
         """
         if not self._adapters:
-            raise PlanError(
-                Issue("stations", "has external rigs that are not connected", fix="run the plan inside its context")
-            )
+            fix = "run the plan inside its context"
+            raise PlanError(Issue("stations", "has external rigs that are not connected", None, fix))
         setup, state, left_out, work, record = self._setup, self._state, self._effects, self._work, self._record
-        until = time.perf_counter() + LOOK_S
         for i in range(first, last):
-            external_step.begin_step(i, setup, state, left_out, work)
             for done in range(i * setup.n, (i + 1) * setup.n):
                 self.clock.wait()
+                if done == i * setup.n:
+                    external_step.begin_step(i, setup, state, left_out, work)
                 broken = external_step.begin_stations(done, self._roles, setup, state, left_out, work, record)
                 if not broken and not self._exchanged(done):
                     return 0, done
                 broken = broken or external_step.finish_stations(done, self._roles, setup, state, left_out, work, record)
-                self.clock.end(done)
                 if broken:
                     return broken, done
-            external_step.end_step(i, setup, state, work, record)
+                if done == (i + 1) * setup.n - 1:
+                    external_step.end_step(i, setup, state, work, record)
+                self.clock.end(done)
+                control[DONE] = done + 1
+                if control[STOP]:
+                    return 0, done + 1
             if time.perf_counter() > until:
                 return 0, (i + 1) * setup.n
         return 0, last * setup.n
@@ -171,7 +169,7 @@ class ExternalRun(Run):
     def _lost(self, j: int, done: int, what: str) -> Stop:
         name, peer = self.plan.stations[j].name, self._connections[j].peer
         good = f"The last good measurement is that of {done * self.dt:.3f} s." if done else "It had not measured before."
-        return Stop.at(done, self.dt, LOST, f"station {j + 1} ({name}) lost its rig, {peer}: {what}. {good}")
+        return Stop.at(done, self.dt, LOST, f"Station {j + 1} ({name}) lost its rig, {peer}: {what}. {good}")
 
 
 def _role(connection: External) -> int:

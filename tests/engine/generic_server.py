@@ -27,7 +27,7 @@ class Server:
         self.port: int = self._listener.getsockname()[1]
         if not udp:
             self._listener.listen(1)
-        self._listener.settimeout(20)
+        self._listener.settimeout(300)  # the engine may compile first
         self.thread = threading.Thread(target=self._serve, daemon=True)
         self.thread.start()
 

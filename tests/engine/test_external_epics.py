@@ -63,7 +63,7 @@ def test_a_rig_that_fails_ends_the_test_with_what_was_recorded(ioc: Ioc, fault: 
     ioc.fails(fault, 20)
     run = moved(epics(patience=0.3))
     assert isinstance(run.trip, Stop) and run.done in (19, 20)  # the permit may arrive after the readings
-    assert f"station 1 (Spring 1) lost its rig, EPICS record RIG:CMD: {what}." in run.trip.sentence
+    assert f"Station 1 (Spring 1) lost its rig, EPICS record RIG:CMD: {what}." in run.trip.sentence
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,13 @@ import pytest
 from rths_engine.client.session import Session
 from rths_engine.foundation.errors import PlanError
 from rths_engine.parts.connections.connection import RigError
+from rths_engine.planning.plan import RealTime
 from rths_engine.planning.reading import read_plan
 from rths_engine.planning.safety import Stop, Trip
 from rths_engine.running.opening import opened
+from rths_engine.running.paced import PacedRun
 from rths_engine.running.run import Run
+from rths_engine.running.step_clock import StepClock
 from rths_engine.wire.generic import Action
 from tests.engine.clients import led, served
 from tests.engine.external_plans import RATE, emulated, executed, hybrid, station
@@ -87,7 +91,7 @@ def test_a_lost_rig_ends_the_test_with_what_was_recorded(ends: str, what: str) -
     stop = run.trip
     assert isinstance(stop, Stop) and run.done == 39
     assert stop.sentence == (
-        f"Stopped at {39 / 256:.3f} s: station 2 (Spring 2) lost its rig, "
+        f"Stopped at {39 / 256:.3f} s. Station 2 (Spring 2) lost its rig, "
         f"generic server 127.0.0.1:{server.port} (TCP): {what}. "
         f"The last good measurement is that of {39 / 256:.3f} s."
     )
@@ -162,14 +166,51 @@ def test_an_external_station_never_runs_on_its_model_by_accident() -> None:
         Run(plan, LIBRARY)
 
 
-def test_steps_keep_the_clock_of_the_plan_and_never_follow_each_other_faster() -> None:
-    import time
-
-    seen: list[float] = []
+def test_a_test_in_real_time_measures_its_steps_and_never_runs_ahead_of_its_clock() -> None:
     with serving(2.0) as server:
         plan = hybrid(station(1, generic(server.port)), pace={"kind": "real_time", "factor": 4.0}, duration=0.25)
+        begun = time.perf_counter()
         with opened(plan, LIBRARY) as run:
-            while not run.finished:
-                run.advance(1)
-                seen.append(time.perf_counter())
-    assert seen[-1] - seen[0] >= 0.99 * (run.total - 1) * run.dt / 4.0
+            assert isinstance(plan.pace, RealTime)
+            paced = PacedRun(run, plan.pace)
+            paced.start()
+            while not paced.take(0.01):
+                pass
+        taken = time.perf_counter() - begun
+    assert run.done == run.total and taken >= (run.total - 1) * run.dt / 4.0
+    assert np.allclose(run.signals, emulated(plan).signals, rtol=1e-9, atol=1e-9)
+    timing = run.result("completed", taken).summary()["timing"]
+    assert (timing["steps"], timing["rate_hz"]) == (run.total, 4 * RATE) and timing["worst"]["share"] > 0
+
+
+@pytest.mark.parametrize("ends", [{}, {41: "silent"}])
+def test_a_paced_test_that_is_stopped_or_loses_its_rig_ends_safely(ends: dict[int, str]) -> None:
+    with serving(2.0, ends=ends) as server:
+        plan = hybrid(station(1, generic(server.port, patience=0.1)), pace={"kind": "real_time", "factor": 0.5}, duration=5.0)
+        with opened(plan, LIBRARY) as run:
+            assert isinstance(plan.pace, RealTime)
+            paced = PacedRun(run, plan.pace)
+            paced.start()
+            while len(server.trials) < 30:
+                time.sleep(0.01)
+            if not ends:
+                paced.stop()
+            while not paced.take(0.01):
+                pass
+    assert run.done < run.total and (run.trip is not None) is bool(ends)
+    assert run.timing is not None and len(run.timing.delays) == run.done
+    assert server.asked[-2:] == [Action.SET_TRIAL, Action.END]
+
+
+def test_a_late_step_is_measured_and_the_lost_time_is_never_caught_up() -> None:
+    delays, lengths = np.zeros((2, 3), dtype=np.float32)
+    clock = StepClock(0.01, delays, lengths)
+    begun = []
+    for step in range(3):
+        clock.wait()
+        begun.append(clock.begun)
+        clock.end(step)
+        if step == 0:
+            time.sleep(0.05)
+    assert begun[2] - begun[1] >= 0.01 - 1e-9
+    assert delays[1] >= 3.9e7, "late by 50 ms, less the period and what the first wait took"
