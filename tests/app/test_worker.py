@@ -176,6 +176,10 @@ def test_a_viewer_who_comes_back_gets_exactly_what_one_who_stayed_got(service: S
     assert early + late == whole
     assert len(whole) == schema["buckets"] * row
     assert messages[-1]["run"]["state"] == "completed"
+    so_far = [one["timing"]["steps"] for one in messages if one.get("timing")]
+    stored = service.get(f"/runs/{run_id}")["timing"]
+    assert so_far and so_far == sorted(so_far) and stored["steps"] == so_far[-1] == 20 * 1024
+    assert [one["rate_hz"] for one in stored["verdicts"]] == [1024, 2048, 4096]
     assert [message["type"] for message in messages[:1]] in (["schema"], ["progress"])
     with live(service, run_id) as after:  # from the recording
         replayed, again, _ = watch(after)
