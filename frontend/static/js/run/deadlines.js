@@ -21,7 +21,7 @@ const LEAST = 0.004; // of the width of a bar, for a bucket that is not empty
 export class Deadlines {
   /** @param {HTMLElement} host */
   constructor(host) {
-    this.tiles = el("dl", { class: "tiles" });
+    this.tiles = el("dl", { class: "deadlines-tiles" });
     this.said = el("div", { class: "deadlines-said" });
     this.spread = el("div", { class: "scroll" });
     this.waiting = el("p", { class: "note" }, "The deadlines of the controller steps appear here when the test starts.");
