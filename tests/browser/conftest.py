@@ -27,7 +27,7 @@ WIDE = {"width": 1360, "height": 900}
 
 Opener = Callable[..., Page]
 
-PATIENCE_MS = 30_000  # of each step, on a busy machine
+PATIENCE_MS = 60_000  # of each step, on a busy machine
 
 expect.set_options(timeout=PATIENCE_MS)
 
