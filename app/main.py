@@ -23,6 +23,7 @@ from app.health import router as health
 from app.help.endpoints import router as glossary
 from app.jobs import queue as durable
 from app.laboratory.endpoints import router as laboratory
+from app.league.endpoints import router as league
 from app.library.draft_endpoints import router as drafts
 from app.library.endpoints import router as library
 from app.live.endpoints import router as live
@@ -39,6 +40,7 @@ from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
 from app.pages.help import router as help_page
 from app.pages.lab import router as lab_page
+from app.pages.league import router as league_page
 from app.pages.plans import router as plans_page
 from app.pages.recordings import router as recordings_page
 from app.pages.settings import router as settings_page
@@ -102,6 +104,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         diagnoses,
         compare,
         stability,
+        league,
         table4,
         laboratory,
         notifications,
@@ -126,6 +129,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(compare_page)
     app.include_router(lab_page)
     app.include_router(help_page)
+    app.include_router(league_page)
     app.include_router(table4_page)
     app.include_router(sweeps_page)
     app.include_router(wall_page)

@@ -125,6 +125,23 @@ def parser() -> argparse.ArgumentParser:
     )
     table4.add_argument("--json", type=Path, metavar="OUT", help="write the table as one JSON object")
 
+    about = "run every compensator on the virtual RTHS benchmark and on perturbed plants, and store the league"
+    league = _command(commands, "league", "app.cli.league:league", about)
+    league.add_argument("--case", type=int, default=1, metavar="N", help="partitioning case 1 to 4 (default %(default)s)")
+    league.add_argument(
+        "--record",
+        default="imperial-valley-1940-el-centro-ns",
+        metavar="NAME",
+        help="record of the library, scaled by 0.4 (default %(default)s)",
+    )
+    league.add_argument("--plants", type=int, default=20, metavar="N", help="perturbed plants (default %(default)s)")
+    league.add_argument("--only", nargs="+", default=[], metavar="KIND", help="kinds of compensators, for example ats inverse")
+    league.add_argument("--processes", type=int, metavar="N", help="tests at the same time (default: one for each core)")
+    league.add_argument(
+        "--out", type=Path, metavar="OUT.json", help="file to write (default: that of the page, in the data folder)"
+    )
+    _data(league)
+
     about = "import a file of measurements, or all files of a folder or ZIP archive, as recordings"
     imports = _command(commands, "import", "app.cli.measurements:measurements", about)
     imports.add_argument(

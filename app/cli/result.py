@@ -31,7 +31,9 @@ def _lines(plan: Plan, summary: dict[str, Any], out: Path | None) -> Iterator[st
         yield from _table(plan, summary, [one for one in measures if one.further], paper=False)
         yield ""
     for floor in of(FloorMeasure, plan.test):
-        values = enumerate(summary[floor.key], start=1)
+        values = list(enumerate(summary[floor.key], start=1))
+        if not values:  # a measure against a reference, of a test that has none
+            continue
         yield f"{floor.heading}: {', '.join(f'floor {number} {floor.text(value)}' for number, value in values)}"
     for whole in of(RunMeasure, plan.test):
         yield f"{whole.heading}: {whole.text(summary[whole.key])}"

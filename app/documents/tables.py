@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.documents import commands, decisions, diagnosis, effects, formats, outputs, parts, rooms, routes, settings
+from app.documents import commands, decisions, diagnosis, effects, formats, league, outputs, parts, rooms, routes, settings
 from rths_engine.parts import actuators, compensators, controllers, integrators, physics, specimens, structures
 from rths_engine.planning.coupling import KINDS
 from rths_engine.planning.shapes import SHAPES
@@ -38,6 +38,8 @@ TABLES: dict[str, Callable[[], str]] = {
     "formats of ground motions": lambda: formats.formats("ground motion"),
     "formats of measurements": lambda: formats.formats("measurement"),
     "formats that are named": formats.named,
+    "criteria of the league": league.criteria,
+    "league": league.league,
     "routes": routes.routes,
     "commands": commands.commands,
     "options": commands.options,

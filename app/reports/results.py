@@ -61,8 +61,8 @@ def _paper(row: PaperRow, number: int, measures: Sequence[Measure]) -> dict[str,
 
 def _floors(recording: Recording) -> list[Table]:
     """Tables of at most FLOORS_AT_ONCE floors."""
-    measures = of(FloorMeasure, recording.plan.test)
-    columns = [recording.summary.get(one.key) or [] for one in measures]
+    measures = [one for one in of(FloorMeasure, recording.plan.test) if recording.summary.get(one.key)]
+    columns = [recording.summary[one.key] for one in measures]
     count = max(map(len, columns), default=0)
     padded = [[*column, *[None] * (count - len(column))] for column in columns]
     tables = []

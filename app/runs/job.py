@@ -64,7 +64,7 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         job.timing = summary.get("timing")
         job.elapsed_s, job.simulated_s = summary["elapsed_s"], summary["simulated_s"]
         for one in (*of(FloorMeasure), *of(RunMeasure)):
-            setattr(job, one.key, summary[one.key])
+            setattr(job, one.key, summary.get(one.key))  # a worker of an earlier version sends no later measures
         job.recording_sha256, job.recording_size = result.recording_sha256, result.recording_size
         job.stations = [RunStation(number=number, **station) for number, station in enumerate(summary["stations"], start=1)]
         state = State(summary["status"])

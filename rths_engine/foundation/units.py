@@ -113,6 +113,8 @@ UNITS: dict[str, tuple[str, float]] = {
     "1/MJ": ("per energy", 1e-6),
     "1/kJ": ("per energy", 1e-3),
     "1/s": ("per time", 1.0),
+    "1/s^2": ("per time squared", 1.0),
+    "N/(m*s^3)": ("stiffness per time cubed", 1.0),
     "1/m": ("per length", 1.0),
     "1/mm": ("per length", 1e3),
     "1/N": ("per force", 1.0),

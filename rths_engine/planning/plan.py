@@ -44,6 +44,11 @@ COUPLED: dict[str, Any] = {"tests": ONLY_HYBRID, "item": "Shared specimen"}
 MOST_STATIONS = 32
 MOST_COUPLINGS = 8
 ROOM = 293.15  # K, 20 degrees Celsius
+
+# fields of a compensator that earlier plans do not have, as ADDED; by definition their defaults
+ADDED_TO_COMPENSATORS: dict[str, dict[str, Any]] = {
+    "ats": {"fit_step": None, "start_gain": 1.0, "acceleration_root": None},
+}
 # fields of a station that earlier plans do not have, with the value under which they leave the digest of a plan unchanged
 ADDED: dict[str, Any] = {
     "connection": {"kind": "emulated"},
@@ -195,6 +200,10 @@ class Plan(Value):
         for station in decisive["stations"]:
             for name in [name for name, default in ADDED.items() if station[name] == default]:
                 del station[name]
+            compensator = station["compensator"]
+            for name, default in ADDED_TO_COMPENSATORS.get(compensator["kind"], {}).items():
+                if compensator[name] == default:
+                    del compensator[name]
         step = decisive.pop("client")["step"]  # how the client is reached decides nothing
         if step is not None:
             decisive["client"] = {"step": step}

@@ -19,6 +19,7 @@ TESTED = ("hybrid", "specimen", "actuator", "client")
 COMPUTED = ("hybrid", "structure")
 TABLE_IV = "Chen and Ricles (2012), EESD 41, 549-569, equation (10)"
 RIASCOS = "Riascos, Ou and Dyke, Hybrid Simulation Current Assessment Measures (2014)"
+SILVA = "Silva, Gomez, Maghareh, Dyke and Spencer (2020), Mech. Syst. Signal Process. 135, 106381"
 GUO = "Guo, Chen, Xu and Christenson (2014)"
 
 # factors and digits are those of the display, the source of each measure is its field: docs/measures.md
@@ -201,6 +202,35 @@ MEASURES: tuple[Measure, ...] = (
         compute=lambda station: metrics.energy_error_ratio(station.energy_error, station.dampers, station.largest_input),
         so_far=lambda sums: metrics.energy_error_ratio(sums.energy, sums.dampers, sums.largest_input),
     ),
+    StationMeasure(
+        key="reference_rms_percent",
+        label="RMS to reference",
+        symbol="J4",
+        unit="1",
+        shown="%",
+        decimals=2,
+        tests=("hybrid",),
+        formula="sqrt(sum (d_m - d_r)^2 / sum d_r^2)",
+        meaning="root mean square difference between the measured displacement and the stroke d_r of the whole structure, "
+        "computed apart; only where the whole structure is linear",
+        source=SILVA,
+        further=True,
+        compute=lambda station: station.to_reference(metrics.rms_to),
+    ),
+    StationMeasure(
+        key="reference_peak_percent",
+        label="Peak to reference",
+        symbol="J5",
+        unit="1",
+        shown="%",
+        decimals=2,
+        tests=("hybrid",),
+        formula="max abs(d_m - d_r) / max abs(d_r)",
+        meaning="largest difference between the measured displacement and the stroke d_r of the whole structure",
+        source=SILVA,
+        further=True,
+        compute=lambda station: station.to_reference(metrics.peak_error),
+    ),
     FloorMeasure(
         key="floors_peak_mm",
         label="Floor peak",
@@ -214,6 +244,33 @@ MEASURES: tuple[Measure, ...] = (
         source="definition",
         listed=True,
         compute=lambda run: [float(np.max(np.abs(x), initial=0.0)) for x in run.floors.T],
+    ),
+    FloorMeasure(
+        key="floors_reference_rms_percent",
+        label="Floor RMS to reference",
+        symbol="J6, J7",
+        unit="1",
+        shown="%",
+        decimals=2,
+        tests=("hybrid",),
+        formula="sqrt(sum (x - x_r)^2 / sum x_r^2)",
+        meaning="root mean square difference between the displacement of the floor and that of the whole structure x_r, "
+        "computed apart; only where the whole structure is linear",
+        source=SILVA,
+        compute=lambda run: run.floors_to_reference(metrics.rms_to),
+    ),
+    FloorMeasure(
+        key="floors_reference_peak_percent",
+        label="Floor peak to reference",
+        symbol="J8, J9",
+        unit="1",
+        shown="%",
+        decimals=2,
+        tests=("hybrid",),
+        formula="max abs(x - x_r) / max abs(x_r)",
+        meaning="largest difference between the displacement of the floor and that of the whole structure x_r",
+        source=SILVA,
+        compute=lambda run: run.floors_to_reference(metrics.peak_error),
     ),
     RunMeasure(
         key="input_energy_kNm",

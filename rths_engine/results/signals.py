@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,7 +12,7 @@ import numpy as np
 from rths_engine.foundation.arrays import Array
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
-from rths_engine.results import metrics
+from rths_engine.results import metrics, reference
 from rths_engine.results.channels import FLOORS, INPUTS, RECORDED, Channel, columns, key
 
 
@@ -20,13 +21,14 @@ class StationSignals:
     """One station's channels by role, each (samples), every `dt` (s).
 
     `dampers` equal specimens stand in the station's storey. `largest_input` is the largest input energy (J) of the test, None
-    where it is not known.
+    where it is not known. `reference` (samples) is the stroke of the whole structure's reference, None where there is none.
     """
 
     channels: Mapping[str, Array]
     dt: float
     dampers: int = 1
     largest_input: float | None = None
+    reference: Array | None = None
 
     @property
     def x_cmd(self) -> Array:
@@ -39,6 +41,10 @@ class StationSignals:
     @property
     def f_meas(self) -> Array:
         return self.channels["f_meas"]
+
+    def to_reference(self, error: Callable[[Array, Array], float | None]) -> float | None:
+        """An error of the measured displacement against the reference; None without a reference."""
+        return None if self.reference is None else error(self.reference, self.x_meas)
 
     @cached_property
     def evaluation(self) -> metrics.Evaluation | None:
@@ -88,7 +94,20 @@ class RunSignals:
             return None
         return float(np.max(metrics.input_energy(loads, self.inputs, self.floors, self.start), initial=0.0))
 
+    @cached_property
+    def reference(self) -> Array | None:
+        """(samples, DOF): displacements of the whole structure, computed apart; None where it is not linear."""
+        return reference.response(self.model, self.inputs, self.dt)
+
+    def floors_to_reference(self, error: Callable[[Array, Array], float | None]) -> list[float]:
+        """An error of each floor against the reference; empty without a reference, NaN where it is not defined."""
+        if self.reference is None:
+            return []
+        pairs = zip(self.reference[:, list(self.model.built.floors)].T, self.floors.T, strict=True)
+        return [math.nan if (found := error(whole, own)) is None else found for whole, own in pairs]
+
     def station(self, number: int) -> StationSignals:
         """The record of station `number`, which counts from 1."""
         own = {role: self.signal(key(role, number)) for role in RECORDED}
-        return StationSignals(own, self.dt, self.plan.stations[number - 1].dampers, self.largest_input)
+        stroke = None if self.reference is None else self.reference @ self.model.drifts[number - 1]
+        return StationSignals(own, self.dt, self.plan.stations[number - 1].dampers, self.largest_input, stroke)

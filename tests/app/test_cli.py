@@ -23,8 +23,12 @@ from rths_engine.running.run import simulate
 STATION = {
     *("name", "mte_mm", "rms_percent", "mti_mm2", "mee_kNm", "peak_stroke_mm", "peak_force_kN"),
     *("fei_delay_ms", "fei_amplitude", "nrms_percent", "peak_error_percent", "delay_ms", "energy_error_percent"),
+    *("reference_rms_percent", "reference_peak_percent"),
 }
-SUMMARY = {"status", "trip", "elapsed_s", "simulated_s", "stations", "floors_peak_mm", "input_energy_kNm"}
+SUMMARY = {
+    *("status", "trip", "elapsed_s", "simulated_s", "stations", "floors_peak_mm", "input_energy_kNm"),
+    *("floors_reference_rms_percent", "floors_reference_peak_percent"),
+}
 Write = Callable[..., Path]
 
 

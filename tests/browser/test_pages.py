@@ -36,6 +36,7 @@ CONTENT = {
     "/stability/two-storeys": "#map .plot-container",
     "/stability/{run}": "#map .plot-container",
     "/table4": ".table4 tbody tr",
+    "/league": ".league tbody tr",
     "/recordings": "tbody tr",
     "/recordings/{recording}": "#plots canvas",
     "/recordings/batches/{batch}": "tbody tr",

@@ -12,12 +12,13 @@ from pydantic import Field
 
 from rths_engine.foundation.part import kinds
 from rths_engine.parts.actuators.first_order_delay import FirstOrderDelay
+from rths_engine.parts.actuators.interacting import InteractingActuator
 from rths_engine.parts.actuators.second_order import SecondOrderActuator
 from rths_engine.parts.actuators.servo_hydraulic import ServoHydraulicActuator
 from rths_engine.parts.actuators.velocity_drive import VelocityDrive
 
 Actuator = Annotated[
-    FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator | VelocityDrive,
+    FirstOrderDelay | SecondOrderActuator | ServoHydraulicActuator | VelocityDrive | InteractingActuator,
     Field(discriminator="kind"),
 ]
 KINDS = kinds(Actuator)

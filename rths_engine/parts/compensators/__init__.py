@@ -17,6 +17,7 @@ from rths_engine.parts.compensators.inverse import InverseCompensation
 from rths_engine.parts.compensators.kalman import KalmanPredictor
 from rths_engine.parts.compensators.none import NoCompensation
 from rths_engine.parts.compensators.phase_lead import PhaseLead
+from rths_engine.parts.compensators.pi_phase_lead import PiPhaseLead
 from rths_engine.parts.compensators.polynomial import PolynomialExtrapolation
 from rths_engine.parts.compensators.robust import RobustIntegratedControl
 from rths_engine.parts.compensators.two_stage import TwoStageAdaptive
@@ -33,7 +34,8 @@ Compensator = Annotated[
     | AdaptiveModelBased
     | TwoStageAdaptive
     | KalmanPredictor
-    | RobustIntegratedControl,
+    | RobustIntegratedControl
+    | PiPhaseLead,
     Field(discriminator="kind"),
 ]
 KINDS = kinds(Compensator)

@@ -3,7 +3,7 @@
 from rths_engine.results.metrics.correlation import correlation_delay
 from rths_engine.results.metrics.energy import energy_error_ratio, input_energy
 from rths_engine.results.metrics.frequency import Evaluation, frequency_evaluation
-from rths_engine.results.metrics.relative import normalised_rms, peak_error
+from rths_engine.results.metrics.relative import normalised_rms, peak_error, rms_to
 from rths_engine.results.metrics.tracking import (
     energy_error,
     maximum_tracking_error,
@@ -22,6 +22,7 @@ __all__ = [
     "maximum_tracking_error",
     "normalised_rms",
     "peak_error",
+    "rms_to",
     "rms_tracking_error",
     "signed_peak",
     "tracking_indicator",

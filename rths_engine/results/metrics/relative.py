@@ -18,6 +18,12 @@ def normalised_rms(x_cmd: Array, x_meas: Array) -> float | None:
     return float(np.sqrt(np.mean((x_cmd - x_meas) ** 2))) / span if span > 0 else None
 
 
+def rms_to(reference: Array, x: Array) -> float | None:
+    """sqrt(sum (x - r)^2 / sum r^2) against a reference r; None where it never moved."""
+    power = float(np.sum(reference**2))
+    return float(np.sqrt(np.sum((x - reference) ** 2) / power)) if power > 0 else None
+
+
 def peak_error(x_cmd: Array, x_meas: Array) -> float | None:
     """Largest error over the largest command."""
     largest = float(np.max(np.abs(x_cmd), initial=0.0))

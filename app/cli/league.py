@@ -1,0 +1,50 @@
+"""`rths league`: run the league of compensators on the virtual RTHS benchmark and print its table."""
+
+from __future__ import annotations
+
+import os
+import sys
+from argparse import Namespace
+from pathlib import Path
+
+from tqdm import tqdm
+
+from app.cli.league_text import text
+from app.cli.run_input import check_folder
+from app.cli.settings import settings
+from rths_engine.foundation import files
+from rths_engine.foundation.errors import Issue, RthsError
+from rths_engine.league.running import Wanted
+from rths_engine.league.running import league as run_league
+from rths_engine.league.table import write
+
+
+def league(given: Namespace) -> None:
+    """`rths league`: run it and store the results where the page looks for them. Raises RthsError for invalid input."""
+    found = settings(given)
+    out: Path = given.out or found.data / "league" / f"case-{given.case}.json"
+    if given.out:
+        check_folder(out, "--out", "league.json")
+    wanted = Wanted(given.case, given.record, given.plants, tuple(given.only))
+    with tqdm(total=0, unit="test", disable=None, file=sys.stderr) as bar:
+
+        def progress(done: int, total: int) -> None:
+            bar.total, bar.n = total, done
+            bar.refresh()
+
+        result = run_league(wanted, found.motions, given.processes or os.cpu_count() or 1, _command(given), progress)
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with files.temporary(out) as written:
+            written.write_text(write(result), encoding="utf-8")
+            os.replace(written, out)
+    except OSError as error:
+        raise RthsError(Issue("--out", f"was not written: {error.strerror}", str(out), "choose another file")) from None
+    print(text(result))
+    print(f"Stored in {out}.")
+
+
+def _command(given: Namespace) -> str:
+    """The command that gives these results again."""
+    only = f" --only {' '.join(given.only)}" if given.only else ""
+    return f"rths league --case {given.case} --record {given.record} --plants {given.plants}{only}"

@@ -1,0 +1,32 @@
+"""The results of leagues: those of the data folder, and where it has none, those that came with the program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from app.league.schemas import LeagueOut
+from app.problems import NotFound
+from rths_engine.league.table import read
+from rths_engine.planning.vrths import CASES
+
+SHIPPED = Path(__file__).parent / "measured"
+
+
+class LeagueService:
+    """Reads results of leagues; `rths league` writes them."""
+
+    def __init__(self, data: Path):
+        self.own = data / "league"
+
+    def league(self, case: int) -> LeagueOut:
+        """The league of a case. Raises NotFound where it was not measured, RthsError where its file is damaged."""
+        path = self._path(case)
+        if path is None:
+            how = f"run `rths league --case {case}` on the server"
+            raise NotFound(f"No league of case {case} was measured. To measure it, {how}.")
+        league = read(path.read_text(encoding="utf-8"), f"league/{path.name}")
+        return LeagueOut(cases=[one for one in CASES if self._path(one)], shipped=path.parent == SHIPPED, league=league)
+
+    def _path(self, case: int) -> Path | None:
+        found = (folder / f"case-{case}.json" for folder in (self.own, SHIPPED))
+        return next((path for path in found if path.is_file()), None)
