@@ -18,14 +18,14 @@ OPENSEES ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser postgres opensees lock clean
+.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser postgres compiler opensees lock clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
 run: setup
 	@$(BIN)/rths serve --demo
 
-test: setup browser postgres opensees check
+test: setup browser postgres compiler opensees check
 	$(BIN)/pytest -n 2 --dist loadfile --durations 25 $(if $(PYTEST),,--cov) $(PYTEST)
 
 test-clone: setup
@@ -113,6 +113,15 @@ postgres:
 	        apt-get update -qq && apt-get install -y -qq --no-install-recommends postgresql; \
 	    else \
 	        echo "There is no PostgreSQL, so its tests are skipped (on Debian: apt-get install postgresql)." >&2; \
+	    fi; }
+
+# The tests of external rigs compile an FMU.
+compiler:
+	@command -v cc >/dev/null || command -v gcc >/dev/null || { \
+	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	        apt-get update -qq && apt-get install -y -qq --no-install-recommends gcc libc6-dev; \
+	    else \
+	        echo "There is no C compiler, so the tests of FMUs are skipped (on Debian: apt-get install gcc libc6-dev)." >&2; \
 	    fi; }
 
 # OpenSees, the independent solver for tests and benchmarks; not installed with the product.
