@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import Field
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import Value, kinds, quantity
@@ -94,15 +94,6 @@ class LoadingBeam(Value):
     rotary_inertia: float = quantity("Rotary inertia about the axis J", "kg*m^2", "t*m^2", ge=0, le=1e12, default=0.0)
     specimens: tuple[Attached, ...] = Field((), title="Specimens on the beam", max_length=MOST_LAWS)
 
-    @model_validator(mode="after")
-    def _passive(self) -> LoadingBeam:
-        most = (self.stiffness * self.rotational_stiffness) ** 0.5
-        if abs(self.cross_stiffness) > most * (1 + EQUAL):
-            raise ValueError(
-                f"the specimen would give out energy: |k_c| = {abs(self.cross_stiffness):g} N is above √(k k_θ) = {most:g} N"
-            )
-        return self
-
     def transform(self) -> Array:
         """T (2, 2): strokes x = T y of translation and rotation."""
         return np.array([[1.0, self.offset - 0.5 * self.spacing], [1.0, self.offset + 0.5 * self.spacing]])
@@ -132,7 +123,8 @@ class StrokeMatrices(Value):
     """One specimen given by matrices between the strokes of its actuators: f = M a + C v + K x.
 
     x (m) are the strokes and f (N) the forces on the actuators, in the order of the stations. M, C and K are (n, n), symmetric
-    and without negative eigenvalues. Not valid where the specimen has motions that the strokes do not determine.
+    and without negative eigenvalues (`coupling_checks`). Not valid where the specimen has motions that the strokes do not
+    determine.
     """
 
     kind: Literal["matrices"] = "matrices"
@@ -145,27 +137,6 @@ class StrokeMatrices(Value):
     )
     mass: tuple[Row, ...] = quantity("Mass matrix M", "kg", "t", max_length=MOST_COUPLED, default=(), help="empty: zero")
     specimens: tuple[Weighted, ...] = Field((), title="Further specimens", max_length=MOST_LAWS)
-
-    @field_validator("stiffness", "damping", "mass")
-    @classmethod
-    def _passive(cls, rows: tuple[Row, ...], info: ValidationInfo) -> tuple[Row, ...]:
-        count = len(info.data.get("stations", rows))
-        if rows and (len(rows) != count or any(len(row) != count for row in rows)):
-            raise ValueError(f"needs {count} rows of {count} numbers, one for each station")
-        matrix = np.array(rows)
-        if rows and np.abs(matrix - matrix.T).max() > EQUAL * np.abs(matrix).max():
-            raise ValueError("is not symmetric: give the same number on both sides of the diagonal")
-        if rows and (least := float(np.linalg.eigvalsh(matrix)[0])) < -EQUAL * np.abs(matrix).max():
-            raise ValueError(f"has the negative eigenvalue {least:.4g} (SI): the specimen would give out energy")
-        return rows
-
-    @field_validator("specimens")
-    @classmethod
-    def _wide(cls, specimens: tuple[Weighted, ...], info: ValidationInfo) -> tuple[Weighted, ...]:
-        count = len(info.data.get("stations", ()))
-        if count and any(len(one.weights) != count for one in specimens):
-            raise ValueError(f"each needs {count} weights, one for each station")
-        return specimens
 
     def matrices(self) -> Matrices:
         count = len(self.stations)

@@ -1,15 +1,15 @@
-"""Checks of couplings: stations that exist, each on one specimen only, and actuators that can bear its mass."""
+"""Checks of couplings: stations that exist, each on one specimen only, which gives out no energy, and its mass."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from rths_engine.foundation.errors import Issue
 from rths_engine.parts.connections.connection import External
 from rths_engine.parts.specimens.commanded import Commanded
+from rths_engine.planning.coupling import EQUAL, Coupling, LoadingBeam, Weighted
 from rths_engine.planning.plan import Plan
 
 
@@ -40,7 +40,8 @@ def issues_of_couplings(plan: Plan) -> Iterator[Issue]:
                 yield from _of_station(plan, number)
             owners[number] = coupling.name
         yield from _of_laws(coupling, where)
-        yield from _of_mass(plan, coupling, where)
+        wrong = [*_of_energy(coupling, where)]
+        yield from wrong or _of_mass(plan, coupling, where)
 
 
 def not_diagnosed(plan: Plan) -> Issue | None:
@@ -64,15 +65,45 @@ def _of_station(plan: Plan, number: int) -> Iterator[Issue]:
         yield Issue(f"{where}.dampers", "a station that shares a specimen represents itself only", station.dampers, "give 1")
 
 
-def _of_laws(coupling: Any, where: str) -> Iterator[Issue]:
+def _of_energy(coupling: Coupling, where: str) -> Iterator[Issue]:
+    """Issues of a linear specimen that would give out energy, or whose matrices do not fit its stations."""
+    if isinstance(coupling, LoadingBeam):
+        most = (coupling.stiffness * coupling.rotational_stiffness) ** 0.5
+        if abs(coupling.cross_stiffness) > most * (1 + EQUAL):
+            problem = f"the specimen would give out energy: |k_c| is above √(k k_θ) = {most:g} N"
+            yield Issue(f"{where}.cross_stiffness", problem, coupling.cross_stiffness, "lower it, or raise k or k_θ")
+        return
+    for name in ("stiffness", "damping", "mass"):
+        yield from _of_rows(getattr(coupling, name), len(coupling.stations), f"{where}.{name}")
+
+
+def _of_rows(rows: Sequence[Sequence[float]], count: int, where: str) -> Iterator[Issue]:
+    if not rows:
+        return
+    if len(rows) != count or any(len(row) != count for row in rows):
+        yield Issue(where, f"needs {count} rows of {count} numbers, one for each station")
+        return
+    matrix = np.array(rows)
+    least, largest = float(np.linalg.eigvalsh(matrix)[0]), np.abs(matrix).max()
+    if np.abs(matrix - matrix.T).max() > EQUAL * largest:
+        yield Issue(where, "is not symmetric: give the same number on both sides of the diagonal")
+    elif least < -EQUAL * largest:
+        yield Issue(where, f"has the negative eigenvalue {least:.4g} (SI): the specimen would give out energy")
+
+
+def _of_laws(coupling: Coupling, where: str) -> Iterator[Issue]:
+    count = len(coupling.stations)
     for index, one in enumerate(coupling.specimens):
         kind = one.specimen.kind
+        if isinstance(one, Weighted) and len(one.weights) != count:
+            problem = f"needs {count} weights, one for each station"
+            yield Issue(f"{where}.specimens.{index}.weights", problem, len(one.weights))
         if isinstance(one.specimen, Commanded):
             problem = f"'{one.specimen.title}' follows a current, which a shared specimen does not get"
             yield Issue(f"{where}.specimens.{index}.specimen", problem, kind, "choose a specimen without a command")
 
 
-def _of_mass(plan: Plan, coupling: Any, where: str) -> Iterator[Issue]:
+def _of_mass(plan: Plan, coupling: Coupling, where: str) -> Iterator[Issue]:
     """The issue of a specimen that is too heavy for its actuators, which feel its inertia force one controller step late."""
     moving = np.array([getattr(plan.stations[number - 1].actuator, "mass", np.inf) for number in coupling.stations])
     ratio = float(np.max(np.abs(np.linalg.eigvals(coupling.matrices().mass / moving[:, None]))))

@@ -73,7 +73,7 @@ def test_one_demonstration_waits_however_often_the_control_room_starts(client: T
 
     ((state, first),) = waiting()
     plan = client.get(f"/api/v1/runs/{first}").json()["plan"]
-    assert state == "queued" and plan["pace"] == {"kind": "real_time", "factor": 1.0}
+    assert state == "queued" and plan["pace"] == {"kind": "real_time", "factor": 1.0, "core": None, "priority": None}
     assert waiting() == [("queued", first)]
     client.post(f"/api/v1/runs/{first}/cancel", json={}).raise_for_status()
     cancelled, (state, _) = waiting()

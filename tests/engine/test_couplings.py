@@ -236,7 +236,7 @@ def broken(**changes: Any) -> str:
         ({"couplings__0": {"kind": "matrices", "stiffness": [[1, 0], [0]]}}, "needs 2 rows of 2 numbers"),
         (
             {"couplings__0": {"kind": "matrices", "stiffness": [[1, 0], [0, 1]], "specimens": [{"weights": [1]}]}},
-            "each needs 2 weights",
+            "couplings.0.specimens.0.weights = 1: needs 2 weights",
         ),
     ],
 )

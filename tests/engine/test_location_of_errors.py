@@ -35,7 +35,7 @@ def instances(schema: dict[str, Any]) -> Iterator[tuple[Any, Path]]:
             yield from (({**first, name: value}, (name, *path)) for value, path in found)
     elif schema.get("type") == "array":
         items = schema.get("prefixItems") or [schema["items"]] * max(1, schema.get("minItems", 1))
-        yield from (([value] * len(items), (0, *path)) for value, path in instances(items[0]))
+        yield from (([copy.deepcopy(value) for _ in items], (0, *path)) for value, path in instances(items[0]))
     else:
         yield plain(schema), ()
 

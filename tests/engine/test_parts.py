@@ -67,7 +67,7 @@ def test_every_part_says_its_kind_title_equation_and_the_unit_of_each_number(par
     assert "const" in schema.pop("kind")
     for field in schema.values():
         assert "title" in field
-        if field["type"] != "boolean" and "$ref" not in field.get("items", {}):
+        if field.get("type") != "boolean" and "$ref" not in field.get("items", {}):
             assert {"unit", "shown", "factor"} <= field.keys()
 
 

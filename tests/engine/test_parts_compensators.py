@@ -205,4 +205,4 @@ def test_ats_holds_its_start_values_while_the_motion_is_small() -> None:
 
 def test_ats_keeps_its_window_small_at_a_high_controller_rate() -> None:
     _, state = AdaptiveTimeSeries(window=10.0).build(1e-5)
-    assert len(state) < 12_500  # 4 x 2048 of the window and 2 x 1955 of the delay lines
+    assert len(state) < 14_100  # 4 x 2048 of the window and 3 x 1955 of the delay lines

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rths_engine.parts import actuators, compensators, controllers, specimens
+from rths_engine.parts.actuators.interacting import InteractingActuator
 from rths_engine.running.run import simulate
 from tests.engine.plans import LIBRARY, NO_LIMITS, building, completed, make, shaking
 
@@ -20,6 +21,10 @@ def kind(part: type[Any]) -> dict[str, Any]:
     return {"kind": part.model_fields["kind"].default}
 
 
+# this actuator is unstable with a specimen much stiffer than the load that it carries
+SUITED = {InteractingActuator: {"specimen": {"kind": "linear_with_mass"}}}
+
+
 def station(name: str, **parts: dict[str, Any]) -> dict[str, Any]:
     chosen = {"compensator": {"kind": "none"}, "actuator": {"kind": "first_order_delay"}, "specimen": {"kind": "linear"}}
     return {"name": name, "storey": 1, "limits": NO_LIMITS, **chosen, **parts}
@@ -28,7 +33,7 @@ def station(name: str, **parts: dict[str, Any]) -> dict[str, Any]:
 def test_every_part_runs_in_the_loop_beside_every_other() -> None:
     registries = {"compensator": compensators, "actuator": actuators, "specimen": specimens, "controller": controllers}
     stations = [
-        station(f"{slot} {part.title}", **{"controller": {"kind": "constant"}, slot: kind(part)})
+        station(f"{slot} {part.title}", **{"controller": {"kind": "constant"}, **SUITED.get(part, {}), slot: kind(part)})
         for slot, registry in registries.items()
         for part in registry.KINDS
     ]
@@ -37,7 +42,8 @@ def test_every_part_runs_in_the_loop_beside_every_other() -> None:
     result = run.result("completed", 0.0)
     for number in range(1, len(stations) + 1):
         assert np.ptp(result.signal(f"x_meas.{number}")) > 1e-3
-        assert np.ptp(result.signal(f"f_meas.{number}")) > 100.0
+        if stations[number - 1]["specimen"] != {"kind": "none"}:
+            assert np.ptp(result.signal(f"f_meas.{number}")) > 100.0
 
 
 @pytest.mark.parametrize("specimen", ["mr_damper", "linear", "elastomeric"])

@@ -9,6 +9,7 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from rths_engine.parts import actuators, compensators, specimens
+from rths_engine.parts.actuators.interacting import InteractingActuator
 from rths_engine.planning import templates
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.planning.reading import read_plan
@@ -86,6 +87,8 @@ def test_figure_3_the_limit_is_almost_a_straight_line_and_lower_when_both_actuat
 @pytest.mark.parametrize(("slot", "kind"), KINDS)
 def test_the_linear_system_of_every_part_answers_as_its_own_steps_do(slot: str, kind: type[Any]) -> None:
     part: dict[str, Any] = {slot: {"kind": kind.model_fields["kind"].default}}
+    if kind is InteractingActuator:  # unstable with a specimen much stiffer than the load that it carries
+        part["specimen"] = {"kind": "linear_with_mass"}
     one = Station.model_validate(station(**part))
     chain = stations._Chain(one, DT, 0.0)
     linear = stations.linear(one, DT)
