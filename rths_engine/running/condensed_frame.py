@@ -94,7 +94,7 @@ def _points(
         YieldPoints(
             curvature=np.ascontiguousarray(own.T),
             pushed=weight[:, None] * own,
-            bent=weight[:, None] * (sparse @ flexible.T).T,
+            bent=np.ascontiguousarray(weight[:, None] * (sparse @ flexible.T).T),  # one layout, one compiled loop
             limit=moment / bending,
             damping=0.0,
             effective=0.0,

@@ -106,7 +106,7 @@ def effects_in(model: Model, kept: NDArray[np.int64]) -> LeftOut:
     return LeftOut(
         stations=stacked([effects_of(station.physics, plan.substep) for station in plan.stations]),
         storeys=stacked([effects_of([effect], plan.step) for effect in against]),
-        drifts=np.array(drifts).reshape(len(drifts), len(built.mass))[:, kept],
+        drifts=np.ascontiguousarray(np.array(drifts).reshape(len(drifts), len(built.mass))[:, kept]),
         stiffness=np.array([stiffness(built, row) for row in drifts]),
     )
 
