@@ -84,6 +84,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = configured
     app.state.hub = Hub()
     app.state.dry_runs = DryRuns()
+    app.state.identifications = DryRuns("identifications")
     problems.install(app)
     openapi.install(app)
     for router in (
@@ -162,6 +163,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
             await asyncio.to_thread(worker.stop)
         await asyncio.to_thread(dispatcher.stop)
         await asyncio.to_thread(app.state.dry_runs.close)
+        await asyncio.to_thread(app.state.identifications.close)
         app.state.queue.close()
         engine.dispose()
 

@@ -72,6 +72,7 @@ FIELDS: dict[str, Any] = {
     "template": TEMPLATE,
     "submitted_by": "Ana Ruiz",
     "imported_by": "Ana Ruiz",
+    "open_ended": False,
     "duration_s": 40.0,
     "level": 0.01,
     "rig_id": "emulated",

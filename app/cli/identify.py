@@ -36,7 +36,8 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
     for model in found["models"]:
         for number, one in enumerate(model["parameters"]):
             title, residual = (model["title"], f"{100 * model['residual']:.2g} %") if number == 0 else ("", "")
-            numbers = " ".join(f"{one[key] / one['factor']:>10.4g}" for key in ("value", "low", "high"))
+            shown = " ".join(f"{one[key] / one['factor']:>10.4g}" for key in ("value", "low", "high"))
+            numbers = shown if one["determined"] else f"{'not determined':>32}"
             yield f"{title:28} {one['label']:22} {numbers} {one['shown_label']:6} {residual}".rstrip()
     for one in found["suggested"]:
         values = [f"{one[key] / one['factor']:.4g} {one['shown_label']}".rstrip() for key in ("value", "present")]

@@ -42,6 +42,9 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
         unit = f", {floors['shown_label']}" if floors["shown_label"] else ""
         yield f"{floors['label']}{unit}: {values}"
     yield from _stability(found["stability"])
+    if found["open_ended"]:
+        yield f"Duration at most {found['duration_s']:.4g} s; the client ends the test"
+        return
     elapsed = "not known" if found["expected_elapsed_s"] is None else f"{found['expected_elapsed_s']:.3g} s"
     yield f"Duration {found['duration_s']:.4g} s; expected time at the pace of the plan: {elapsed}"
 

@@ -17,12 +17,17 @@ from rths_engine.results.channels import CHANNELS, Channel, columns
 
 HEADER = struct.Struct("<II")
 MOST_BUCKETS = 16_384
+MOST_OPEN = 65_536
+"""Buckets of a run that may end long before its longest duration. A viewer of 20 channels stores 16 MB."""
 VALUES = 3  # minimum, maximum, last
 
 
-def bucket_size(total: int) -> int:
-    """Number of substeps in a bucket, so that a run of `total` substeps has at most MOST_BUCKETS buckets."""
-    return max(1, -(-total // MOST_BUCKETS))
+def bucket_size(total: int, open_ended: bool = False) -> int:
+    """Number of substeps in a bucket, so that a run of `total` substeps has at most MOST_BUCKETS buckets.
+
+    An open-ended run has at most MOST_OPEN: 10 s of a test of at most 600 s are then a thousand buckets, and no staircase.
+    """
+    return max(1, -(-total // (MOST_OPEN if open_ended else MOST_BUCKETS)))
 
 
 class Decimator:
@@ -76,7 +81,7 @@ class FrameStore:
         if len(frame) < HEADER.size:
             return False
         first, count = HEADER.unpack_from(frame)
-        if first > self.count or len(frame) != HEADER.size + count * self.row or first + count > MOST_BUCKETS:
+        if first > self.count or len(frame) != HEADER.size + count * self.row or first + count > MOST_OPEN:
             return False
         self._data += frame[HEADER.size + (self.count - first) * self.row :]
         return True

@@ -22,7 +22,8 @@ def preflight_service(request: Request, motions: Library) -> PreflightService:
             session.expunge(rig)
             return rig
 
-    return PreflightService(motions, request.app.state.dry_runs, rig_of)
+    state = request.app.state
+    return PreflightService(motions, state.dry_runs, state.identifications, rig_of)
 
 
 Preflights = Annotated[PreflightService, Depends(preflight_service)]

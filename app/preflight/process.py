@@ -25,6 +25,7 @@ IDENTIFYING = "rths_engine.identification"
 IDLE_S = 900.0
 START_S = 90.0  # to load or compile the engine
 ANSWER_S = 30.0  # of a dry run, which bounds its own time to some seconds
+IDENTIFIED_S = 120.0  # of an identification, which simulates and fits its random tests whole
 QUEUE_S = 60.0  # wait for the dry runs of other people, and for the engine to load
 WAITING = 8  # requests that may wait at the same time
 NICENESS = 5  # tests come first
@@ -53,9 +54,10 @@ class Identification:
 
 
 class DryRuns:
-    """The process of the dry runs and the pipe to it. Threads may share one instance."""
+    """A process of dry runs or of identifications, and the pipe to it. `names` is what it executes. Threads may share one."""
 
-    def __init__(self) -> None:
+    def __init__(self, names: str = "dry runs") -> None:
+        self.names = names
         self._process: BaseProcess | None = None
         self._pipe: Connection | None = None
         self._turn = threading.Lock()
@@ -64,10 +66,10 @@ class DryRuns:
     def execute(self, order: Order | Identification) -> dict[str, Any]:
         """The answer: a preflight or an identification. Raises PlanError, or Unavailable when no answer comes in time."""
         if not self._waiting.acquire(blocking=False):
-            raise Unavailable("Too many dry runs are waiting. Try again in a moment.")
+            raise Unavailable(f"Too many {self.names} are waiting. Try again in a moment.")
         try:
             if not self._turn.acquire(timeout=QUEUE_S):
-                raise Unavailable(f"Other dry runs took more than {QUEUE_S:g} s. Try again in a moment.")
+                raise Unavailable(f"Other {self.names} took more than {QUEUE_S:g} s. Try again in a moment.")
             try:
                 return self._answer(order)
             finally:
@@ -85,21 +87,25 @@ class DryRuns:
         self._process = self._pipe = None
 
     def _answer(self, order: Order | Identification) -> dict[str, Any]:
-        late = f"The dry run did not answer within {ANSWER_S:g} s. Shorten the test, or run `rths preflight` on the plan."
+        if isinstance(order, Identification):
+            what, patience, mend = "identification", IDENTIFIED_S, "Shorten the random test, or run `rths identify PLAN`."
+        else:
+            what, patience, mend = "dry run", ANSWER_S, "Shorten the test, or run `rths preflight` on the plan."
+        late = f"The {what} did not answer within {patience:g} s. {mend}"
         try:
             pipe = self._ready()
             pipe.send(order)
-            if not pipe.poll(ANSWER_S):
+            if not pipe.poll(patience):
                 self.close()
                 raise Unavailable(late)
             kind, answer = pipe.recv()
         except (EOFError, OSError):
             self.close()
-            raise Unavailable("The process of the dry runs ended unexpectedly. Try again in a moment.") from None
+            raise Unavailable(f"The process of the {self.names} ended unexpectedly. Try again in a moment.") from None
         if kind == "refused":
             raise PlanError(tuple(answer))
         if kind == "failed":
-            raise Unavailable(f"The dry run failed: {answer}.")
+            raise Unavailable(f"The {what} failed: {answer}.")
         found: dict[str, Any] = answer
         return found
 

@@ -29,9 +29,11 @@ def _worded(plan: Plan, issue: Issue) -> str:
     path: Sequence[str] = issue.where.split(".")
     if path == ["stations"]:
         return f"the plan {issue.problem}"
+    if path[0] == "pace":
+        return f"the speed factor, {issue.value:g}, {issue.problem}; {issue.fix}"
     number, limit = int(path[1]), path[-1]
     if limit == "connection":
-        return f"station {number + 1} ({plan.stations[number].name}) {issue.problem}"
+        return f"station {number + 1} ({plan.stations[number].name}) {issue.problem}; {issue.fix}"
     return f"the {limit} limit of station {number + 1} ({plan.stations[number].name}), {issue.value}, {issue.problem}"
 
 

@@ -117,6 +117,7 @@ class PreflightOut(BaseModel):
     uses: list[UseOut]
     floors: list[FloorsOut]
     stability: StabilityOut | None = Field(description="null for a plan without a closed loop")
+    open_ended: bool = Field(description="whether a client ends the test; `duration_s` is then the longest")
     duration_s: float = Field(description="duration of the test in simulated time, s")
     covered_s: float = Field(description="simulated time that `uses` and `floors` cover, s")
     expected_elapsed_s: float | None = Field(description="expected wall time of the test at its pace, s")

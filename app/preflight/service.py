@@ -20,8 +20,8 @@ from rths_engine.planning.plan import Plan
 class PreflightService:
     """Rules of a preflight. No HTTP. `rig_of` gives the rig with an id, and raises RthsError where it takes no tests."""
 
-    def __init__(self, motions: MotionLibrary, runs: DryRuns, rig_of: Callable[[str], Rig]):
-        self.motions, self.runs, self.rig_of = motions, runs, rig_of
+    def __init__(self, motions: MotionLibrary, runs: DryRuns, identifications: DryRuns, rig_of: Callable[[str], Rig]):
+        self.motions, self.runs, self.identifications, self.rig_of = motions, runs, identifications, rig_of
 
     def preflight(self, asked: PreflightIn) -> dict[str, Any]:
         """The preflight of the plan. Raises RthsError as the check does and for the rig, and Unavailable."""
@@ -35,7 +35,7 @@ class PreflightService:
         """The delay of a station by a random test. Raises RthsError as the check does and for the test, and Unavailable."""
         plan = self._checked(asked.plan)
         settings = asked.model_dump(exclude={"plan", "station"}, exclude_none=True)
-        return self.runs.execute(Identification(plan.as_dict(), asked.station, settings))
+        return self.identifications.execute(Identification(plan.as_dict(), asked.station, settings))
 
     def _checked(self, data: Any) -> Plan:
         """The plan, with the paths of its issues below `plan`."""

@@ -32,10 +32,19 @@ from app.reports.record_of_test import clock, record
 from app.reports.results import results
 from app.shown import KINDS
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.connections import external
 from rths_engine.recordings.run_file import Recording
 from rths_engine.results.metrics.decay import free_decay
 
 SAME = "A run with the same plan digest, seed and engine version gives the same numbers to the bit."
+OF_CLIENT = (
+    "The client computed the structure, and its program is in no digest. The same plan digest, seed and engine version give "
+    "the same numbers only where the client sends the same displacements in the same order."
+)
+OF_RIGS = (
+    "The plan digest, the seed and the engine version fix the computed part. The external stations are outside this program: a "
+    "run with the same three gives the same numbers only as far as their rigs repeat."
+)
 TONES = {"completed": "good", "tripped": "bad"}
 
 
@@ -80,7 +89,7 @@ def document(
         *deadlines(recording.summary.get("timing")),
         Section("Test plan", _plan(recording)),
         Section("Test record", record(run, recording)),
-        Section("Repeating this test", [Text([SAME]), Facts(_origin(run, recording), long=True)], together=True),
+        Section("Repeating this test", _repeat(run, recording), together=True),
     ]
     if around.signatures:
         sections.append(Section("Signatures", [Signatures(around.signatures)], together=True))
@@ -268,6 +277,17 @@ def _grid(grid: Grid) -> Table:
     heads = [Head("No.", share=0.5), *(Head(one, True) for one in grid.columns)]
     rows = [[str(number), *row] for number, row in enumerate(grid.rows, start=1)]
     return Table(grid.title, heads, rows, whole=len(grid.columns) > 4)
+
+
+def repeating(recording: Recording) -> str:
+    """What a run of the same plan repeats."""
+    if recording.plan.test == "client":
+        return OF_CLIENT
+    return OF_RIGS if external(recording.plan) else SAME
+
+
+def _repeat(run: Mapping[str, Any], recording: Recording) -> list[Block]:
+    return [Text([repeating(recording)]), Facts(_origin(run, recording), long=True)]
 
 
 def _origin(run: Mapping[str, Any], recording: Recording) -> list[tuple[str, str]]:

@@ -117,6 +117,10 @@ def _departures(run: Mapping[str, Any], recording: Recording) -> list[Block]:
         said.append(str(run.get("reason") or "The test was stopped."))
     if int(run.get("attempt") or 1) > 1:
         said.append(f"This is attempt {run['attempt']}: the worker of an earlier attempt was lost.")
+    client = recording.summary.get("client") or {}
+    if waits := client.get("waits"):
+        began = "1 ramp began late, by" if waits == 1 else f"{waits} ramps began late, the longest by"
+        said.append(f"{began} {client['longest_wait_s'] * 1e3:.3g} ms: the client had not sent its displacement.")
     physics = [_physics(number, station) for number, station in enumerate(plan.stations, start=1)]
     said += [one for one in physics if one]
     changed = _changed(plan)

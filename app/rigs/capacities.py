@@ -9,7 +9,7 @@ from app.models import Rig
 from app.rigs.schemas import RigKind
 from rths_engine.foundation import units
 from rths_engine.foundation.errors import Issue
-from rths_engine.planning.connections import external
+from rths_engine.planning.connections import external, too_fast
 from rths_engine.planning.plan import Plan, Station
 
 CAPACITIES = {"displacement": ("stroke", "mm"), "velocity": ("velocity", "mm/s"), "force": ("force", "kN")}
@@ -17,9 +17,15 @@ CAPACITIES = {"displacement": ("stroke", "mm"), "velocity": ("velocity", "mm/s")
 
 
 def exceeded(plan: Plan, rig: Rig) -> list[Issue]:
-    """What of a plan a rig refuses: external machines on an emulated rig, and limits beyond its capacities."""
+    """What of a plan a rig refuses: machines on an emulated rig, a physical one faster than in real time, too high limits."""
     if rig.kind != RigKind.PHYSICAL and (machines := list(_machines(plan, rig))):
         return machines
+    fast = too_fast(plan, f"rig {rig.name}") if rig.kind == RigKind.PHYSICAL and plan.stations else None
+    return [*([fast] if fast else []), *_beyond(plan, rig)]
+
+
+def _beyond(plan: Plan, rig: Rig) -> list[Issue]:
+    """What of a plan exceeds the capacities of a rig."""
     if not rig.actuators:
         return []
     if len(plan.stations) > len(rig.actuators):
@@ -38,7 +44,7 @@ def _machines(plan: Plan, rig: Rig) -> Iterator[Issue]:
     for index, connection in external(plan).items():
         if connection.physical:
             problem = f"drives the {connection.peer}, which can be a machine, but rig {rig.name} is emulated"
-            fix = "choose a physical rig; the settings add one with its capacities"
+            fix = "add a physical rig with its capacities under Settings, and choose it"
             yield Issue(f"stations.{index}.connection", problem, None, fix)
 
 

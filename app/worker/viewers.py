@@ -21,7 +21,7 @@ class Viewers:
         self.run, self.line = run, line
         self.elapsed, self.measured = 0.0, 0
         self.measures = RunningMeasures(run.model, run.channels, run.history[0, 0])
-        bucket = bucket_size(run.total)
+        bucket = bucket_size(run.total, self.open_ended)
         self.decimator = Decimator(run.channels, bucket, run.dt)
         line.show(schema(attempt, run.dt, bucket, run.total, self.decimator.channels, self.open_ended))
 

@@ -21,6 +21,7 @@ CORRELATED = 2.0  # periods of the highest frequency, over which the residual ma
 LAGS = 8  # blocks of samples in this time
 EVALUATIONS = 40  # of a fit, at most
 LATEST = 0.2  # s, longest delay that is looked for
+BOUND = 0.02  # relative distance to a bound below which a fitted parameter lies at it
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +43,16 @@ class Value:
 
 @dataclass(frozen=True, slots=True)
 class Fitted:
-    """A fitted model. `residual` is the RMS of the residual over the RMS of the measured displacement."""
+    """A fitted model. `residual` is the RMS of the residual over the RMS of the measured displacement.
+
+    `undetermined` names the parameters that the test does not determine, because the fit ended at a bound.
+    """
 
     kind: str
     values: dict[str, Value]
     delay: Value  # s, of slow motion
     residual: float
+    undetermined: frozenset[str] = frozenset()
 
 
 def first_order(u: Array, y: Array, dt: float, high: float, delay: float) -> Fitted:
@@ -90,7 +95,21 @@ def second_order(u: Array, y: Array, dt: float, high: float, delay: float) -> Fi
         name: Value.about(value, float(deviation)).within(low, high)
         for (name, value, deviation), low, high in zip(named, *bounds, strict=True)
     }
-    return Fitted("second_order", values, whole, _residual(moved(found), y))
+    return Fitted("second_order", values, whole, _residual(moved(found), y), _at_bounds(values, *bounds))
+
+
+def _at_bounds(values: dict[str, Value], lowest: list[float], highest: list[float]) -> frozenset[str]:
+    """Parameters of a second-order actuator that lie at a bound; frequency, damping and dead time are known only together.
+
+    A dead time of zero is none, and no bound of the search.
+    """
+    near = {
+        name
+        for (name, one), low, high in zip(values.items(), lowest, highest, strict=True)
+        if one.value >= (1 - BOUND) * high or (low > 0 and one.value <= (1 + BOUND) * low)
+    }
+    together = {"frequency", "damping_ratio", "dead_time"}
+    return frozenset(near | together if near & together else near)
 
 
 def pure_delay(u: Array, y: Array, dt: float, low: float, high: float) -> tuple[Fitted, float]:

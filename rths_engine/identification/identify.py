@@ -15,7 +15,7 @@ from rths_engine.identification.estimates import Fitted, Value
 from rths_engine.identification.random_test import RandomTest
 from rths_engine.parts.compensators.compensator import TransferSystem
 from rths_engine.parts.ground_motions import MotionLibrary
-from rths_engine.planning.connections import emulated, predicted
+from rths_engine.planning.connections import emulated, external, predicted
 from rths_engine.planning.plan import Plan
 from rths_engine.running.opening import opened
 
@@ -48,6 +48,9 @@ def identify(plan: Plan, number: int = 1, settings: RandomTest | None = None, on
     if not on_rig:
         plan, notes = emulated(plan), predicted(plan)
     test = settings.plan(plan, number)
+    if on_rig and number - 1 not in external(plan):
+        fix = "leave --rig out to test its model, or name the rig in the connection of the station"
+        raise PlanError(Issue(f"stations.{number - 1}.connection", "has no rig that could be moved", "emulated", fix))
     u, y = _measured(test, number)
     dt = plan.substep
     band = settings.low_frequency, settings.high_frequency
@@ -98,6 +101,7 @@ def _shown(fitted: Fitted) -> dict[str, Any]:
         values.append(
             {"key": key, "label": label, "unit": unit, "shown_label": units.pretty(shown), "factor": units.factor(shown)}
             | _interval(value)
+            | {"determined": key not in fitted.undetermined}
         )
     return {
         "kind": fitted.kind,
@@ -139,7 +143,7 @@ def _suggested(plan: Plan, number: int, chosen: Fitted, rms: tuple[float, float]
     found = []
     for name in OF_ACTUATOR:
         field = type(compensator).model_fields.get(name)
-        if field is not None:
+        if field is not None and name not in chosen.undetermined:
             extra: Any = field.json_schema_extra
             found.append(
                 {

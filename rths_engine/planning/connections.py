@@ -8,7 +8,7 @@ from rths_engine.foundation.errors import Issue
 from rths_engine.parts.connections.connection import External
 from rths_engine.parts.connections.emulated import Emulated
 from rths_engine.planning.model import Model
-from rths_engine.planning.plan import Plan, Station
+from rths_engine.planning.plan import Plan, RealTime, Station
 
 
 def external(plan: Plan) -> dict[int, External]:
@@ -66,10 +66,26 @@ def issues_of_connections(plan: Plan) -> Iterator[Issue]:
         if first != index:
             problem = f"is the {connection.peer}, which is also the rig of station {first + 1}"
             yield Issue(where, problem, connection.kind, "give each station its own rig")
-    if physical(plan) and plan.pace.kind != "real_time":
-        first = next(index for index, connection in found.items() if connection.physical)
-        problem = f"has no clock that the rig of station {first + 1} ({plan.stations[first].name}) could follow"
-        yield Issue("pace", problem, plan.pace.kind, "choose real time; a factor below 1 is slower")
+    if physical(plan):
+        yield from _of_pace(plan, next(index for index, connection in found.items() if connection.physical))
+
+
+def too_fast(plan: Plan, rig: str) -> Issue | None:
+    """The issue of a plan that moves `rig` faster than its limits, which count in time of the test."""
+    if not isinstance(plan.pace, RealTime) or plan.pace.factor <= 1:
+        return None
+    problem = f"moves {rig} faster than the velocity limit, which counts in time of the test: the most is 1, real time"
+    return Issue("pace.factor", problem, plan.pace.factor, "lower the speed factor to 1; below 1 is slower")
+
+
+def _of_pace(plan: Plan, first: int) -> Iterator[Issue]:
+    """The issues of the pace of a plan whose station `first` (from 0) can be a machine."""
+    rig = f"the rig of station {first + 1} ({plan.stations[first].name})"
+    if plan.pace.kind != "real_time":
+        fix = "choose real time; a factor below 1 is slower"
+        yield Issue("pace", f"has no clock that {rig} could follow", plan.pace.kind, fix)
+    elif issue := too_fast(plan, rig):
+        yield issue
 
 
 def _of_station(where: str, station: Station, connection: External) -> Iterator[Issue]:

@@ -54,6 +54,7 @@ def test_opensees_drives_a_queued_test_that_is_seen_live_and_reported(service: S
     assert ended["simulated_s"] == pytest.approx(2.0)
     assert load(service.data / "recordings" / f"{run}.h5").summary["client"]["messages"]["5"] == STEPS
     report = httpx.get(f"{service.url}/api/v1/runs/{run}/report.html").raise_for_status().text
+    assert "its program is in no digest" in report and "to the bit" not in report
     assert "Steps of the client" in report and f"{STEPS}" in report
 
 
@@ -70,6 +71,7 @@ def test_a_cancel_while_the_rig_waits_and_a_client_that_never_comes_end_the_test
 def test_a_preflight_says_that_a_client_computes_the_displacements(service: Service) -> None:
     plan = led([station()]).model_dump(mode="json", by_alias=True)
     found = service.post("/plans/preflight", {"plan": plan})
+    assert found["open_ended"] is True
     assert found["verdict"] == "incomplete" and "the client computes the displacements" in found["sentence"]
     stability = service.post("/stability", plan)
     assert stability["radius"] is None and "client" in stability["notes"][0]

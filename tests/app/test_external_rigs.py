@@ -18,6 +18,7 @@ from app.jobs.service import JobService
 from app.jobs.states import State
 from app.models import Run
 from app.reports.document import Facts
+from app.reports.of_run import repeating
 from app.reports.record_of_test import record
 from app.runs.job import RUNS
 from app.runs.order import RunOrder
@@ -58,6 +59,37 @@ def test_a_machine_is_driven_only_on_a_physical_rig(client: TestClient) -> None:
     sent = client.post("/api/v1/runs", json={"plan": plan().as_dict(), "rig": physical(client)}).raise_for_status()
     run = client.get(f"/api/v1/runs/{sent.json()['runs'][0]['id']}").json()
     assert run["external"] == ["Station 1 (Spring 1) is external: generic server 127.0.0.1:8090 (TCP)."]
+
+
+FAST = {"kind": "real_time", "factor": 2.0}
+
+
+def test_a_machine_is_never_moved_faster_than_its_limits_say(
+    client: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By submission, preflight, check and command line."""
+    data = {**plan().as_dict(), "pace": FAST}
+    given = {"plan": data, "rig": physical(client)}
+    for path, body in (("runs", given), ("plans/preflight", given), ("plans/check", data)):
+        answer = client.post(f"/api/v1/{path}", json=body)
+        (error,) = answer.json()["errors"]
+        assert (answer.status_code, error["where"].removeprefix("plan."), error["value"]) == (422, "pace.factor", "2.0")
+        assert "the rig of station 1 (Spring 1) faster than the velocity limit" in error["problem"]
+        assert "lower the speed factor to 1" in error["fix"]
+    (tmp_path / "plan.json").write_text(json.dumps(data))
+    assert main(["run", str(tmp_path / "plan.json")]) == 2
+    assert "pace.factor = 2" in capsys.readouterr().err
+
+
+def test_a_physical_rig_refuses_a_plan_faster_than_real_time(client: TestClient) -> None:
+    data, rig = hybrid(station(1, limits=LIMITS)).as_dict(), physical(client)
+    given = {"plan": {**data, "pace": FAST}, "rig": rig}
+    (error,) = client.post("/api/v1/runs", json=given).json()["errors"]
+    assert error["where"] == "pace.factor" and "moves rig Wall faster" in error["problem"]
+    found = client.post("/api/v1/plans/preflight", json=given).json()
+    assert found["verdict"] == "refused" and "the speed factor, 2, moves rig Wall faster" in found["sentence"]
+    slower = {"plan": {**data, "pace": {"kind": "real_time", "factor": 0.5}}, "rig": rig}
+    client.post("/api/v1/runs", json=slower).raise_for_status()
 
 
 def test_an_fmu_needs_no_physical_rig(client: TestClient) -> None:
@@ -118,6 +150,7 @@ def test_every_end_in_the_worker_is_recorded_and_the_rig_holds(tmp_path: Path, e
     facts = record({}, recording)[0]
     assert isinstance(facts, Facts)
     said = {name: text for name, text in facts.rows}
+    assert "only as far as their rigs repeat" in repeating(recording)
     assert said["External stations"].startswith("Station 1 (Spring 1) is external: generic server")
     assert ("lost its rig" in said["Trip"]) is (status == "tripped")
 

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.live.frames import HEADER, MOST_BUCKETS, Decimator, FrameStore, bucket_size
+from app.live.frames import HEADER, MOST_BUCKETS, MOST_OPEN, Decimator, FrameStore, bucket_size
 from app.live.hub import Hub
 from rths_engine.results.channels import Channel
 
@@ -46,6 +46,11 @@ def test_each_bucket_keeps_its_minimum_maximum_and_last_sample_however_it_comes(
 @given(total=st.integers(1, 50_000_000))
 def test_a_run_of_any_length_has_a_bounded_number_of_buckets(total: int) -> None:
     assert -(-total // bucket_size(total)) <= MOST_BUCKETS
+    assert -(-total // bucket_size(total, open_ended=True)) <= MOST_OPEN
+
+
+def test_ten_seconds_of_a_test_that_a_client_ends_are_no_staircase() -> None:
+    assert bucket_size(600 * 1024, open_ended=True) * DT <= 0.01
 
 
 def test_a_store_ignores_what_it_has_and_refuses_gaps_and_rubbish() -> None:

@@ -152,6 +152,14 @@ def test_a_delay_is_identified_and_the_plan_stays_as_it_was(running: TestClient)
     assert running.get("/api/v1/runs").json()["total"] == 0
 
 
+def test_an_identification_that_takes_too_long_names_its_command(running: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process, "IDENTIFIED_S", 0.0)
+    refused = running.post("/api/v1/plans/identify", json={"plan": plan(), "seconds": 5.0})
+    assert refused.status_code == 503
+    assert "The identification did not answer within 0 s" in refused.json()["detail"]
+    assert "`rths identify PLAN`" in refused.json()["detail"]
+
+
 def test_an_identification_names_the_field_that_is_wrong(running: TestClient) -> None:
     refused = running.post("/api/v1/plans/identify", json={"plan": plan(), "station": 9, "seconds": 5.0})
     assert (refused.status_code, refused.json()["errors"][0]["where"]) == (422, "station")

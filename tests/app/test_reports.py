@@ -15,10 +15,12 @@ import numpy as np
 import pytest
 
 from app.reports import html
-from app.reports.of_run import document
+from app.reports.document import Text
+from app.reports.of_run import document, repeating
 from app.reports.packed import packed
 from app.reports.plan_tables import groups
 from app.reports.published import published
+from app.reports.record_of_test import record
 from rths_engine.parts.ground_motions import Motion, MotionLibrary, spectral_acceleration
 from rths_engine.parts.ground_motions.scaling import Factor
 from rths_engine.planning import templates
@@ -324,3 +326,14 @@ def test_a_short_signal_is_kept_whole_and_arrays_are_packed_as_float32() -> None
     assert extremes(np.zeros((50, 2)), 100).tolist() == list(range(50))
     assert len(extremes(np.zeros((0, 2)), 100)) == 0
     np.testing.assert_array_equal(unpacked(packed(np.array([1.5, -2.25]))), [1.5, -2.25])
+
+
+def test_a_test_with_a_client_repeats_with_its_client_and_lists_late_ramps(fourth: tuple[Recording, str]) -> None:
+    recording, text = fourth
+    assert "gives the same numbers to the bit" in text
+    client = {"waits": 3, "longest_wait_s": 0.0123}
+    led = replace(recording, plan=recording.plan.model_copy(update={"test": "client"}))
+    late = replace(led, summary={**led.summary, "client": client})
+    assert "its program is in no digest" in repeating(led)
+    said = " ".join(one for block in record(RUN, late) if isinstance(block, Text) for one in block.paragraphs)
+    assert "3 ramps began late, the longest by 12.3 ms" in said and "none that" not in said

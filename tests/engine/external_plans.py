@@ -15,6 +15,7 @@ from tests.engine.plans import LIBRARY, building, completed, make, shaking
 
 RATE = 256.0
 FAST = {"kind": "real_time", "factor": 1000.0}
+REAL = {"kind": "real_time", "factor": 1.0}
 DIRECT = {"kind": "first_order_delay", "alpha": 1.0, "velocity_limit": 10.0, "force_limit": 1e8}
 SPRING = {"kind": "linear", "stiffness": 2e6, "damping": 0.0}
 
@@ -33,7 +34,12 @@ def station(number: int, connection: dict[str, Any] | None = None, **more: Any) 
     }
 
 
-def hybrid(*stations: dict[str, Any], pace: Any = FAST, duration: float = 0.5, peak: float = 1.5) -> Plan:
+def fastest(*stations: dict[str, Any]) -> dict[str, Any]:
+    """The fastest pace at which the rigs of stations may be driven: a machine is not moved faster than in real time."""
+    return FAST if all(one["connection"]["kind"] in ("emulated", "fmu") for one in stations) else REAL
+
+
+def hybrid(*stations: dict[str, Any], pace: Any = None, duration: float = 0.5, peak: float = 1.5) -> Plan:
     """Two storeys under a burst of ground acceleration."""
     ground = peak * np.sin(2 * np.pi * 2.0 * np.arange(0.0, duration, 0.01))
     return make(
@@ -41,12 +47,12 @@ def hybrid(*stations: dict[str, Any], pace: Any = FAST, duration: float = 0.5, p
         shaking(ground, 0.01),
         1 / RATE,
         stations=list(stations),
-        pace=pace,
+        pace=pace or fastest(*stations),
         duration=duration,
     )
 
 
-def driven(one: dict[str, Any], shape: dict[str, Any], pace: Any = FAST, amplitude: float = 0.01) -> Plan:
+def driven(one: dict[str, Any], shape: dict[str, Any], pace: Any = None, amplitude: float = 0.01) -> Plan:
     """A test of the specimen alone at RATE."""
     from rths_engine.planning.reading import read_plan
 
@@ -57,7 +63,7 @@ def driven(one: dict[str, Any], shape: dict[str, Any], pace: Any = FAST, amplitu
             "drive": {"amplitude": amplitude, "shape": shape},
             "controller_rate": RATE,
             "stations": [alone],
-            "pace": pace,
+            "pace": pace or fastest(one),
         }
     )
 

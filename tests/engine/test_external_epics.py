@@ -11,7 +11,7 @@ import pytest
 from rths_engine.parts.connections.connection import RigError
 from rths_engine.planning.safety import Stop
 from rths_engine.running.run import Run
-from tests.engine.external_plans import FAST, emulated, executed, hybrid, station
+from tests.engine.external_plans import emulated, executed, hybrid, station
 from tests.engine.soft_ioc import NAMES, PROVEN, Ioc, alone
 
 pytest.importorskip("aioca", reason="aioca is not installed: pip install -e '.[epics]'")
@@ -29,7 +29,7 @@ def epics(**more: Any) -> dict[str, Any]:
 
 
 def moved(connection: dict[str, Any], **more: Any) -> Run:
-    return executed(hybrid(station(1, connection, **more), station(2), pace=FAST, duration=0.3))
+    return executed(hybrid(station(1, connection, **more), station(2), duration=0.3))
 
 
 @pytest.mark.parametrize("reading", ["get", "monitor"])

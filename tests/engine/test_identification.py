@@ -105,3 +105,18 @@ def test_a_test_that_trips_says_so() -> None:
     limits = {"displacement": 0.2, "velocity": 0.3, "force": 1.0, "oscillation": 0}
     with pytest.raises(PlanError, match="trips the random test"):
         identify(planned({"kind": "first_order_delay"}, limits=limits), 1, RandomTest(seconds=5))
+
+
+def test_a_fit_at_its_bounds_determines_no_parameters() -> None:
+    """The lag of first order is that of a second-order actuator with any frequency and a damping ratio that grows with it."""
+    found = identify(planned({"kind": "first_order_delay", "alpha": 30}), 1, RandomTest(seconds=5))
+    second = {one["key"]: one["determined"] for one in model(found, "second_order")["parameters"]}
+    assert second == {"gain": True, "frequency": False, "damping_ratio": False, "dead_time": False}
+    assert all(one["determined"] for one in model(found, "first_order")["parameters"])
+
+
+def test_no_rig_of_an_emulated_station_is_moved() -> None:
+    with pytest.raises(PlanError, match="has no rig that could be moved") as refused:
+        identify(planned({"kind": "first_order_delay"}), 1, RandomTest(seconds=5), on_rig=True)
+    (issue,) = refused.value.issues
+    assert issue.where == "stations.0.connection" and "--rig" in str(issue.fix)

@@ -30,7 +30,12 @@ class Fmu(External):
     kind: Literal["fmu"] = "fmu"
     title: ClassVar[str] = "FMU (FMI 3.0 or 2.0 co-simulation)"
     physical: ClassVar[bool] = False
-    path: str = Field(title="File of the FMU", min_length=1, max_length=4096)
+    path: str = Field(
+        title="File of the FMU",
+        min_length=1,
+        max_length=4096,
+        description="in the control room the name of a file in the folder `fmus` of its data folder; no other file works",
+    )
     command: str = Field("command", title="Input that takes the displacement", min_length=1, max_length=MOST_NAME)
     displacement: str = Field(
         "",

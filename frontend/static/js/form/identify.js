@@ -74,4 +74,4 @@ function interval({ value, low, high }, factor, unit = "") {
 }
 
 /** @param {any} model */
-const parameters = (model) => model.parameters.map((/** @type {any} */ one) => `${one.label} ${shown(one, one.value)}`).join(", ");
+const parameters = (model) => model.parameters.map((/** @type {any} */ one) => `${one.label} ${one.determined ? shown(one, one.value) : "not determined"}`).join(", ");

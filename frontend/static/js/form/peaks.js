@@ -79,8 +79,12 @@ function floorsOf(floors) {
   return el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Peaks of the floors" }, table);
 }
 
+/** The duration of a test that its client ends. @param {number} duration_s */
+export const longest = (duration_s) => `at most ${significant(duration_s)} s; the client ends the test`;
+
 /** @param {any} found */
-function timesOf({ duration_s, expected_elapsed_s }) {
+function timesOf({ duration_s, expected_elapsed_s, open_ended }) {
+  if (open_ended) return el("dl", { class: "facts" }, el("dt", {}, "Duration of the test"), el("dd", {}, longest(duration_s)));
   const elapsed = expected_elapsed_s === null ? "not known" : expected_elapsed_s < 0.1 ? "less than 0.1 s" : `about ${number(expected_elapsed_s, 2)} s`;
   return el("dl", { class: "facts" }, el("dt", {}, "Duration of the test"), el("dd", {}, `${number(duration_s)} s`), el("dt", {}, "Expected time at its pace"), el("dd", {}, elapsed));
 }

@@ -1,15 +1,16 @@
 // @ts-check
 import { el } from "../dom.js";
 import { number } from "../format.js";
+import { longest } from "./peaks.js";
 import { goTo } from "./station_fold.js";
 
 /** The key figures of a valid plan, and its warnings. @param {any} checked @returns {HTMLElement[]} */
-export function summaryOf({ digest, summary, warnings }) {
+export function summaryOf({ digest, summary, warnings, plan }) {
   const periods = summary.periods_s.slice(0, 2).map((/** @type {number} */ period, /** @type {number} */ i) => [`T${i + 1}`, `${number(period)} s`]);
   const rows = [
     ...periods,
     ["Steps", summary.steps],
-    ["Duration", `${number(summary.duration_s)} s`],
+    ["Duration", plan?.test === "client" ? longest(summary.duration_s) : `${number(summary.duration_s)} s`],
     ...(summary.pga == null ? [] : [["Scale factor", number(summary.scale_factor)], ["Scaled PGA", `${number(summary.pga / 9.80665, 3)} g`]]),
     ["Digest", digest],
   ];

@@ -96,7 +96,7 @@ function showProgress(at) {
 /** The deadlines of a test in real time, of the whole test or so far. @param {import("./deadlines.js").Timing | null | undefined} timing */
 function showDeadlines(timing) {
   const host = byId("deadlines");
-  host.hidden = ended(run.state) ? !timing : run.plan?.pace?.kind !== "real_time";
+  host.hidden = ended(run.state) || run.test === "client" ? !timing : run.plan?.pace?.kind !== "real_time"; // a client sets the time of its steps
   if (host.hidden) return;
   deadlines ??= new Deadlines(host);
   if (timing) deadlines.show(timing);
