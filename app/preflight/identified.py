@@ -43,7 +43,7 @@ class ParameterOut(IntervalOut):
     unit: str
     shown_label: str
     factor: float = Field(description="SI value of one shown unit")
-    determined: bool = Field(description="false where the fit ended at a bound: the test does not determine the value")
+    determined: bool = Field(description="false where it reaches a bound of the fit: the test does not determine it")
 
 
 class FittedOut(BaseModel):

@@ -45,7 +45,7 @@ class Value:
 class Fitted:
     """A fitted model. `residual` is the RMS of the residual over the RMS of the measured displacement.
 
-    `undetermined` names the parameters that the test does not determine, because the fit ended at a bound.
+    `undetermined` names the parameters that the test does not determine, because it reaches a bound.
     """
 
     kind: str
@@ -99,14 +99,14 @@ def second_order(u: Array, y: Array, dt: float, high: float, delay: float) -> Fi
 
 
 def _at_bounds(values: dict[str, Value], lowest: list[float], highest: list[float]) -> frozenset[str]:
-    """Parameters of a second-order actuator that lie at a bound; frequency, damping and dead time are known only together.
+    """Parameters of a second-order actuator that lie at a bound, or whose interval reaches it.
 
-    A dead time of zero is none, and no bound of the search.
+    Frequency, damping and dead time are known only together. A dead time of zero is none, and no bound of the search.
     """
     near = {
         name
         for (name, one), low, high in zip(values.items(), lowest, highest, strict=True)
-        if one.value >= (1 - BOUND) * high or (low > 0 and one.value <= (1 + BOUND) * low)
+        if max(one.value / (1 - BOUND), one.high) >= high or (low > 0 and min(one.value / (1 + BOUND), one.low) <= low)
     }
     together = {"frequency", "damping_ratio", "dead_time"}
     return frozenset(near | together if near & together else near)

@@ -63,6 +63,7 @@ def test_a_second_order_actuator_gives_its_frequency_damping_and_dead_time() -> 
     found = identify(planned(actuator, {"kind": "robust"}), 1, SHORT)
     assert found["best"] == "second_order"
     values = {one["key"]: one["value"] for one in model(found, "second_order")["parameters"]}
+    assert all(one["determined"] for one in model(found, "second_order")["parameters"])
     assert values["frequency"] == pytest.approx(12.0, rel=0.03)
     assert values["damping_ratio"] == pytest.approx(0.8, rel=0.03)
     assert values["dead_time"] == pytest.approx(0.006, abs=4e-4)
@@ -107,9 +108,10 @@ def test_a_test_that_trips_says_so() -> None:
         identify(planned({"kind": "first_order_delay"}, limits=limits), 1, RandomTest(seconds=5))
 
 
-def test_a_fit_at_its_bounds_determines_no_parameters() -> None:
+@pytest.mark.parametrize("alpha", [20, 30])
+def test_a_fit_at_its_bounds_determines_no_parameters(alpha: float) -> None:
     """The lag of first order is that of a second-order actuator with any frequency and a damping ratio that grows with it."""
-    found = identify(planned({"kind": "first_order_delay", "alpha": 30}), 1, RandomTest(seconds=5))
+    found = identify(planned({"kind": "first_order_delay", "alpha": alpha}), 1, RandomTest(seconds=5))
     second = {one["key"]: one["determined"] for one in model(found, "second_order")["parameters"]}
     assert second == {"gain": True, "frequency": False, "damping_ratio": False, "dead_time": False}
     assert all(one["determined"] for one in model(found, "first_order")["parameters"])
