@@ -68,7 +68,7 @@ def _lines(run: Run, timing: dict[str, Any]) -> Iterator[str]:
         yield f"The test tripped, so the measurement ended early. {run.trip.as_dict()['sentence']}"
     yield from timing_text.lines(timing)
     yield ""
-    yield f"{'µs':>16}{'begin after due':>17}{'length of work':>17}"
+    yield f"{'µs':>16}{'begin after due':>17}{'length of work':>17}  begin after due"
     largest = max((max(pair) for _, *pair in timing_text.buckets(timing)), default=1)
     for label, delays, lengths in timing_text.buckets(timing):
         yield f"{label:>16}{delays:>17}{lengths:>17}  {'#' * -(-BAR * delays // largest)}".rstrip()

@@ -9,14 +9,17 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from app.cli.league_place import check
 from app.cli.league_text import text
 from app.cli.run_input import check_folder
 from app.cli.settings import settings
+from app.league.service import LeagueService, shipped
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.league.running import Wanted
 from rths_engine.league.running import league as run_league
-from rths_engine.league.table import write
+from rths_engine.league.table import merged, write
+from rths_engine.parts.ground_motions import MotionLibrary
 
 
 def league(given: Namespace) -> None:
@@ -26,6 +29,10 @@ def league(given: Namespace) -> None:
     if given.out:
         check_folder(out, "--out", "league.json")
     wanted = Wanted(given.case, given.record, given.plants, tuple(given.only))
+    service = LeagueService(found.data)
+    if not given.out:
+        wanted.check(MotionLibrary(found.motions))
+        check(wanted, service.shown(given.case), shipped(given.case))
     with tqdm(total=0, unit="test", disable=None, file=sys.stderr) as bar:
 
         def progress(done: int, total: int) -> None:
@@ -33,15 +40,18 @@ def league(given: Namespace) -> None:
             bar.refresh()
 
         result = run_league(wanted, found.motions, given.processes or os.cpu_count() or 1, _command(given), progress)
+    earlier = service.shown(given.case) if wanted.only and not given.out else None
+    stored = merged(earlier, result) if earlier else result
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         with files.temporary(out) as written:
-            written.write_text(write(result), encoding="utf-8")
+            written.write_text(write(stored), encoding="utf-8")
             os.replace(written, out)
     except OSError as error:
         raise RthsError(Issue("--out", f"was not written: {error.strerror}", str(out), "choose another file")) from None
     print(text(result))
-    print(f"Stored in {out}.")
+    kept = " beside the rows measured earlier" if earlier else ""
+    print(f"Stored in {out}{kept}.")
 
 
 def _command(given: Namespace) -> str:

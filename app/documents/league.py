@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.documents.markdown import table
 from app.league.service import SHIPPED
+from app.league.trial import TRIAL
 from rths_engine.league.criteria import CRITERIA
 from rths_engine.league.table import Row, read
 
@@ -20,6 +21,18 @@ def league() -> str:
     units = [f"{one.symbol}, {one.measure.shown_label}" for one in CRITERIA]
     heads = ("compensator", *units, "J2 without noise", f"J2, {found.plants} plants", "completed")
     return table(heads, [_row(row) for row in found.rows])
+
+
+def other_program() -> str:
+    """The figures of another program beside ours without sensor noise, and why they differ."""
+    heads = ("compensator", "our J1, ms", "our J2, %", "J1 of another program, ms", "J2 of another program, %", "why")
+    found = read((SHIPPED / "case-1.json").read_text(encoding="utf-8"), "case-1.json")
+    rows = []
+    for row in found.rows:
+        if theirs := TRIAL.beside(row):
+            ours = [_text(row.quiet.criteria[one] if row.quiet.status == "completed" else None) for one in ("J1", "J2")]
+            rows.append((row.title, *ours, f"{theirs.j1_ms:g}", f"{theirs.j2_percent:g}", theirs.why))
+    return f"Source: {TRIAL.source}. Compare them with our figures without noise.\n\n{table(heads, rows)}"
 
 
 def _row(row: Row) -> tuple[str, ...]:

@@ -40,6 +40,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "formats that are named": formats.named,
     "criteria of the league": league.criteria,
     "league": league.league,
+    "figures of another program": league.other_program,
     "routes": routes.routes,
     "commands": commands.commands,
     "options": commands.options,

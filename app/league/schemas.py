@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import BaseModel, Field
 
+from app.league.trial import Trial
 from rths_engine.league.criteria import CRITERIA, Criterion
 from rths_engine.league.table import League
 
@@ -12,6 +13,7 @@ class CriterionOut(BaseModel):
     """A criterion J1 to J9: the measure that it is, with label, unit, formula and meaning."""
 
     symbol: str
+    words: str
     measure: str
     label: str
     unit: str
@@ -23,6 +25,7 @@ class CriterionOut(BaseModel):
         one = criterion.measure
         return cls(
             symbol=criterion.symbol,
+            words=criterion.words,
             measure=one.key,
             label=one.label,
             unit=one.shown_label,
@@ -38,3 +41,4 @@ class LeagueOut(BaseModel):
     shipped: bool
     criteria: list[CriterionOut] = Field(default_factory=lambda: [CriterionOut.of(one) for one in CRITERIA])
     league: League
+    other_program: Trial | None = Field(description="Figures of another program for the same test, beside `quiet` of the rows.")

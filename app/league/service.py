@@ -5,11 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 from app.league.schemas import LeagueOut
+from app.league.trial import trial
 from app.problems import NotFound
-from rths_engine.league.table import read
+from rths_engine.league.table import League, read
 from rths_engine.planning.vrths import CASES
 
 SHIPPED = Path(__file__).parent / "measured"
+
+
+def shipped(case: int) -> League | None:
+    """The league of a case that came with the program."""
+    path = SHIPPED / f"case-{case}.json"
+    return read(path.read_text(encoding="utf-8"), path.name) if path.is_file() else None
 
 
 class LeagueService:
@@ -25,7 +32,15 @@ class LeagueService:
             how = f"run `rths league --case {case}` on the server"
             raise NotFound(f"No league of case {case} was measured. To measure it, {how}.")
         league = read(path.read_text(encoding="utf-8"), f"league/{path.name}")
-        return LeagueOut(cases=[one for one in CASES if self._path(one)], shipped=path.parent == SHIPPED, league=league)
+        return LeagueOut(cases=self.cases(), shipped=path.parent == SHIPPED, league=league, other_program=trial(league))
+
+    def cases(self) -> list[int]:
+        """The cases with results."""
+        return [one for one in CASES if self._path(one)]
+
+    def shown(self, case: int) -> League | None:
+        """The league that the page shows; None where the case was not measured."""
+        return self.league(case).league if self._path(case) else None
 
     def _path(self, case: int) -> Path | None:
         found = (folder / f"case-{case}.json" for folder in (self.own, SHIPPED))

@@ -22,6 +22,8 @@ _FIELDS = {kind.model_fields["kind"].default: kind.model_fields for kind in comp
 @router.get("/league")
 def league(request: Request, leagues: Leagues, case: Case = 1) -> HTMLResponse:
     """The page of the league of a partitioning case."""
+    if leagues.shown(case) is None:
+        return page(request, "league_unmeasured.html", 404, case=case, cases=leagues.cases())
     found = leagues.league(case)
     rows = found.league.rows
     return page(
@@ -33,6 +35,7 @@ def league(request: Request, leagues: Leagues, case: Case = 1) -> HTMLResponse:
         settings=[_settings(row) for row in rows],
         scatter=delay_and_error(rows),
         strips=spreads(rows),
+        other=found.other_program,
         significant=significant,
     )
 

@@ -53,11 +53,11 @@ class Figure:
 
 
 def delay_and_error(rows: Sequence[Row]) -> Figure | None:
-    """J2 (logarithmic) against J1 of the nominal tests that completed; None where there are none."""
+    """J2 (logarithmic) against J1 of the tests without noise that completed; None where there are none."""
     shown = [
-        (number, row, row.nominal.criteria["J1"], row.nominal.criteria["J2"])
+        (number, row, row.quiet.criteria["J1"], row.quiet.criteria["J2"])
         for number, row in enumerate(rows, start=1)
-        if row.nominal.status == "completed"
+        if row.quiet.status == "completed"
     ]
     points = [(number, row, j1, j2) for number, row, j1, j2 in shown if j1 is not None and j2]
     if not points:

@@ -102,6 +102,11 @@ def measured(run: Run, one: Measure) -> str:
     return one.text(value)
 
 
+def belongs(path: str, entry: str) -> bool:
+    """Whether a page belongs to an entry of the menu: it stands below its address, or is linked from it."""
+    return (entry != "/" and path.startswith(f"{entry}/")) or (path, entry) == ("/league", "/table4")
+
+
 templates = Jinja2Templates(directory=FRONTEND / "templates")
 templates.env.filters |= {
     "fixed": fixed,
@@ -113,7 +118,7 @@ templates.env.filters |= {
     "pace": pace,
     "measured": measured,
 }
-templates.env.globals["listed_measures"] = listed_measures
+templates.env.globals |= {"listed_measures": listed_measures, "belongs": belongs}
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:

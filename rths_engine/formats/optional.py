@@ -14,4 +14,4 @@ def package(module: str, format: str) -> ModuleType:
         return import_module(module)
     except ImportError:
         problem = f"is {format}, for which the package {module.partition('.')[0]} is needed"
-        raise FileError(Issue("file", problem, fix="pip install 'rths-control-room[formats]'")) from None
+        raise FileError(Issue("file", problem, fix=".venv/bin/pip install -e '.[formats]'")) from None

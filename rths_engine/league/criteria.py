@@ -12,9 +12,10 @@ from rths_engine.results.measures import measure
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
-    """A criterion: its name in the benchmark, the measure that it is, and the floor (from 1) where the measure has floors."""
+    """A criterion: its name in the benchmark and in words, its measure, and the floor (from 1) where the measure has floors."""
 
     symbol: str
+    words: str
     key: str
     floor: int | None = None
 
@@ -39,13 +40,13 @@ class Criterion:
 
 # Silva, Gomez, Maghareh, Dyke and Spencer (2020), section 4
 CRITERIA = (
-    Criterion("J1", "delay_ms"),
-    Criterion("J2", "rms_percent"),
-    Criterion("J3", "peak_error_percent"),
-    Criterion("J4", "reference_rms_percent"),
-    Criterion("J5", "reference_peak_percent"),
-    Criterion("J6", "floors_reference_rms_percent", 2),
-    Criterion("J7", "floors_reference_rms_percent", 3),
-    Criterion("J8", "floors_reference_peak_percent", 2),
-    Criterion("J9", "floors_reference_peak_percent", 3),
+    Criterion("J1", "delay", "delay_ms"),
+    Criterion("J2", "tracking error, RMS", "rms_percent"),
+    Criterion("J3", "tracking error, largest", "peak_error_percent"),
+    Criterion("J4", "error to the whole structure, RMS", "reference_rms_percent"),
+    Criterion("J5", "error to the whole structure, largest", "reference_peak_percent"),
+    Criterion("J6", "floor 2 to the whole structure, RMS", "floors_reference_rms_percent", 2),
+    Criterion("J7", "floor 3 to the whole structure, RMS", "floors_reference_rms_percent", 3),
+    Criterion("J8", "floor 2 to the whole structure, largest", "floors_reference_peak_percent", 2),
+    Criterion("J9", "floor 3 to the whole structure, largest", "floors_reference_peak_percent", 3),
 )

@@ -43,10 +43,12 @@ class Row(BaseModel):
     nominal: Outcome = Field(description="The nominal plant with the sensor noise of the benchmark.")
     plants: list[Outcome]
     spread: Spread
+    made: str = Field("", description="Time of its measurement where it was measured again after the league; else empty.")
+    code: str = Field("", description="Digest of the compiled loop that ran, where it was measured again.")
 
 
 class League(BaseModel):
-    """A league: what was run, when, by which command, and its rows in the order of the nominal J2."""
+    """A league: what was run, when, by which command, and its rows in the order of `ranked`."""
 
     model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
 
@@ -86,6 +88,14 @@ def ranked(rows: Sequence[Row]) -> list[Row]:
         return tripped, float("inf") if j2 is None else j2
 
     return sorted(rows, key=place)
+
+
+def merged(earlier: League, again: League) -> League:
+    """The earlier league with the rows of `again`, measured likewise; they replace those of the same compensators."""
+    fresh = [row.model_copy(update={"made": again.made, "code": again.code}) for row in again.rows]
+    replaced = {(row.kind, row.published) for row in fresh}
+    kept = [row for row in earlier.rows if (row.kind, row.published) not in replaced]
+    return earlier.model_copy(update={"rows": ranked([*kept, *fresh])})
 
 
 def outcome(summary: Mapping[str, Any]) -> Outcome:

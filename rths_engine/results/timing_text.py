@@ -82,6 +82,7 @@ def lines(timing: Timed) -> Iterator[str]:
     for label, values in percentiles(timing):
         yield f"{label:30}" + "".join(f"{one:>10}" for one in values)
     yield f"Would have met: {', '.join(f'{rate} {verdict}' for rate, verdict in verdicts(timing))}."
+    yield "These counts take each step's own delay alone; the count above also has steps delayed by a missed step before them."
     yield from rights(timing)
 
 

@@ -27,6 +27,8 @@ def test_it_prints_counts_percentiles_verdicts_and_the_histogram(capsys: pytest.
         "Worst step:",
         "99.9 %",
         "Would have met: 1024 Hz",
+        "These counts take each step's own delay alone",
+        "length of work  begin after due",
     ):
         assert text in printed
     assert "ordinary priority" in printed and "length of work" in printed

@@ -55,7 +55,7 @@ def read(raw: bytes, names: Mapping[str, str]) -> Found:
         try:
             matio = import_module("matio")
         except ImportError:
-            extra = "pip install 'rths-control-room[formats]'"
+            extra = ".venv/bin/pip install -e '.[formats]'"
             found.notes += [f"{_named(*one)} is left out; to read it: {extra}" for one in names.items()]
             return found
         path = Path(folder) / "objects.mat"

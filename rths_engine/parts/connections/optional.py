@@ -14,4 +14,4 @@ def package(module: str, extra: str, terms: Terms) -> Any:
         return import_module(module)
     except ImportError:
         problem = f"needs the package {module.partition('.')[0]}, which is not installed"
-        raise terms.refused("kind", problem, None, f"pip install 'rths-control-room[{extra}]'") from None
+        raise terms.refused("kind", problem, None, f".venv/bin/pip install -e '.[{extra}]'") from None

@@ -70,7 +70,7 @@ def test_without_the_extra_the_note_names_it(tmp_path: Path) -> None:
         f"print(matlab.read(Source('a.mat', path=Path({str(tmp_path / 'a.mat')!r}))).notes[0])\n"
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert told.startswith("t (an object of MATLAB's class timetable) is left out; to read it: pip install")
+    assert told.startswith("t (an object of MATLAB's class timetable) is left out; to read it: .venv/bin/pip install")
 
 
 def test_cells_and_struct_arrays_by_scipy() -> None:

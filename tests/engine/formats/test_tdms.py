@@ -95,7 +95,7 @@ def test_without_the_extra_the_error_names_it() -> None:
         "except Exception as error: print(error)\n"
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert "is a TDMS file, for which the package nptdms is needed (pip install 'rths-control-room[formats]')" in told
+    assert "is a TDMS file, for which the package nptdms is needed (.venv/bin/pip install -e '.[formats]')" in told
 
 
 @settings(max_examples=25)
