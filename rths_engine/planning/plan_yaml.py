@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from rths_engine.foundation import units
 from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.planning.field_text import declared
 
 # chosen; see docs/decisions/0023
 LARGEST = 20_000_000  # characters
@@ -42,14 +43,27 @@ def parse(text: str) -> Any:
 
 
 def write(plan: BaseModel) -> str:
-    """YAML of a plan in the order of its fields."""
+    """YAML of a plan in the order of its fields, without those of other kinds of test that keep their default."""
     from ruamel.yaml import YAML
 
     yaml = YAML()
     yaml.width = 120
     stream = io.StringIO()
-    yaml.dump(_commented(plan), stream)
+    written = _commented(plan)
+    for key in _unused(plan):
+        del written[key]
+    yaml.dump(written, stream)
     return stream.getvalue()
+
+
+def _unused(plan: BaseModel) -> list[str]:
+    """Fields that a test of the plan's kind does not read, where they have their default."""
+    kind = getattr(plan, "test", None)
+    return [
+        field.alias or name
+        for name, field in type(plan).model_fields.items()
+        if kind not in declared(field).get("tests", [kind]) and getattr(plan, name) == field.default
+    ]
 
 
 def _commented(value: Any) -> Any:

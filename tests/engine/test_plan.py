@@ -38,6 +38,13 @@ def test_every_template_survives_yaml_and_json(name: str) -> None:
         assert Run(plan, LIBRARY).total > 0
 
 
+def test_yaml_leaves_out_what_another_kind_of_test_would_read() -> None:
+    text = plan_to_yaml(templates.template("opensees-client"))
+    for key in ("structure", "integrator", "motion", "start", "drive", "couplings"):
+        assert f"\n{key}:" not in text
+    assert "\nclient:" in text and "\nclient:" not in plan_to_yaml(templates.template("two-storeys"))
+
+
 def test_yaml_says_the_unit_of_each_number() -> None:
     text = plan_to_yaml(templates.template("two-storeys"))
     assert "stiffness: 36007000.0 # N/m = 36007 kN/m" in " ".join(text.split())
