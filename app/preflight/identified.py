@@ -13,11 +13,11 @@ class IdentificationIn(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     plan: PlanData
-    station: int = Field(1, ge=1, le=1000, description="counts from 1")
+    station: int = Field(1, strict=True, ge=1, le=1000, description="counts from 1")
     seconds: float = Field(20.0, ge=5, le=30, description="duration of the random test, s")
     low_frequency: float = Field(0.25, ge=0.05, le=50, description="Hz")
     high_frequency: float = Field(6.0, ge=0.5, le=100, description="Hz; at least twice the lowest frequency")
-    amplitude: float | None = Field(None, gt=0, le=1, description="peak displacement, m; null: chosen from the limits")
+    amplitude: float | None = Field(None, ge=1e-6, le=1, description="peak displacement, m; null: chosen from the limits")
     seed: int = Field(0, ge=0, le=2**63 - 2, description="seed of the random command")
 
     @model_validator(mode="after")

@@ -151,8 +151,9 @@ def _fit(
     Source: Newey and West (1987), Econometrica 55, 703-708: (J'J)^-1 S (J'J)^-1 with the Bartlett window, over sums of blocks
     of samples. It is at least the covariance of a white residual.
     """
+    size = float(np.sqrt(np.mean(y**2))) or 1.0  # tolerances of the search are absolute: residuals are of the order of 1
     found = optimize.least_squares(
-        lambda x: moved(x) - y, start, bounds=bounds, x_scale="jac", diff_step=1e-4, max_nfev=EVALUATIONS
+        lambda x: (moved(x) - y) / size, start, bounds=bounds, x_scale="jac", diff_step=1e-4, max_nfev=EVALUATIONS
     )
     jacobian, residual = found.jac, found.fun
     block = max(1, round(CORRELATED / (high * dt) / LAGS))

@@ -13,6 +13,7 @@ from rths_engine.planning.plan import Plan, Station
 from rths_engine.planning.shapes import BandNoise
 
 # chosen; see docs/decisions/0023
+LEAST = 1e-6  # m, smallest peak
 SMALL = 5e-3  # m, largest peak that is chosen without being asked for
 OF_STROKE = 0.1  # of the displacement limit
 OF_VELOCITY = 0.3  # of the velocity limits
@@ -25,7 +26,7 @@ class RandomTest(Value):
     low_frequency: float = quantity("Lowest frequency", "Hz", ge=0.05, le=50, default=0.25)
     high_frequency: float = quantity("Highest frequency", "Hz", ge=0.5, le=100, default=6.0)
     amplitude: float | None = quantity(
-        "Peak displacement", "m", "mm", gt=0, le=1, default=None, help="empty: chosen from the limits"
+        "Peak displacement", "m", "mm", ge=LEAST, le=1, default=None, help="empty: chosen from the limits"
     )
     seed: int = Field(0, title="Seed", ge=0, le=2**63 - 2)
 
@@ -68,7 +69,11 @@ class RandomTest(Value):
         fastest = peaks(Drive(amplitude=1.0, shape=shape), self.seconds, rate)[1]
         velocity = min(station.limits.velocity, station.actuator.velocity_limit)
         if self.amplitude is None:
-            return min(SMALL, OF_STROKE * station.limits.displacement, OF_VELOCITY * velocity / fastest)
+            chosen = min(SMALL, OF_STROKE * station.limits.displacement, OF_VELOCITY * velocity / fastest)
+            if chosen < LEAST:
+                problem = f"would be {1e3 * chosen:.3g} mm within the limits of the station and its actuator"
+                raise PlanError(Issue("amplitude", f"{problem}; a test needs {1e3 * LEAST:g} mm", None, "raise the limits"))
+            return chosen
         most = min(station.limits.displacement, velocity / fastest)
         if self.amplitude > most:
             problem = f"exceeds what the limits of the station and its actuator allow in this band, {1e3 * most:.3g} mm"

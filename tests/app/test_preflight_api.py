@@ -165,6 +165,9 @@ def test_an_identification_names_the_field_that_is_wrong(running: TestClient) ->
     assert (refused.status_code, refused.json()["errors"][0]["where"]) == (422, "station")
     narrow = {"plan": plan(), "low_frequency": 4.0, "high_frequency": 5.0}
     assert running.post("/api/v1/plans/identify", json=narrow).status_code == 422
+    for wrong in ({"amplitude": 1e-300}, {"station": True}):
+        answer = running.post("/api/v1/plans/identify", json={"plan": plan(), **wrong})
+        assert (answer.status_code, [error["where"] for error in answer.json()["errors"]]) == (422, list(wrong))
 
 
 def test_the_command_prints_the_delay_with_its_interval(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

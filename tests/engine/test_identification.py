@@ -45,6 +45,31 @@ def test_the_interval_of_alpha_covers_the_true_value_as_often_as_it_says(colour:
     assert covered >= 34
 
 
+@pytest.mark.parametrize(("low", "high"), [(0.25, 6.0), (49.9, 99.8)])
+def test_an_estimate_does_not_depend_on_the_size_of_the_signals(low: float, high: float) -> None:
+    band = signal.butter(4, [low, high], "bandpass", fs=1024, output="sos")
+    u = signal.sosfilt(band, np.random.default_rng(3).normal(size=5 * 1024))
+    y = signal.lfilter([1 / 20], [1.0, 1 / 20 - 1], u)
+    for size in (1e-3, 1e-9):
+        assert estimates.first_order(size * u, size * y, DT, high, 0.002).values["alpha"].value == pytest.approx(20, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "settings", [{"amplitude": 2e-5}, {"low_frequency": 49.9, "high_frequency": 99.8}], ids=["small", "fast"]
+)
+def test_a_linear_actuator_has_the_same_delay_at_every_amplitude(settings: dict[str, float]) -> None:
+    plan = planned({"kind": "first_order_delay", "alpha": 20}, noise={"displacement": 0.0, "force": 0.0})
+    found = identify(plan, 1, RandomTest(seconds=5, **settings))
+    assert found["smaller_amplitude"]["alpha"]["value"] == pytest.approx(20, rel=1e-4)
+    assert "depends on the amplitude" not in " ".join(found["notes"])
+
+
+def test_limits_that_leave_no_amplitude_are_told() -> None:
+    limits = {"displacement": 1e-300, "velocity": 0.3, "force": 1e9, "oscillation": 0}
+    with pytest.raises(PlanError, match="within the limits of the station"):
+        identify(planned({"kind": "first_order_delay"}, limits=limits), 1, RandomTest(seconds=5))
+
+
 def test_a_first_order_actuator_is_identified_and_its_alpha_suggested() -> None:
     found = identify(planned({"kind": "first_order_delay", "alpha": 30}), 1, SHORT)
     assert found["best"] == "first_order"
