@@ -8,7 +8,7 @@ from typing import Any
 
 from rths_engine.foundation.errors import PlanError
 from rths_engine.planning.model import Model
-from rths_engine.stability import SHARED, ClosedLoop, margin, stable
+from rths_engine.stability import SHARED, ClosedLoop, margin, stable, unpredicted
 from rths_engine.stability.station import Lifted
 
 
@@ -51,7 +51,7 @@ def margins(model: Model, deadline: float) -> dict[str, Any] | None:
             seconds = None if steps is None else steps * plan.substep
             found["stations"].append({"station": j + 1, "name": name, "steps": steps, "seconds": seconds})
     except PlanError as error:
-        found["notes"].append(f"Stability is not predicted: the {error.issues[0].where} {error.issues[0].problem}.")
+        found["notes"].append(unpredicted(error))
     except OutOfTime:
         known = len(found["stations"])
         what = f"the delay margins of stations {known + 1} to {len(names)}" if found["radius"] is not None else "the stability"

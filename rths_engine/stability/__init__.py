@@ -2,6 +2,19 @@
 
 from rths_engine.stability.closed_loop import ClosedLoop, Mode, stable
 from rths_engine.stability.margins import Axis, Map, delay_map, margin
-from rths_engine.stability.report import SHARED, mapped, summary, warning
+from rths_engine.stability.report import SHARED, mapped, summary, unpredicted, warning
 
-__all__ = ["SHARED", "Axis", "ClosedLoop", "Map", "Mode", "delay_map", "mapped", "margin", "stable", "summary", "warning"]
+__all__ = [
+    "SHARED",
+    "Axis",
+    "ClosedLoop",
+    "Map",
+    "Mode",
+    "delay_map",
+    "mapped",
+    "margin",
+    "stable",
+    "summary",
+    "unpredicted",
+    "warning",
+]

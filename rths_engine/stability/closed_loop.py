@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
+from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.specimens.linear import LinearSpecimen
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import Plan
@@ -18,6 +19,7 @@ from rths_engine.stability.station import Lifted
 
 # chosen; see docs/decisions/0023
 ROUNDING = 1e-9  # a radius that exceeds 1 by less counts as 1
+MOST = 1024  # states of all stations
 GONE = 1e-3  # a root this small decays within one step and is not listed as a mode
 
 
@@ -46,10 +48,20 @@ class ClosedLoop:
         self.dt = plan.step
         self._structure = structure.linear(model)
         self._own = [self.station(j) for j in range(len(plan.stations))]
+        states = sum(len(one.c) for one in self._own)
+        if states > MOST:
+            problem = f"the stations need {states} states to be described about rest; the maximum is {MOST}"
+            raise PlanError(Issue("", problem, fix="shorten their delays, or predict them in plans of their own"))
 
     def station(self, j: int, added: float = 0.0) -> Lifted:
         """Station j over an integration step, with `added` controller steps of delay."""
-        return stations.linear(self.plan.stations[j], self.plan.substep, added).over(self.plan.substeps)
+        given = self.plan.stations[j]
+        one = stations.linear(given, self.plan.substep, added)
+        with np.errstate(over="ignore", invalid="ignore"):
+            lifted = one.over(self.plan.substeps)
+        if not all(np.isfinite(values).all() for values in lifted):
+            raise PlanError(stations.not_linear(given.name))
+        return lifted
 
     def matrix(self, changed: Mapping[int, Lifted] | None = None) -> Array:
         """The matrix A, with some stations replaced by those in `changed`."""

@@ -70,7 +70,7 @@ def warning(planned: Plan | Model) -> str | None:
     try:
         loop = ClosedLoop(model)
     except PlanError as error:
-        return f"Stability is not predicted: the {error.issues[0].where} {error.issues[0].problem}."
+        return unpredicted(error)
     radius = loop.radius()
     if stable(radius):
         return None
@@ -79,6 +79,12 @@ def warning(planned: Plan | Model) -> str | None:
     how = f"oscillates at {fastest.frequency:.3g} Hz and grows" if fastest and oscillates else "grows"
     found = f"Predicted unstable about rest: the closed loop {how} by {100 * (radius - 1):.2g} % a step."
     return " ".join([found, *loop.notes()])
+
+
+def unpredicted(error: PlanError) -> str:
+    """Why the stability of a plan is not predicted, in a sentence."""
+    issue = error.issues[0]
+    return f"Stability is not predicted: {f'the {issue.where} ' if issue.where else ''}{issue.problem}."
 
 
 def _mode(mode: Mode) -> dict[str, float]:

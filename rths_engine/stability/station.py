@@ -19,6 +19,7 @@ AMPLITUDE = 1e-9  # m, below any yield, slack or limit; about rest rounding is r
 EXCITED = 24  # controller steps of random command that show which states move
 NEGLIGIBLE = 1e-10  # of the largest value
 FEWEST = 16  # number of states at which a realisation begins
+MOST = 512  # responses in a realisation: systems with nearly as many states, or whose response never settles, are refused
 
 
 class Lifted(NamedTuple):
@@ -58,10 +59,13 @@ def linear(station: Station, dt: float, added: float = 0.0) -> LinearStation:
     still = np.array_equal(chain.step(chain.rest, 0.0), chain.rest)
     found = _perturbed(chain) if still else _realised(chain)
     if not all(np.isfinite(one).all() for one in (found.a, found.b, found.c)):
-        raise PlanError(
-            Issue("", f"station '{station.name}' cannot be linearised about rest", fix="check the values of its parts")
-        )
+        raise PlanError(not_linear(station.name))
     return found
+
+
+def not_linear(name: str) -> Issue:
+    """The issue of a station whose response about rest is not finite."""
+    return Issue("", f"station '{name}' cannot be linearised about rest", fix="check the values of its parts")
 
 
 def delay(station: Station) -> float | None:
@@ -78,7 +82,7 @@ class _Chain:
     """
 
     def __init__(self, station: Station, dt: float, added: float):
-        self.dt, self.lag = dt, 1.0 + added
+        self.name, self.dt, self.lag = station.name, dt, 1.0 + added
         actuator: Any = station.actuator
         if isinstance(actuator, FirstOrderDelay):
             actuator, self.lag = actuator.model_copy(update={"alpha": actuator.alpha + added}), 1.0
@@ -145,9 +149,15 @@ def _realised(chain: _Chain) -> LinearStation:
     order, size = FEWEST, 0
     while order > size - FEWEST // 2:  # double the order while nearly all states count
         size = 2 * max(order, FEWEST)
+        if size > MOST:
+            problem = f"station '{chain.name}' needs more than {MOST - FEWEST // 2} states to be described about rest"
+            fix = "shorten its delays, or make its compensator stable with the actuator"
+            raise PlanError(Issue("", problem, fix=fix))
         while len(response) < 2 * size:
             response.append(state[-1] / AMPLITUDE)
             state = chain.step(state, 0.0)
+        if not np.isfinite(response).all():
+            raise PlanError(not_linear(chain.name))
         index = np.add.outer(np.arange(size), np.arange(size))
         left, values, right = np.linalg.svd(np.array(response)[index])
         order = int(np.sum(values > NEGLIGIBLE * values[0]))

@@ -13,7 +13,7 @@ from rths_engine.parts.actuators.interacting import InteractingActuator
 from rths_engine.planning import templates
 from rths_engine.planning.plan import Plan, Station
 from rths_engine.planning.reading import read_plan
-from rths_engine.stability import ClosedLoop, delay_map, mapped, margin, published, stable, summary
+from rths_engine.stability import ClosedLoop, delay_map, mapped, margin, published, stable, summary, warning
 from rths_engine.stability import station as stations
 from tests.engine.plans import NO_LIMITS, building, make, quiet, two_storeys
 
@@ -115,6 +115,13 @@ def test_a_realisation_by_its_response_is_the_system_found_by_perturbation() -> 
         answers.append([found.c @ start, found.c @ end, found.c @ power @ end, found.c @ power @ power @ end])
     # a realisation keeps its response to 1e-10, which unequal poles spread
     assert answers[1] == pytest.approx(answers[0], rel=1e-6)
+
+
+def test_a_station_that_needs_too_many_states_is_told_not_predicted() -> None:
+    """Robust control of a model so far off that it is unstable: its response never settles."""
+    wild = {"kind": "robust", "gain": 0.2, "delay": 0.10025, "bandwidth": 25.0, "trust": 1000.0}
+    said = warning(one_storey(0.02, stations=[station(compensator=wild)]))
+    assert said == "Stability is not predicted: station 'S1' needs more than 504 states to be described about rest."
 
 
 def test_more_delay_than_the_margin_is_unstable_and_less_is_not() -> None:
