@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from rths_engine.foundation.errors import Issue
+from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.parts.specimens.commanded import Commanded
 from rths_engine.parts.structures.modes import circular_frequencies
 from rths_engine.planning.client import Client
@@ -35,6 +36,7 @@ def issues(model: Model) -> Iterator[Issue]:
     yield from _capacity(plan)
     yield from issues_of_known(plan)
     yield from _commands(plan)
+    yield from _compensators(plan)
     yield from issues_of_connections(plan)
     yield from issues_of_couplings(plan)
 
@@ -218,6 +220,15 @@ def _capacity(plan: Plan) -> Iterator[Issue]:
             problem = f"allows {limit * 1e3:g} mm/s, more than the actuator's limit of {capacity * 1e3:g} mm/s"
             fix = "lower the limit to the actuator's capacity or choose a faster actuator"
             yield Issue(f"stations.{index}.limits.velocity", problem, limit, fix)
+
+
+def _compensators(plan: Plan) -> Iterator[Issue]:
+    """Issues of compensators whose gains have no solution at the controller rate of the plan."""
+    for index, station in enumerate(plan.stations):
+        try:
+            station.compensator.build(plan.substep)
+        except PlanError as error:
+            yield from (replace(issue, where=f"stations.{index}.{issue.where}") for issue in error.issues)
 
 
 def _commands(plan: Plan) -> Iterator[Issue]:

@@ -19,6 +19,7 @@ from rths_engine.parts.specimens.linear import LinearSpecimen
 # chosen; see docs/decisions/0023
 MOST_COUPLED = 8  # stations of a coupling
 MOST_LAWS = 8
+NEAREST = 1e-3  # m, spacing of parallel actuators
 EQUAL = 1e-9  # of the largest entry: closer entries count as equal, smaller negative eigenvalues as zero
 
 Entry = Annotated[float, Field(ge=-1e12, le=1e12)]
@@ -71,7 +72,7 @@ class LoadingBeam(Value):
     title: ClassVar[str] = "Two parallel actuators on a rigid loading beam"
     name: str = Field("Beam", title="Name", min_length=1, max_length=80)
     stations: tuple[Number, ...] = quantity("Numbers of the two stations", min_length=2, max_length=2, default=(1, 2))
-    spacing: float = quantity("Spacing of the actuators s", "m", "mm", gt=0, le=100, default=2.0)
+    spacing: float = quantity("Spacing of the actuators s", "m", "mm", ge=NEAREST, le=100, default=2.0)
     offset: float = quantity(
         "Midpoint of the actuators e",
         "m",

@@ -106,7 +106,9 @@ def _of_laws(coupling: Coupling, where: str) -> Iterator[Issue]:
 def _of_mass(plan: Plan, coupling: Coupling, where: str) -> Iterator[Issue]:
     """The issue of a specimen that is too heavy for its actuators, which feel its inertia force one controller step late."""
     moving = np.array([getattr(plan.stations[number - 1].actuator, "mass", np.inf) for number in coupling.stations])
-    ratio = float(np.max(np.abs(np.linalg.eigvals(coupling.matrices().mass / moving[:, None]))))
+    with np.errstate(over="ignore"):
+        shares = coupling.matrices().mass / moving[:, None]
+    ratio = float(np.max(np.abs(np.linalg.eigvals(shares)))) if np.isfinite(shares).all() else np.inf
     if ratio >= 1:
         problem = f"is {ratio:.3g} times the moving mass of the actuators, which feel its inertia a controller step late"
         fix = "add the mass to the moving mass of the actuators instead: above 1 the rig is unstable"

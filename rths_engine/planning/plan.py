@@ -122,9 +122,16 @@ class RealTime(Value):
 
     kind: Literal["real_time"] = "real_time"
     factor: float = quantity("Speed factor", shown="1", ge=0.01, le=1000, default=1.0, help="1: real time")
-    core: int | None = quantity("Processor core", ge=0, le=4095, default=None, help="empty: any core; counted from 0")
+    core: int | None = quantity(
+        "Processor core", strict=True, ge=0, le=4095, default=None, help="empty: any core; counted from 0"
+    )
     priority: int | None = quantity(
-        "Real-time priority", ge=1, le=99, default=None, help="empty: ordinary priority; the operating system must permit it"
+        "Real-time priority",
+        strict=True,
+        ge=1,
+        le=99,
+        default=None,
+        help="empty: ordinary priority; the operating system must permit it",
     )
     title: ClassVar[str] = "Real time"
 

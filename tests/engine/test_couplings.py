@@ -231,6 +231,8 @@ def broken(**changes: Any) -> str:
         ({"couplings__0__cross_stiffness": 4e6}, "would give out energy"),
         ({"couplings__0__specimens": [{"specimen": {"kind": "mr_damper_current"}}]}, "follows a current"),
         ({"couplings__0__mass": 9000.0, "stations__0__actuator": SERVO, "stations__1__actuator": SERVO}, "couplings.0.mass"),
+        ({"couplings__0__spacing": 1e-300}, "couplings.0.spacing = 1e-300: needs a value >= 0.001"),
+        ({"couplings__0__mass": 1e9, "stations__0__actuator": SERVO | {"mass": 1e-300}}, "couplings.0.mass"),
         ({"couplings__0": {"kind": "matrices", "stiffness": [[1, 2], [2, 1]]}}, "has the negative eigenvalue -1"),
         ({"couplings__0": {"kind": "matrices", "stiffness": [[1, 2], [1, 1]]}}, "is not symmetric"),
         ({"couplings__0": {"kind": "matrices", "stiffness": [[1, 0], [0]]}}, "needs 2 rows of 2 numbers"),

@@ -60,6 +60,11 @@ def test_the_model_of_a_transfer_system_has_its_inverse_up_to_the_acceleration()
     assert found == pytest.approx(system.inverse(3), rel=1e-9, abs=1e-7)  # a system of second order has no dead time
 
 
+def test_the_model_of_a_transfer_system_stays_within_the_bounds_of_the_fields() -> None:
+    nearly_undamped = TransferSystem((1.0,), (1e-4, 1e-7, 1.0), rate=1024.0, step=DT, displacement=0.01, velocity=0.1)
+    assert KalmanPredictor.tuned_for(nearly_undamped).damping_ratio >= 0.01
+
+
 def test_amb_without_adaptation_inverts_its_model_to_the_order_of_its_differences() -> None:
     actuator = SecondOrderActuator(frequency=18.0, damping_ratio=0.8, dead_time=0.0, **UNLIMITED)
     errors = []

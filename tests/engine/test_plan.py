@@ -66,6 +66,10 @@ def test_the_two_storeys_stand_on_the_papers_first_period() -> None:
         ("stations.1.name", "Storey 1 damper", "stations.1.name", "name of another station"),
         ("integrator.dt", 0.01, "integrator.dt", "10 substeps"),
         ("seed", 1.5, "seed", "whole number"),
+        ("pace", {"kind": "real_time", "core": True}, "pace.core", "whole number"),
+        ("pace", {"kind": "real_time", "priority": "5"}, "pace.priority", "whole number"),
+        ("stations.0.compensator", {"kind": "robust", "trust": 1e-9}, "stations.0.compensator.trust", ">= 0.001"),
+        ("stations.0.compensator", {"kind": "kalman", "frequency": 1e-9}, "stations.0.compensator.frequency", ">= 0.1"),
         ("surprise", 1, "surprise", "not a field"),
         ("structure", None, "structure", ""),
         ("motion", 3, "motion", ""),
@@ -77,6 +81,16 @@ def test_a_bad_plan_is_refused_with_the_path_and_the_bound(path: str, value: Any
         read_plan(changed(path, value))
     assert [issue.where for issue in caught.value.issues] == [where]
     assert message in str(caught.value)
+
+
+def test_a_compensator_without_gains_at_the_controller_rate_is_refused_with_its_place() -> None:
+    data = changed("stations.0.compensator", {"kind": "kalman", "response_frequency": 100.0})
+    data |= {"controller_rate": 100.0, "integrator": data["integrator"] | {"dt": 0.1, "substeps": 10}}
+    with pytest.raises(PlanError) as caught:
+        read_plan(data)
+    (issue,) = caught.value.issues
+    assert (issue.where, issue.value) == ("stations.0.compensator", "kalman")
+    assert "controller rate of 100 Hz" in issue.problem
 
 
 def test_a_refused_item_is_not_told_again_as_a_list_too_short() -> None:

@@ -14,6 +14,8 @@ from rths_engine.parts.compensators.compensator import TransferSystem
 DEAD_TIMES = 400  # tried between none and the whole delay
 MOST_DAMPED = 9.0  # largest damping ratio of a model of a transfer system
 HIGHEST = 900.0  # Hz, largest natural frequency of such a model
+LEAST_DAMPED = 0.01  # smallest damping ratio of such a model
+LOWEST = 0.1  # Hz, smallest natural frequency of such a model
 
 
 class ActuatorModel(NamedTuple):
@@ -55,6 +57,7 @@ def fields_for(system: TransferSystem) -> dict[str, float]:
     late = np.linspace(0.0, max(a1, 0.0), DEAD_TIMES, endpoint=False)
     first, second = a1 - late, a2 - late * a1 + late**2 / 2
     valid = second > np.maximum((first / (2 * MOST_DAMPED)) ** 2, (2 * math.pi * HIGHEST) ** -2.0)
+    valid &= second < np.minimum((first / (2 * LEAST_DAMPED)) ** 2, (2 * math.pi * LOWEST) ** -2.0)
     wrong = np.abs(late**3 / 6 - a1 * late**2 / 2 + a2 * late - a3)
     if a1 <= 0 or not valid.any():
         return {"gain": 1 / a0, "delay": max(a1, 0.0), "frequency": HIGHEST, "damping_ratio": 1.0}

@@ -40,8 +40,8 @@ class AdaptiveModelBased(Compensating):
     kind: Literal["amb"] = "amb"
     gain: float = quantity("Static gain of the actuator's model", ge=0.2, le=5, default=1.0)
     delay: float = quantity("Estimated delay τ", "s", "ms", ge=0, le=0.2, default=29 / 1024, help="start value of a1")
-    frequency: float = quantity("Natural frequency of the actuator's model f", "Hz", gt=0, le=1000, default=15.0)
-    damping_ratio: float = quantity("Damping ratio of the actuator's model ζ", "1", "%", gt=0, le=10, default=0.9)
+    frequency: float = quantity("Natural frequency of the actuator's model f", "Hz", ge=0.1, le=1000, default=15.0)
+    damping_ratio: float = quantity("Damping ratio of the actuator's model ζ", "1", "%", ge=0.01, le=10, default=0.9)
     largest_delay: float = quantity("Largest delay a1, τ_max", "s", "ms", gt=0, le=0.2, default=0.06)
     gain_range: float = quantity("Range of the amplitude coefficient a0", ge=0, le=0.9, default=0.3)
     response_frequency: float = quantity("Dominant frequency of the response", "Hz", gt=0, le=100, default=1.0)

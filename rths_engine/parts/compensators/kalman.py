@@ -12,6 +12,7 @@ from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.part import quantity
 from rths_engine.parts.compensators.actuator_model import ActuatorModel, fields_for
 from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
+from rths_engine.parts.compensators.synthesis import finite, synthesis
 
 # chosen; see docs/decisions/0023
 AHEAD = 10.0  # bandwidth w_c times the delay
@@ -38,12 +39,12 @@ class KalmanPredictor(Compensating):
     kind: Literal["kalman"] = "kalman"
     gain: float = quantity("Static gain of the actuator's model", ge=0.2, le=5, default=1.0)
     delay: float = quantity("Delay τ", "s", "ms", ge=0, le=0.2, default=29 / 1024)
-    frequency: float = quantity("Natural frequency of the actuator's model f", "Hz", gt=0, le=1000, default=15.0)
-    damping_ratio: float = quantity("Damping ratio of the actuator's model ζ", "1", "%", gt=0, le=10, default=0.9)
+    frequency: float = quantity("Natural frequency of the actuator's model f", "Hz", ge=0.1, le=1000, default=15.0)
+    damping_ratio: float = quantity("Damping ratio of the actuator's model ζ", "1", "%", ge=0.01, le=10, default=0.9)
     response_frequency: float = quantity(
         "Frequency of the response", "Hz", ge=0, le=100, default=1.0, help="0: constant acceleration"
     )
-    bandwidth: float = quantity("Bandwidth of the filter", "Hz", gt=0, le=1000, default=20.0)
+    bandwidth: float = quantity("Bandwidth of the filter", "Hz", ge=0.01, le=1000, default=20.0)
     title: ClassVar[str] = "Kalman predictor"
 
     @classmethod
@@ -56,6 +57,10 @@ class KalmanPredictor(Compensating):
         )
 
     def build(self, dt: float) -> tuple[Array, Array]:
+        with synthesis(self, dt):
+            return finite(self._gains(dt)), np.zeros(4)
+
+    def _gains(self, dt: float) -> Array:
         model = ActuatorModel.of(self)
         pace = 2 * math.pi * self.bandwidth
         rates = pace * np.diag([1.0, 1.0], 1)  # F for z over powers of w_c
@@ -69,7 +74,7 @@ class KalmanPredictor(Compensating):
         gain = spread[:, 0] / (spread[0, 0] + 1 / dt)
         inverse = np.eye(3) + 2 * model.damping_ratio / model.omega * rates + rates @ rates / model.omega**2
         row = (inverse @ expm(rates * model.dead_time))[0] / model.gain
-        return np.array([*move.ravel(), *gain, *row]), np.zeros(4)
+        return np.array([*move.ravel(), *gain, *row])
 
     @staticmethod
     def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):

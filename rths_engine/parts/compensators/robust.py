@@ -13,6 +13,7 @@ from rths_engine.foundation.part import quantity
 from rths_engine.parts.compensators.actuator_model import ActuatorModel, fields_for
 from rths_engine.parts.compensators.compensator import Compensating, TransferSystem
 from rths_engine.parts.compensators.loop_shaping import Linear, robust_controller
+from rths_engine.parts.compensators.synthesis import finite, synthesis
 
 # chosen; see docs/decisions/0023
 GAMMA = 2.0  # largest gamma of settings for a transfer system
@@ -49,11 +50,11 @@ class RobustIntegratedControl(Compensating):
     kind: Literal["robust"] = "robust"
     gain: float = quantity("Static gain of the actuator's model", ge=0.2, le=5, default=1.0)
     delay: float = quantity("Delay τ", "s", "ms", ge=0.0005, le=0.2, default=29 / 1024)
-    frequency: float = quantity("Natural frequency of the actuator's model f", "Hz", gt=0, le=1000, default=15.0)
-    damping_ratio: float = quantity("Damping ratio of the actuator's model ζ", "1", "%", gt=0, le=10, default=0.9)
-    bandwidth: float = quantity("Bandwidth of the feedback", "Hz", gt=0, le=50, default=5.0)
+    frequency: float = quantity("Natural frequency of the actuator's model f", "Hz", ge=0.1, le=1000, default=15.0)
+    damping_ratio: float = quantity("Damping ratio of the actuator's model ζ", "1", "%", ge=0.01, le=10, default=0.9)
+    bandwidth: float = quantity("Bandwidth of the feedback", "Hz", ge=0.01, le=50, default=5.0)
     trust: float = quantity(
-        "Driving noise over sensor noise ρ", gt=0, le=1000, default=30.0, help="large: the Kalman filter follows the sensor"
+        "Driving noise over sensor noise ρ", ge=0.001, le=1000, default=30.0, help="large: the Kalman filter follows the sensor"
     )
     derivative_step: float = quantity("Step of the derivatives h", "s", "ms", gt=0, le=0.05, default=10 / 1024)
     title: ClassVar[str] = "Robust integrated (H∞ and Kalman filter)"
@@ -72,19 +73,25 @@ class RobustIntegratedControl(Compensating):
         return cls(**fields, bandwidth=narrow, derivative_step=step)
 
     def controller(self, dt: float) -> tuple[Linear, float]:
-        """The feedback K in continuous time, and gamma."""
-        plant = _plant(ActuatorModel.of(self), dt)
-        pace = 2 * math.pi * self.bandwidth
-        size = 1 / (abs(plant.at(1j * pace)) * math.sqrt(2))
-        weight = Linear(np.zeros((1, 1)), np.ones((1, 1)), np.array([[size * pace]]), size)
-        found, gamma = robust_controller(plant.behind(weight))
-        return weight.behind(found), gamma
+        """The feedback K in continuous time, and gamma. Raises PlanError where the synthesis has no solution."""
+        with synthesis(self, dt):
+            plant = _plant(ActuatorModel.of(self), dt)
+            pace = 2 * math.pi * self.bandwidth
+            size = 1 / (abs(plant.at(1j * pace)) * math.sqrt(2))
+            weight = Linear(np.zeros((1, 1)), np.ones((1, 1)), np.array([[size * pace]]), size)
+            found, gamma = robust_controller(plant.behind(weight))
+            return weight.behind(found), gamma
 
     def build(self, dt: float) -> tuple[Array, Array]:
-        model = ActuatorModel.of(self)
         spacing = max(1, round(self.derivative_step / dt))
-        a0, a1, a2, a3 = model.inverse() / (spacing * dt) ** np.arange(4.0)
         length = 3 * spacing + 1
+        with synthesis(self, dt):
+            gains = finite(self._gains(dt, spacing))
+        return np.array([spacing, length, *gains]), np.zeros(RING + length)
+
+    def _gains(self, dt: float, spacing: int) -> Array:
+        model = ActuatorModel.of(self)
+        a0, a1, a2, a3 = model.inverse() / (spacing * dt) ** np.arange(4.0)
         forward = [a0 + a1 + a2 + a3, -a1 - 2 * a2 - 3 * a3, a2 + 3 * a3, -a3]
         plant = _plant(model, 0.0 if model.dead_time > 0 else dt)
         held = expm(np.block([[plant.a, plant.b], [np.zeros((1, 4))]]) * dt)
@@ -94,7 +101,7 @@ class RobustIntegratedControl(Compensating):
         feedback = self.controller(dt)[0].sampled(dt)
         estimator = [*move.ravel(), *push.ravel(), *gain.ravel()]
         control = [*feedback.a.ravel(), *feedback.b.ravel(), *feedback.c.ravel(), feedback.d]
-        return np.array([spacing, length, model.gain, *forward, *estimator, *control]), np.zeros(RING + length)
+        return np.array([model.gain, *forward, *estimator, *control])
 
     @staticmethod
     def step(p, s, x_cmd, x_cmd_last, x_meas, ti, dt):
