@@ -39,7 +39,7 @@ def rig(given: Namespace) -> int:
     elapsed_s = shown.elapsed_s
     if session.farewell is not None:
         session.farewell.wait(LEAVING_S)
-    if run.done == 0:
+    if run.empty:
         return _nothing(session, given.json)
     status = "cancelled" if session.cancelled else "tripped" if run.trip else "completed"
     result = run.result(status, elapsed_s)

@@ -15,7 +15,7 @@ from app.jobs.service import NOBODY
 from app.jobs.states import State
 from app.models import Rig, Run, RunStation
 from app.runs import values
-from app.runs.order import Outcome, RunOrder
+from app.runs.order import WAITING, Outcome, RunOrder
 from rths_engine.foundation.part import validated
 from rths_engine.planning.connections import external
 from rths_engine.planning.plan import Plan
@@ -46,8 +46,11 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return Run.rig_id.not_in(sa.select(Rig.id).where(Rig.tests_at_a_time <= running.scalar_subquery()))
 
     def not_repeated(self, job: Run) -> str | None:
-        """A test that drives an external rig: nobody knows how the rig stands after the test was torn off."""
-        found = external(validated(Plan, job.plan))
+        """A test that drove an external rig, which now stands nobody knows how, or one whose client had connected."""
+        plan = validated(Plan, job.plan)
+        if plan.test == "client" and job.doing and not job.doing.startswith(WAITING):
+            return "Its client had connected, so the test is not started again by itself. Retry it, then start the client."
+        found = external(plan)
         if not found:
             return None
         named = ", ".join(connection.peer for connection in found.values())

@@ -8,6 +8,8 @@ from typing import Any
 
 from app.jobs.order import Order
 
+WAITING = "waiting for client"  # begins what a test with a client does before its client connects
+
 
 @dataclass(frozen=True, slots=True)
 class RunOrder(Order):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from app.runs.order import Outcome, RunOrder
+from app.runs.order import WAITING, Outcome, RunOrder
 from app.worker.child import Line, Refused
 from app.worker.viewers import Viewers
 
@@ -32,7 +32,7 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     session.serve()
     if session.cancelled:
         line.stopping()
-    if run.done == 0 and not session.cancelled:
+    if run.empty and not session.cancelled:
         raise Refused(f"Nothing was recorded. {session.told()['ended']}")
     shown.last()
     status = "cancelled" if session.cancelled else "tripped" if run.trip else "completed"
@@ -68,7 +68,7 @@ class Shown(Viewers):
         }
         self._client = {"state": "waiting", **words}
         self.tell(0.0, ended=False, client=self._client)
-        self.line.progress(f"waiting for client at {address} by {transport.upper()}", 0.0)
+        self.line.progress(f"{WAITING} at {address} by {transport.upper()}", 0.0)
 
     def connected(self, peer: str) -> None:
         """Tell viewers that a client has connected, and start the clock."""

@@ -57,6 +57,7 @@ class Exchange:
         self._time_at, self._step = layout.time, self.plan.client.step
         self._command = self._seen = self._committed = (0.0,) * count  # of the rig; last sent; last of the step before
         self._time: float | None = None  # of the step
+        self._longest = self._step or 0.0  # step so far, s
         self._origin, self._first = 0.0, 0  # a time of the client, and its controller step
         self._ahead = 0  # controller steps from a time of the client to the displacement sent with it
         self._moved = self._open = False
@@ -125,14 +126,20 @@ class Exchange:
     def _begin(self, time: float) -> None:
         """Begin the step that ends at `time`."""
         if self._time is None:
+            if time + OFF_GRID * self.rig.run.dt == time:
+                raise Ended(
+                    f"The time of the client begins at {time:.6g} s. Times as large are rounded to more than a thousandth of a "
+                    f"controller step of {self.rig.run.dt:.6g} s. Begin near zero."
+                )
             self._origin = time
+            self._longest = max(self._longest, time)
         elif self._open and not self._reads_all and self._time_at is not None:
             raise Ended(
                 f"The client began a step to {time:.6g} s before it committed that to {self._time:.6g} s: its step failed, or "
                 "its commit is missing. The rig cannot repeat a step."
             )
         elif time < self._time:
-            if not time > 0:
+            if not 0 < time <= self._longest * (1 + SAME):
                 raise Ended(f"The client set its time back from {self._time:.6g} s to {time:.6g} s.")
             self.warnings.setdefault("restarted", RESTARTED.format(time=self._time))
             self._hold()
@@ -140,6 +147,8 @@ class Exchange:
         elif self._open:
             self._hold()
             self.steps += 1
+        if self._time is not None:
+            self._longest = max(self._longest, time - self._time)
         self._open = self._time is not None
         self._time, self._moved, self._committed = time, False, self._seen
 

@@ -132,23 +132,21 @@ class Session:
             answer = take(unpack(message))
             if answer is not None:
                 send(answer)
-                continue
-            acknowledge()
-            if exchange.steps != steps:
-                steps = exchange.steps
-                self.times.ended()
-                if clock() - self._looked > SHOWN_S:
-                    self._look()
+            else:
+                acknowledge()
+                if exchange.steps != steps:
+                    steps = exchange.steps
+                    self.times.ended()
+            if clock() - self._looked > SHOWN_S:  # whatever the client sends, also without a commit
+                self._look()
 
     def _received(self, peer: Peer, message: memoryview) -> None:
-        """Wait for a message as long as the plan has patience."""
+        """Wait for a whole message as long as the plan has patience."""
         begun, patience = time.perf_counter(), self.run.plan.client.patience
         while not peer.receive(message):
             self._look()
             if time.perf_counter() - begun > patience:
-                raise Ended(
-                    f"The client was silent for {patience:g} s. It may wait for a datagram that was lost, or have stopped."
-                )
+                raise Ended(_late(peer, message, patience))
 
     def _look(self) -> None:
         now = time.perf_counter()
@@ -168,3 +166,9 @@ class Session:
         self.run.finished = True
         if not ended.orderly and not self.cancelled and self.run.trip is None:
             self.run.stop(ended.cause, str(ended))
+
+
+def _late(peer: Peer, message: memoryview, patience: float) -> str:
+    if peer.got:
+        return f"The client sent only {peer.got} of the {len(message)} bytes of a message within {patience:g} s."
+    return f"The client was silent for {patience:g} s. It may wait for a datagram that was lost, or have stopped."

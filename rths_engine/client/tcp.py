@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 
 from rths_engine.client.ended import Gone
-from rths_engine.client.transport import limit_waits
+from rths_engine.client.transport import limit_waits, untaken
 
 # Linux: acknowledge at once
 _QUICK = getattr(socket, "TCP_QUICKACK", None)
@@ -15,7 +15,7 @@ class TcpPeer:
     """A client by TCP."""
 
     def __init__(self, connection: socket.socket, address: tuple[str, int]):
-        self._connection, self._got = connection, 0
+        self._connection, self.got = connection, 0
         self.address = f"{address[0]}:{address[1]}"
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         limit_waits(connection)
@@ -23,18 +23,18 @@ class TcpPeer:
     def receive(self, message: memoryview) -> bool:
         size = len(message)
         try:
-            while self._got < size:
-                got = self._connection.recv_into(message[self._got :] if self._got else message)
-                if got == 0:
-                    raise Gone
-                self._got += got
-                if self._got < size:
-                    self.acknowledge()
+            got = self._connection.recv_into(message[self.got :] if self.got else message)
         except BlockingIOError:
             return False
         except OSError:
             raise Gone from None
-        self._got = 0
+        if got == 0:
+            raise Gone
+        self.got += got
+        if self.got < size:
+            self.acknowledge()
+            return False
+        self.got = 0
         return True
 
     def acknowledge(self) -> None:
@@ -45,6 +45,8 @@ class TcpPeer:
     def send(self, message: bytes | bytearray | memoryview) -> None:
         try:
             self._connection.sendall(message)
+        except BlockingIOError:
+            raise untaken() from None
         except OSError:
             raise Gone from None
 

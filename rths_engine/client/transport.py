@@ -6,24 +6,31 @@ import socket
 import struct
 from typing import Protocol
 
+from rths_engine.client.ended import Ended
+
 # chosen; see docs/decisions/0023
 LOOK_S = 0.1  # longest time within `receive` without a message
-SENDING_S = 5.0  # longest time within `send`
+SENDING_S = 1.0  # longest time within `send`
 
 
 class Peer(Protocol):
     """The connection to one client."""
 
     address: str
+    got: int
+    """Bytes of a message that is not complete yet."""
 
     def receive(self, message: memoryview) -> bool:
-        """Fill `message`, and return True; False where it is not complete after LOOK_S. Raises Gone or Ended."""
+        """Fill `message`, and return True; False where it is not complete yet, LOOK_S later or after a part of it.
+
+        The next call goes on from there. Raises Gone or Ended.
+        """
 
     def acknowledge(self) -> None:
         """Acknowledge a message that gets no answer; an answer acknowledges its message itself."""
 
     def send(self, message: bytes | bytearray | memoryview) -> None:
-        """Send a message. Raises Gone."""
+        """Send a message. Raises Gone, or Ended where the client takes nothing for SENDING_S."""
 
     def close(self) -> None:
         """Close the connection."""
@@ -40,6 +47,11 @@ class Listener(Protocol):
 
     def close(self) -> None:
         """Stop listening."""
+
+
+def untaken() -> Ended:
+    """The end of a test whose client takes no answers."""
+    return Ended(f"The client took no answer for {SENDING_S:g} s. It may send requests without reading the answers.")
 
 
 def limit_waits(connection: socket.socket) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 
 from rths_engine.client.ended import Ended, Gone
-from rths_engine.client.transport import limit_waits
+from rths_engine.client.transport import limit_waits, untaken
 from rths_engine.wire.generic import DATAGRAM, HELLO, WELCOME
 
 
@@ -13,7 +13,7 @@ class UdpPeer:
     """A client by UDP. The socket takes datagrams of this client only. A lost datagram is noticed as silence."""
 
     def __init__(self, connection: socket.socket, address: tuple[str, int]):
-        self._connection, self._got = connection, 0
+        self._connection, self.got = connection, 0
         self.address = f"{address[0]}:{address[1]}"
         connection.connect(address)
         limit_waits(connection)
@@ -22,19 +22,18 @@ class UdpPeer:
     def receive(self, message: memoryview) -> bool:
         size = len(message)
         try:
-            while self._got < size:
-                expected = min(DATAGRAM, size - self._got)
-                got = self._connection.recv_into(message[self._got :] if self._got else message)
-                if got != expected:
-                    raise Ended(
-                        f"The client sent {got} bytes in place of {expected}. Its data size is not that of its setup message."
-                    )
-                self._got += got
+            got = self._connection.recv_into(message[self.got :] if self.got else message)
         except BlockingIOError:
             return False
         except OSError:
             raise Gone from None
-        self._got = 0
+        expected = min(DATAGRAM, size - self.got)
+        if got != expected:
+            raise Ended(f"The client sent {got} bytes in place of {expected}. Its data size is not that of its setup message.")
+        self.got += got
+        if self.got < size:
+            return False
+        self.got = 0
         return True
 
     def acknowledge(self) -> None:
@@ -48,6 +47,8 @@ class UdpPeer:
             whole = memoryview(message)
             for first in range(0, len(whole), DATAGRAM):
                 self._connection.send(whole[first : first + DATAGRAM])
+        except BlockingIOError:
+            raise untaken() from None
         except OSError:
             raise Gone from None
 

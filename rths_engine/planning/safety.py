@@ -9,6 +9,8 @@ from typing import Any
 from rths_engine.foundation import units
 from rths_engine.foundation.part import Value, quantity
 
+# chosen; see docs/decisions/0023
+LONG = 1e9  # shown with an exponent from here on
 # limit -> (words, SI unit, unit shown); the position is the code in the compiled loop
 LIMITS = {
     "displacement": ("command displacement", "m", "mm"),
@@ -37,6 +39,12 @@ class Limits(Value):
     )
 
 
+def _exceeding(value: float, unit: str) -> str:
+    if not math.isfinite(value):
+        return "not a number" if math.isnan(value) else "infinite"
+    return f"{value:.1f}{unit}" if abs(value) < LONG else f"{value:.3g}{unit}"
+
+
 @dataclass(frozen=True, slots=True)
 class Trip:
     """The limit that ended a run: station (from 1), limit, value and bound in SI, substep (from 1) and its time (s)."""
@@ -56,7 +64,7 @@ class Trip:
         value, bound = units.from_si(self.value, shown), units.from_si(self.bound, shown)
         unit = f" {units.pretty(shown)}".rstrip()
         return (
-            f"Tripped at {self.time_s:.3f} s: {words} of station {self.station} ({self.name}) was {value:.1f}{unit}, "
+            f"Tripped at {self.time_s:.3f} s: {words} of station {self.station} ({self.name}) was {_exceeding(value, unit)}, "
             f"beyond its limit of {bound:g}{unit}."
         )
 

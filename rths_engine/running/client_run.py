@@ -77,6 +77,11 @@ class ClientRun:
         """Whether a part of the ramp is left."""
         return self._ramped < self._length and not self.finished
 
+    @property
+    def empty(self) -> bool:
+        """Whether nothing was recorded: no controller step, nor a limit that tripped in the first one."""
+        return self.done == 0 and (self.trip is None or isinstance(self.trip, Stop))
+
     def stop(self, cause: str, reason: str) -> None:
         """End the run for a reason other than a limit."""
         if self.trip is None:

@@ -30,6 +30,8 @@ from rths_engine.recordings.run_file import load
 from rths_engine.stability import summary
 from rths_engine.sweeps.design import read_design
 from rths_engine.wire.generic import Action
+from tests.engine.clients import led
+from tests.engine.clients import station as rig_of_client
 from tests.engine.external_plans import hybrid, station
 from tests.engine.generic_server import serving
 
@@ -117,6 +119,24 @@ def test_a_test_whose_worker_died_is_not_started_again(client: TestClient, maker
         "The worker or the process of the test died. The test drove an external rig (generic server 127.0.0.1:8090 (TCP)), "
         "so it is not started again by itself. Inspect the rig, then retry."
     )
+
+
+@pytest.mark.parametrize(("doing", "again"), [("waiting for client at 127.0.0.1:8090 by TCP", True), ("at 0.4 s", False)])
+def test_a_test_whose_client_had_connected_is_not_started_again(
+    client: TestClient, maker: sessionmaker[Session], doing: str, again: bool
+) -> None:
+    given = led([rig_of_client()]).model_dump(mode="json", by_alias=True)
+    run_id = client.post("/api/v1/runs", json={"plan": given}).raise_for_status().json()["runs"][0]["id"]
+    for attempt in (1, 2):
+        with db.unit_of_work(maker) as session:
+            jobs = JobService[Run, Any](session, RUNS)
+            taken: Any = jobs.start(run_id, "worker")
+            if attempt == 1:
+                jobs.progress(run_id, 1, doing, 0.0)
+    assert (taken.started is not None) is again
+    run = client.get(f"/api/v1/runs/{run_id}").json()
+    assert run["state"] == (State.RUNNING if again else State.FAILED)
+    assert again or "Its client had connected, so the test is not started again by itself." in run["reason"]
 
 
 class Line:

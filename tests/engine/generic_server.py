@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import socket
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -66,7 +67,17 @@ class Server:
             silent = self.ends.get(len(self.trials)) == "silent"
             force = math.nan if self.ends.get(len(self.trials)) == "nan" else self.stiffness * x + self.damping * v
             if request.action in generic.ANSWERED and not silent:
-                line.send(generic.pack_values((x if request.action == Action.DISPLACEMENT else force,), sizes.size))
+                answer = generic.pack_values((x if request.action == Action.DISPLACEMENT else force,), sizes.size)
+                if self.ends.get(len(self.trials)) == "trickle":
+                    self._trickle(line, answer)
+                else:
+                    line.send(answer)
+
+    def _trickle(self, line: socket.socket, answer: bytes) -> None:
+        """Send single bytes until the client leaves."""
+        for k in range(len(answer)):
+            line.send(answer[k : k + 1])
+            time.sleep(0.01)
 
     def _read(self, line: socket.socket, count: int) -> bytes:
         data = b""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import socket
 import struct
+import threading
 from collections.abc import Callable
-from time import perf_counter
+from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
@@ -149,6 +151,19 @@ def test_a_client_whose_time_starts_again_at_zero_goes_on_from_there() -> None:
     assert session.run.done == 30 and "set its time back" in session.told()["warnings"][0]
 
 
+def test_a_time_that_runs_back_by_less_than_to_zero_ends_the_test() -> None:
+    def client(session: Session) -> None:
+        peer = Generic(session)
+        peer.say(Action.SET_TRIAL, (0.0,), 0.0)
+        for k in range(1, 5):
+            peer.step(0.0001 * k, 0.05 * k)
+        peer.say(Action.SET_TRIAL, (0.0003,), 0.1)
+        peer.end()
+
+    session = served(led(), client)
+    assert session.run.done == 200 and "set its time back from 0.2 s to 0.1 s" in ended(session)
+
+
 def test_a_client_that_reads_everything_at_once_needs_no_commit_as_openfresco_has_none() -> None:
     """The messages of OpenFresco's ECGenericTCP with disp control, disp and force daq modes: 3, 6, ..., 99, and no time."""
     found: list[tuple[float, ...]] = []
@@ -234,6 +249,85 @@ def test_a_jump_beyond_the_limits_trips_in_its_controller_step() -> None:
     session = served(led(), client)
     trip = session.run.trip
     assert trip is not None and (trip.limit, trip.station, trip.substep) == ("velocity", 1, 11) and session.run.done == 10
+
+
+def test_a_jump_in_the_first_controller_step_is_a_trip_without_a_record() -> None:
+    def client(session: Session) -> None:
+        peer = Generic(session)
+        peer.say(Action.SET_TRIAL, (0.0,), 0.0)
+        peer.say(Action.SET_TRIAL, (1e300,), 0.01)
+        peer.end()
+
+    run = served(led(), client).run
+    assert run.done == 0 and run.trip is not None and not run.empty
+    assert "was 1e+302 mm, beyond its limit of 100 mm" in run.trip.sentence
+    summary = run.result("tripped", 0.1).summary()
+    assert summary["trip"]["limit"] == "displacement" and summary["simulated_s"] == 0
+
+
+@pytest.mark.parametrize(("first", "words"), [(1e308, "begins at 1e+308 s"), (-1e308, "begins at -1e+308 s")])
+def test_a_first_time_too_large_for_controller_steps_is_refused(first: float, words: str) -> None:
+    def client(session: Session) -> None:
+        peer = Generic(session)
+        peer.say(Action.SET_TRIAL, (0.0,), first)
+        peer.end()
+
+    assert words in ended(served(led(), client))
+
+
+def _packed(*numbers: float) -> bytes:
+    return struct.pack("<16d", *numbers, *[0.0] * (16 - len(numbers)))
+
+
+REPEATED = _packed(Action.SET_TRIAL, 0.0001, 0.0, 0.0, 0.01)
+CHATTER = {
+    "a displacement and a question again and again": REPEATED + _packed(Action.FORCE),
+    "a question again and again": _packed(Action.FORCE),
+    "a code without answer again and again": _packed(Action.EXECUTE),
+    "one byte at a time": b"\0",
+}
+
+
+@pytest.mark.parametrize("case", CHATTER)
+def test_a_stop_is_heard_whatever_the_client_sends(case: str) -> None:
+    data = CHATTER[case]
+    stop, heard = threading.Event(), threading.Event()
+
+    def client(session: Session) -> None:
+        peer = Generic(session)
+        peer.say(Action.SET_TRIAL, (0.0,), 0.0)
+        peer.step(0.0001, 0.01)
+        stop.set()
+        with contextlib.suppress(OSError):
+            while not heard.wait(0.02 if len(data) == 1 else 0.0):
+                peer.socket.send(data)
+                if "question" in case:
+                    peer.socket.recv(65_536)
+        peer.socket.close()
+
+    def until() -> bool:
+        if stop.is_set():
+            heard.set()
+        return heard.is_set()
+
+    session = served(led(), client, until)
+    assert session.cancelled and session.run.done == 10
+
+
+@pytest.mark.parametrize("transport", ["tcp", "udp"])
+def test_the_patience_is_that_for_a_whole_message(transport: str) -> None:
+    def client(session: Session) -> None:
+        peer = Generic(session, size=4000)
+        peer.socket.send(b"\0" * 9126)
+        while not session.run.finished:
+            sleep(0.02)
+            if not peer.udp:
+                peer.socket.send(b"\0")
+        peer.socket.close()
+
+    plan = led(client={"transport": transport, "patience": 0.3})
+    session = served(plan, client)
+    assert "of the 32000 bytes of a message within 0.3 s" in ended(session)
 
 
 HEADERS = {

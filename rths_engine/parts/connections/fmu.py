@@ -137,7 +137,12 @@ class FmuRig(Adapter):
                     "path", "is not the name of a file", self.given.path, f"put the FMU into {folder.name}/"
                 )
             path = folder / path
-        if not path.is_file():
+        try:
+            found = path.is_file()
+        except OSError as error:  # such as a name that is too long; the error itself tells the folder
+            problem = f"cannot be opened: {error.strerror}"
+            raise self.terms.refused("path", problem, self.given.path, "give the path of an .fmu file") from None
+        if not found:
             raise self.terms.refused("path", "does not exist", self.given.path, "give the path of an .fmu file")
         return path
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import time as clock
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -54,12 +55,14 @@ class GenericRig(Adapter):
     def __init__(self, connection: GenericClient, terms: Terms):
         self.given, self.terms, self.scale = connection, terms, connection.scale
         self._socket: socket.socket | None = None
+        self._longest, self._due = OPENING_S, 0.0  # time of an exchange (s), and its end by the monotonic clock
         self._last: tuple[float, float, float] | None = None  # displacement, velocity and time of the last command
 
     def open(self) -> Reading:
         given = self.given
         kind = socket.SOCK_STREAM if given.transport == "tcp" else socket.SOCK_DGRAM
         try:
+            self._begin(OPENING_S)
             found = socket.getaddrinfo(given.host, given.port, type=kind)[0]
             self._socket = socket.socket(found[0], kind)
             self._socket.settimeout(OPENING_S)
@@ -71,15 +74,17 @@ class GenericRig(Adapter):
             read = Numbers(displacement=1, force=1)
             self._send(generic.pack_sizes(Sizes(Numbers(1, 1, 1, 0, 1), read, given.size)))
             self._ask(Action.DISPLACEMENT, Action.FORCE)
-            reading = self.measure()
-            self._socket.settimeout(given.patience)
-            return reading
+            return self.measure()
+        except UnicodeError:
+            fix = "give the name or the address of the computer on which the server of the rig runs"
+            raise self.terms.refused("host", "cannot be the name of a computer", given.host, fix) from None
         except (OSError, Lost) as error:
             said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
             fix = "start the server of the rig, and check host, port and transport"
             raise self.terms.refused("host", f"the {given.peer} does not answer: {said}", None, fix) from None
 
     def command(self, displacement: float, current: float, time: float) -> None:
+        self._begin(self.given.patience)
         if self._last is None:
             self._trial(0.0, 0.0, 0.0, 0.0)  # a server begins to count time at the first message, as OpenSees sends it
         x = displacement / self.scale.displacement
@@ -98,12 +103,23 @@ class GenericRig(Adapter):
     def close(self) -> None:
         if self._socket is None:
             return
+        self._begin(self.given.patience)
         with contextlib.suppress(OSError, Lost):
             if self._last is not None:
                 self._trial(self._last[0], 0.0, 0.0, self._last[2])
             self._ask(Action.END)
         self._socket.close()
         self._socket = None
+
+    def _begin(self, longest: float) -> None:
+        """Begin an exchange of at most `longest` (s): one end for all its messages, however many parts they come in."""
+        self._longest, self._due = longest, clock.monotonic() + longest
+
+    def _limit(self) -> socket.socket:
+        """The socket, which waits until the end of the exchange at most; after it, it takes only what has come."""
+        assert self._socket is not None
+        self._socket.settimeout(max(0.0, self._due - clock.monotonic()))
+        return self._socket
 
     def _greet(self) -> None:
         assert self._socket is not None
@@ -119,14 +135,13 @@ class GenericRig(Adapter):
             self._send(generic.pack_request(Request(action, (0.0,), (0.0,), (0.0,)), self.given.size))
 
     def _send(self, data: bytes) -> None:
-        assert self._socket is not None
         try:
             if self.given.transport == "tcp":
-                self._socket.sendall(data)
+                self._limit().sendall(data)
             else:
                 for part in generic.datagrams(data):
-                    self._socket.send(part)
-        except TimeoutError:
+                    self._limit().send(part)
+        except (TimeoutError, BlockingIOError):
             raise Lost("it took no command within the longest wait") from None
         except ConnectionError:
             raise Lost("it closed the connection") from None
@@ -134,16 +149,15 @@ class GenericRig(Adapter):
             raise Lost(f"the connection broke: {error.strerror or error}") from None
 
     def _receive(self) -> bytes:
-        assert self._socket is not None
         wanted, parts = 8 * self.given.size, b""
         try:
             while len(parts) < wanted:
-                part = self._socket.recv(65_536 if self.given.transport == "udp" else wanted - len(parts))
+                part = self._limit().recv(65_536 if self.given.transport == "udp" else wanted - len(parts))
                 if not part:
                     raise Lost("it closed the connection")
                 parts += part
-        except TimeoutError:
-            raise Lost(f"it did not answer within {self._socket.gettimeout():g} s") from None
+        except (TimeoutError, BlockingIOError):
+            raise Lost(f"it did not answer within {self._longest:g} s") from None
         except ConnectionError:
             raise Lost("it closed the connection") from None
         except OSError as error:
