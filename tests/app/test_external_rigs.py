@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
+import socket
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -21,7 +24,8 @@ from app.reports.document import Facts
 from app.reports.of_run import repeating
 from app.reports.record_of_test import record
 from app.runs.job import RUNS
-from app.runs.order import RunOrder
+from app.runs.order import WAITING, RunOrder
+from app.worker import client as client_worker
 from app.worker import engine
 from rths_engine.foundation.errors import PlanError
 from rths_engine.planning.reading import plan_to_yaml
@@ -29,7 +33,7 @@ from rths_engine.preflight import preflight
 from rths_engine.recordings.run_file import load
 from rths_engine.stability import summary
 from rths_engine.sweeps.design import read_design
-from rths_engine.wire.generic import Action
+from rths_engine.wire.generic import Action, Numbers, Request, Sizes, pack_request, pack_sizes
 from tests.engine.clients import led
 from tests.engine.clients import station as rig_of_client
 from tests.engine.external_plans import hybrid, station
@@ -173,6 +177,34 @@ def test_every_end_in_the_worker_is_recorded_and_the_rig_holds(tmp_path: Path, e
     assert "only as far as their rigs repeat" in repeating(recording)
     assert said["External stations"].startswith("Station 1 (Spring 1) is external: generic server")
     assert ("lost its rig" in said["Trip"]) is (status == "tripped")
+
+
+class Jumper(Line):
+    """A line whose other end connects to the rig that waits, and jumps far at once."""
+
+    def progress(self, doing: str, share: float) -> None:
+        if doing.startswith(WAITING):
+            threading.Thread(target=self._jump, args=(int(re.findall(r":(\d+)", doing)[0]),)).start()
+
+    def _jump(self, port: int) -> None:
+        with socket.create_connection(("127.0.0.1", port)) as line:
+            none = (0.0,)
+            line.sendall(pack_sizes(Sizes(Numbers(1, 1, 1, 0, 1), Numbers(force=1), 16)))
+            for displacement, time in ((0.0, 0.0), (1.0, 0.01)):
+                line.sendall(pack_request(Request(Action.SET_TRIAL, (displacement,), none, none, time), 16))
+            while line.recv(4096):
+                line.sendall(pack_request(Request(Action.END, none, none, none), 16))
+
+
+def test_a_limit_that_trips_in_the_first_controller_step_is_stored_as_a_trip(tmp_path: Path) -> None:
+    given = led([rig_of_client()]).model_dump(mode="json", by_alias=True)
+    outcome = client_worker.execute(RunOrder("run", 1, given, tmp_path / "run.h5", tmp_path), Jumper())  # type: ignore[arg-type]
+    recording = load(tmp_path / "run.h5")
+    assert outcome.summary["status"] == recording.status == "tripped" and outcome.summary["simulated_s"] == 0
+    facts = record({}, recording)[0]
+    assert isinstance(facts, Facts)
+    assert ("Trip", outcome.summary["trip"]["sentence"]) in [(name, text) for name, text in facts.rows]
+    assert "was 100000.0 mm/s, beyond its limit of 500 mm/s" in outcome.summary["trip"]["sentence"]
 
 
 def test_a_rig_that_does_not_answer_refuses_the_test(tmp_path: Path) -> None:

@@ -135,11 +135,8 @@ def test_the_service_opens_only_files_of_its_own_folder(units: dict[str, Path], 
 
 
 def test_a_name_that_is_too_long_is_refused_without_the_folder(tmp_path: Path) -> None:
-    plan, words = (
-        hybrid(station(1, fmu(Path("a" * 300))), pace=FASTEST),
-        r"connection\.path: cannot be opened: File name too long",
-    )
-    with pytest.raises(RigError, match=words) as refused, opened(plan, LIBRARY, tmp_path):
+    plan = hybrid(station(1, fmu(Path("a" * 300))), pace=FASTEST)
+    with pytest.raises(RigError, match="cannot be opened: File name too long") as refused, opened(plan, LIBRARY, tmp_path):
         pass
     assert str(tmp_path) not in str(refused.value)
 
