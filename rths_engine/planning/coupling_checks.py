@@ -9,7 +9,7 @@ import numpy as np
 from rths_engine.foundation.errors import Issue
 from rths_engine.parts.connections.connection import External
 from rths_engine.parts.specimens.commanded import Commanded
-from rths_engine.planning.coupling import EQUAL, Coupling, LoadingBeam, Weighted
+from rths_engine.planning.coupling import EQUAL, Attached, Coupling, LoadingBeam, Weighted
 from rths_engine.planning.plan import Plan
 
 
@@ -93,7 +93,8 @@ def _of_rows(rows: Sequence[Sequence[float]], count: int, where: str) -> Iterato
 
 def _of_laws(coupling: Coupling, where: str) -> Iterator[Issue]:
     count = len(coupling.stations)
-    for index, one in enumerate(coupling.specimens):
+    specimens: Sequence[Attached | Weighted] = coupling.specimens
+    for index, one in enumerate(specimens):
         kind = one.specimen.kind
         if isinstance(one, Weighted) and len(one.weights) != count:
             problem = f"needs {count} weights, one for each station"
