@@ -26,6 +26,7 @@ from tests.browser.service import ROOT, UNMEASURED, until
 SWEEPS = "/api/v1/sweeps"
 WORKER = "import sys; from tests.app.test_sweep_workers import work; work(*sys.argv[1:])"
 PATIENCE_S = 90
+MANY = 1200  # points: work for both workers while they start
 
 
 def definition(points: int, duration: float) -> dict[str, Any]:
@@ -105,19 +106,21 @@ def database() -> Iterator[str]:
 
 def test_a_killed_worker_of_several_loses_no_point_and_none_is_stored_twice(database: str, tmp_path: Path) -> None:
     settings = Settings(data=tmp_path, database_url=database, embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS) as client, worker(settings, "doomed") as doomed:
-        sweep = submit(client, 60, 20.0)
-        wait(client, sweep, lambda one: one["done"] > 0)
-        with worker(settings, "second"):
-            workers = sa.select(SweepShard.worker).distinct()
-            maker = app_of(client).state.sessions
-            until(lambda: _all(maker, workers), lambda found: "second" in found, PATIENCE_S)
-            before = points(client, sweep)
-            os.kill(doomed.pid, signal.SIGKILL)
-            found = wait(client, sweep, lambda one: one["state"] not in ("queued", "running"))
-        assert (found["state"], found["completed"]) == ("completed", 60)
+    with (
+        TestClient(create_app(settings), ADDRESS) as client,
+        worker(settings, "doomed") as doomed,
+        worker(settings, "second"),
+    ):
+        sweep = submit(client, MANY, 20.0)
+        workers = sa.select(SweepShard.worker).distinct()
+        maker = app_of(client).state.sessions
+        until(lambda: _all(maker, workers), lambda found: {"doomed", "second"} <= set(found), PATIENCE_S)
+        before = points(client, sweep)
+        os.kill(doomed.pid, signal.SIGKILL)
+        found = wait(client, sweep, lambda one: one["state"] not in ("queued", "running"))
+        assert (found["state"], found["completed"]) == ("completed", MANY)
         after = points(client, sweep)
-        assert sorted(after) == list(range(1, 61)) and after.items() >= before.items()
+        assert sorted(after) == list(range(1, MANY + 1)) and after.items() >= before.items()
 
 
 def _all(maker: Any, query: Any) -> list[Any]:

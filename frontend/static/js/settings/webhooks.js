@@ -17,10 +17,14 @@ function outcome(one) {
   return `${one.problem} ${attempts}${one.state === "waiting" ? `, again at ${when(one.next_at)}` : ", given up"}`;
 }
 
+/** Ids of the webhooks whose deliveries are unfolded: they stay so when the list is drawn again. @type {Set<string>} */
+const unfolded = new Set();
+
 /** @param {any} hook */
 function card(hook) {
   const log = el("ol", { class: "log" });
-  const details = el("details", {}, el("summary", {}, "Deliveries"), log);
+  const details = /** @type {HTMLDetailsElement} */ (el("details", {}, el("summary", {}, "Deliveries"), log));
+  details.open = unfolded.has(hook.id);
   const fill = async () => {
     const { deliveries } = await api.get(`/webhooks/${hook.id}/deliveries`);
     const items = deliveries.map((/** @type {Delivery} */ one) =>
@@ -28,7 +32,10 @@ function card(hook) {
     );
     log.replaceChildren(...(items.length ? items : [el("li", {}, "Nothing was delivered yet. Send a test, or wait for an event.")]));
   };
-  details.addEventListener("toggle", () => details.open && void fill());
+  details.addEventListener("toggle", () => {
+    if (details.open) void fill();
+    if (details.isConnected) unfolded[details.open ? "add" : "delete"](hook.id);
+  });
   const act = (/** @type {string} */ label, /** @type {() => void} */ click) =>
     el("button", { type: "button", class: "quiet small", "aria-label": `${label}: ${hook.url}`, on: { click } }, label);
   return el(
