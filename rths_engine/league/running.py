@@ -64,7 +64,10 @@ def plan(wanted: Wanted, entry: Entry, test: int) -> Plan:
 def league(
     wanted: Wanted, motions: Path | None, processes: int, command: str, progress: Callable[[int, int], None] = lambda *_: None
 ) -> League:
-    """Run a league. `progress` is told the number of tests done and of all tests. Raises RthsError as `Wanted.check`."""
+    """Run a league. `progress` gets the number of tests that are done and the number of all tests.
+
+    Raises RthsError where `Wanted.check` does.
+    """
     wanted.check(MotionLibrary(motions))
     start, every = time.perf_counter(), entries(wanted.case, wanted.only)
     places = [(number, test) for number in range(len(every)) for test in wanted.tests]

@@ -11,11 +11,18 @@ from typing import Any
 from rths_engine.client.session import Session, listening
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
+from rths_engine.planning.safety import Stop
 from rths_engine.running.client_run import ClientRun
 from rths_engine.wire.generic import Action, Numbers, Request, Sizes, datagrams, pack_request, pack_sizes, unpack_values
 
 STIFFNESS, DAMPING = 1.0e6, 2.0e4  # of the specimen, N/m and N s/m
 RATE = 1000.0  # Hz
+
+
+def ended(session: Session) -> str:
+    """The sentence of a session that stopped its test for another reason than a limit."""
+    assert isinstance(session.run.trip, Stop)
+    return session.run.trip.sentence
 
 
 def station(name: str = "Spring", **changed: Any) -> dict[str, Any]:
