@@ -12,6 +12,7 @@ from typing import Any
 from rths_engine.foundation.errors import Issue, RthsError
 
 MEGABYTE = 1_000_000
+PROBES = frozenset({"/healthz", "/readyz"})  # answered under any host name: monitors use the machine's address
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
@@ -80,7 +81,7 @@ class Settings:
 
     @property
     def known_hosts(self) -> frozenset[str]:
-        """Host names that a browser's request may use; empty (any) where the service listens on a network without `hosts`."""
+        """Host names that a request may use; empty (any) where the service listens on a network without `hosts`."""
         return LOOPBACK | {self.host, *self.hosts} if self.host in LOOPBACK or self.hosts else frozenset()
 
     def prepared(self) -> Settings:

@@ -1,14 +1,15 @@
-"""Requests that are refused before an endpoint sees them: from pages of other sites, too large, or with NUL in the address."""
+"""Requests that are refused before an endpoint sees them: for or from another host, too large, or with NUL in the address."""
 
 from __future__ import annotations
 
 from urllib.parse import urlsplit
 
-from starlette.datastructures import Headers
+from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import Response
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.config import Settings
+from app import headers
+from app.config import PROBES, Settings
 from app.problems import problem, too_large
 
 SAFE = {"GET", "HEAD", "OPTIONS"}
@@ -20,48 +21,90 @@ ELSEWHERE = (
 
 
 class Guard:
-    """ASGI middleware that compares the Origin of a request with its Host, websockets included.
+    """ASGI middleware that checks Host and Origin of requests and websockets, and completes the headers of every answer.
 
-    Programs send no Origin. The Origin of a browser must equal the host of the request, and that host must be in
-    `Settings.known_hosts`: otherwise a foreign name that resolves to this machine would pass. The framework counts bodies that
-    declare no length (`max_body_size`).
+    The host of a request must be in `Settings.known_hosts`: otherwise a page of another site could read this service under a
+    foreign name that resolves to this machine. Programs send no Origin; the Origin of a browser must equal the host of the
+    request. A websocket without Origin is a program, such as a worker that connects by an address, and may use any host. The
+    framework counts bodies that declare no length (`max_body_size`).
     """
 
     def __init__(self, app: ASGIApp, settings: Settings):
-        self.app, self.limit, self.known = app, settings.body_limit, settings.known_hosts
+        self.app, self.limit = app, settings.body_limit
+        self.known = frozenset(host.lower() for host in settings.known_hosts)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        refusal = None
-        if scope["type"] in {"http", "websocket"}:
-            refusal = self._refusal(scope, Headers(scope=scope))
-        if refusal is None:
+        if scope["type"] not in {"http", "websocket"}:
             await self.app(scope, receive, send)
-        elif scope["type"] == "http":
-            await refusal(scope, receive, send)
+            return
+        refusal = self._refusal(scope, Headers(scope=scope))
+        if scope["type"] == "http":
+            await (refusal or self.app)(scope, receive, _completing(send))
+        elif refusal is None:
+            await self.app(scope, receive, send)
         else:
             await send({"type": "websocket.close", "code": NOT_ALLOWED, "reason": "not allowed"})
 
-    def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
+    def _refusal(self, scope: Scope, given: Headers) -> Response | None:
         if "\0" in scope["path"] or b"%00" in scope["query_string"]:
             return problem(400, "The address has a NUL character.")
+        if not self._at_home(scope, given):
+            return problem(421, self._other_host(given.get("host", "")))
         if scope.get("method") in SAFE:
             return None
-        if not self._own(headers):
+        if not _own(given):
             return problem(403, ELSEWHERE)
         limit = self.limit(scope["path"])
-        return too_large(limit) if _declared(headers) > limit else None
+        return too_large(limit) if _declared(given) > limit else None
 
-    def _own(self, headers: Headers) -> bool:
-        origin = headers.get("origin")
-        if origin is None:
+    def _at_home(self, scope: Scope, given: Headers) -> bool:
+        """Whether the request is for this service by the name that it asks for."""
+        if not self.known or scope["path"] in PROBES:
             return True
-        try:
-            named = urlsplit(origin)
-        except ValueError:
-            return False
-        return named.netloc == headers.get("host") and (not self.known or named.hostname in self.known)
+        if scope["type"] == "websocket" and "origin" not in given:
+            return True
+        return _hostname(given.get("host", "")) in self.known
+
+    def _other_host(self, host: str) -> str:
+        known = ", ".join(sorted(self.known))
+        return (
+            f"This service does not answer for the host {host[:80] or '(none)'}. Use one of its host names ({known}), "
+            "or add the host name to RTHS_HOSTS and start the service again."
+        )
 
 
-def _declared(headers: Headers) -> int:
-    length = headers.get("content-length", "0")
+def _own(given: Headers) -> bool:
+    """Whether a change comes from a program or from a page of the service."""
+    origin = given.get("origin")
+    if origin is None:
+        return True
+    try:
+        return urlsplit(origin).netloc == given.get("host")
+    except ValueError:
+        return False
+
+
+def _hostname(host: str) -> str | None:
+    """The name in a Host header, without the port; None where it is not valid."""
+    try:
+        return urlsplit(f"//{host}").hostname
+    except ValueError:
+        return None
+
+
+def _completing(send: Send) -> Send:
+    """`send` with the headers of every answer where an answer does not set its own."""
+
+    async def completed(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            given = MutableHeaders(scope=message)
+            for name, value in headers.EVERY.items():
+                given.setdefault(name, value)
+        await send(message)
+
+    return completed
+
+
+def _declared(given: Headers) -> int:
+    length = given.get("content-length", "0")
     return int(length[:20]) if length.isdecimal() else 0

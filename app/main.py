@@ -12,7 +12,7 @@ from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
-from app import db, openapi, pages, problems
+from app import db, headers, openapi, pages, problems
 from app.annotations.endpoints import router as run_annotations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
@@ -175,10 +175,12 @@ def _purge(app: FastAPI) -> None:
 
 
 def _docs() -> HTMLResponse:
-    return get_swagger_ui_html(
+    page = get_swagger_ui_html(
         openapi_url="/openapi.json",
         title="RTHS control room: REST",
         swagger_js_url=f"{SWAGGER}/swagger-ui-bundle.js",
         swagger_css_url=f"{SWAGGER}/swagger-ui.css",
         swagger_favicon_url="/static/favicon.svg",
     )
+    page.headers[headers.POLICY] = headers.of_api_docs(bytes(page.body).decode())
+    return page

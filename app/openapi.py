@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import FastAPI
 from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
 
+from app.config import PROBES
 from app.openapi_examples import REQUESTS, example
 from app.problems import MEDIA_TYPE, TITLES
 from rths_engine.planning.plan import Plan
@@ -112,6 +113,8 @@ def _refer(inside: Any) -> None:
 
 def _statuses(method: str, path: str, operation: dict[str, Any]) -> Iterator[int]:
     """The problems that follow from what a route takes."""
+    if path not in PROBES:
+        yield 421
     if method != "get":
         yield 403
     if "{" in path:

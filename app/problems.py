@@ -14,6 +14,7 @@ from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
+from app import headers
 from rths_engine.foundation import location
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError, limited
 
@@ -27,6 +28,7 @@ TITLES = {
     409: "Conflict",
     413: "Payload too large",
     415: "Unsupported media type",
+    421: "Misdirected request",
     422: "Unprocessable content",
     500: "Internal server error",
     503: "Service unavailable",
@@ -50,7 +52,7 @@ def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None
     """A response in problem+json (RFC 9457)."""
     title = TITLES.get(status, "Error")
     body = {"type": "about:blank", "title": title, "status": status, "detail": detail, "errors": errors or []}
-    return Response(json.dumps(body), status, media_type=MEDIA_TYPE)  # ASCII: holds any text
+    return Response(json.dumps(body), status, dict(headers.EVERY), MEDIA_TYPE)  # ASCII: holds any text
 
 
 def install(app: FastAPI) -> None:

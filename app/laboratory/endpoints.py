@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, File, UploadFile
 from fastapi.responses import Response
 
+from app import headers
 from app.laboratory.dependency import OneLaboratory
 from app.laboratory.logo import PNG, SVG
 from app.laboratory.schemas import Identity, LaboratoryOut
@@ -14,11 +15,7 @@ from app.openapi import told
 from app.problems import NotFound
 
 router = APIRouter(prefix="/api/v1/laboratory", tags=["laboratory"])
-ONLY_AN_IMAGE = {
-    "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; sandbox",
-    "X-Content-Type-Options": "nosniff",
-    "Cache-Control": "no-cache",
-}
+ONLY_AN_IMAGE = {headers.POLICY: headers.PICTURE, "Cache-Control": "no-cache"}
 
 
 @router.get("", responses=told(422))

@@ -91,8 +91,7 @@ def hdf5(recording_id: str, recordings: Recordings) -> FileResponse:
 def raw(recording_id: str, recordings: Recordings) -> FileResponse:
     """The uploaded file from which a recording was imported, unchanged."""
     path, filename = recordings.raw(recording_id)
-    headers = {"X-Content-Type-Options": "nosniff"}
-    return FileResponse(path, media_type="application/octet-stream", filename=filename, headers=headers)
+    return FileResponse(path, media_type="application/octet-stream", filename=filename)
 
 
 @router.get("/{recording_id}/mapping.yaml", response_class=Response, responses=file("application/yaml"))

@@ -11,26 +11,14 @@ from fastapi.responses import HTMLResponse
 from fastapi.templating import Jinja2Templates
 from jinja2 import Undefined
 
+from app import headers
 from app.models import Run
 from rths_engine.results.measure import Measure
 from rths_engine.results.measures import MEASURES
 
 FRONTEND = Path(__file__).parents[2] / "frontend"
-HEADERS = {
-    "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; font-src 'self'; connect-src 'self'; "
-        "base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-    ),
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "same-origin",
-    "Cache-Control": "no-cache",
-}
-# Plotly writes style elements and attributes
-PLOTLY = {
-    "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
-        "style-src 'self'", "style-src 'self' 'unsafe-inline'"
-    )
-}
+HEADERS = headers.EVERY | {headers.POLICY: headers.PAGE, "Cache-Control": "no-cache"}
+PLOTLY = {headers.POLICY: headers.INLINE_STYLES}
 
 
 def fixed(value: Any, decimals: int = 1) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from fastapi.responses import FileResponse, HTMLResponse, Response
 from starlette.background import BackgroundTask
 
+from app import headers
 from app.reports import html
 from app.reports.document import Document
 from app.reports.pdf import pdf
@@ -18,12 +19,14 @@ PDF = "application/pdf"
 
 def as_html(document: Document, interactive: bool) -> HTMLResponse:
     """A report as HTML: light, or with plots that zoom."""
-    return HTMLResponse(html.interactive(document) if interactive else html.light(document))
+    made = html.interactive(document) if interactive else html.light(document)
+    return HTMLResponse(made, headers={headers.POLICY: headers.of_report(made)})
 
 
 def as_pdf(document: Document, name: str) -> Response:
     """A report as PDF, which a browser shows."""
-    return Response(pdf(document), media_type=PDF, headers={"Content-Disposition": f'inline; filename="{name}.pdf"'})
+    shown = {"Content-Disposition": f'inline; filename="{name}.pdf"', headers.POLICY: headers.PDF}
+    return Response(pdf(document), media_type=PDF, headers=shown)
 
 
 def as_file(write: Callable[[Path], None], name: str, media_type: str) -> FileResponse:

@@ -24,7 +24,7 @@ def predict(plan: Annotated[Any, PLAN, Body()]) -> dict[str, Any]:
 @router.get("/static/plotly.min.js", include_in_schema=False)
 def plotly() -> Response:
     """plotly.js from the installed package plotly."""
-    headers = {"Cache-Control": "public, max-age=86400", "X-Content-Type-Options": "nosniff"}
+    headers = {"Cache-Control": "public, max-age=86400"}
     return Response(_plotly(), media_type="text/javascript", headers=headers)
 
 

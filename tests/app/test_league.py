@@ -14,10 +14,11 @@ from app.config import Settings
 from app.league.service import SHIPPED, shipped
 from app.main import create_app
 from rths_engine.parts import compensators
+from tests.app.conftest import ADDRESS
 
 
 def client(folder: Path) -> TestClient:
-    return TestClient(create_app(Settings(data=folder, embedded_worker=False)))
+    return TestClient(create_app(Settings(data=folder, embedded_worker=False)), ADDRESS)
 
 
 def test_the_shipped_league_is_shown_until_the_data_folder_has_its_own(tmp_path: Path) -> None:

@@ -58,7 +58,7 @@ export class RigDrawing {
     this.measured = svg("path", { class: "measured-mark", d: "M0 -2l-6 -11h12z" });
     this.words = text("rig-text strong", joint, y - deep / 2 - 24, "");
     const { controller, specimen, actuator } = this.station;
-    this.current = text("rig-text", far - device * 0.55, y + deep / 2 + 18, controller.kind === "none" ? "" : "current");
+    this.current = text("rig-text", far - device * 0.55, y + deep / 2 + 18, controller && controller.kind !== "none" ? "current" : "");
     this.root.replaceChildren(
       this.#wall(left, y, tall),
       this.#wall(right - WALL, y, tall),
