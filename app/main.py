@@ -28,6 +28,7 @@ from app.library.draft_endpoints import router as drafts
 from app.library.endpoints import router as library
 from app.live.endpoints import router as live
 from app.live.hub import Hub
+from app.live.watching import router as watching
 from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
 from app.measured.mapping_endpoints import router as mappings
@@ -113,6 +114,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         health,
         glossary,
         live,
+        watching,
     ):
         app.include_router(router, max_body_size=configured.upload_limit)
     app.include_router(run_annotations, max_body_size=configured.upload_limit)
