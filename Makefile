@@ -15,10 +15,11 @@ VENDOR := frontend/static/vendor
 ENGINE := $(shell find rths_engine -name '*.py')
 PYTEST ?=
 OPENSEES ?=
+LOCK ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser postgres compiler opensees lock clean
+.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -81,7 +82,7 @@ $(STAMPS)/python:
 	echo "Install Python, or give its path: make setup PYTHON=/path/to/python3.11" >&2; exit 1
 
 $(STAMPS)/dependencies: requirements.lock $(STAMPS)/python
-	$(PIP) install --no-deps -r requirements.lock
+	$(PIP) install --no-deps --require-hashes -r requirements.lock
 	@touch $@
 
 $(STAMPS)/package: pyproject.toml $(STAMPS)/dependencies
@@ -134,10 +135,18 @@ opensees: $(STAMPS)/package
 	    $(BIN)/python -c 'import openseespy.opensees' || \
 	        echo "OpenSees does not start, so its tests are skipped (on Debian: apt-get install libblas3 liblapack3)." >&2; }
 
-# Renew requirements.lock with the newest releases that pyproject.toml allows.
-lock:
-	rm -rf $(VENV)/lock && $(BIN)/python -m venv $(VENV)/lock
-	$(VENV)/lock/bin/python -m pip install --quiet 'setuptools>=80' '.[test]'
-	{ echo "# Every installed package, pinned; made by 'make lock'."; \
-	  $(VENV)/lock/bin/python -m pip freeze --all --exclude pip --exclude rths-control-room; } > requirements.lock
-	rm -rf $(VENV)/lock build
+# Write requirements.lock: every package that pyproject.toml leads to, on Linux, macOS and Windows with CPython 3.11 or newer, pinned
+# to one version with the hashes of all files of its release. Pins stay where they are allowed; `make lock LOCK=--upgrade` renews them.
+lock: $(STAMPS)/python
+	@$(BIN)/python -c 'import uv' 2>/dev/null || $(PIP) install uv
+	$(BIN)/uv pip compile pyproject.toml --extra test --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-index-url --no-emit-package pip \
+	    --custom-compile-command 'make lock' --quiet --output-file requirements.lock $(LOCK)
+
+# Check the licences of all dependencies, and ask for their known vulnerabilities: docs/supply-chain.md.
+audit-dependencies: setup
+	$(BIN)/python -m app.supply_chain licences
+	$(BIN)/python -m app.supply_chain advisories
+
+# Write the list of all dependencies (CycloneDX JSON).
+sbom: setup
+	$(BIN)/python -m app.supply_chain sbom sbom.json

@@ -20,8 +20,8 @@ from ruamel.yaml import YAML
 from app import npm_parts
 
 ROOT = Path(__file__).parent.parent
-LOCK = [line for line in (ROOT / "requirements.lock").read_text().splitlines() if not line.startswith("#")]
-PINS = {canonicalize_name(line.partition("==")[0]): line.partition("==")[2] for line in LOCK}
+LOCK = re.split(r"\n(?=\S)", re.sub(r"^#.*\n", "", (ROOT / "requirements.lock").read_text(), flags=re.MULTILINE).strip())
+PINS = {canonicalize_name(one.partition("==")[0]): one.partition("==")[2].split()[0] for one in LOCK}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 PACKAGE = json.loads((ROOT / "frontend" / "package.json").read_text())
 NPM = PACKAGE["dependencies"]
@@ -38,9 +38,16 @@ chmod +x $3/bin/python
 """
 
 
-def test_every_python_package_is_pinned_to_one_version() -> None:
-    assert all(re.fullmatch(r"[A-Za-z0-9._-]+==[A-Za-z0-9.]+", line) for line in LOCK)
+def test_every_python_package_is_pinned_to_one_version_and_to_the_checksums_of_its_files() -> None:
+    """Where this fails, `make lock` writes the file; pip refuses a package without a checksum."""
+    pin, files = r"[A-Za-z0-9._-]+==[A-Za-z0-9.]+( ; [^\\]+)?", r"( \\\n    --hash=sha256:[0-9a-f]{64})+"
+    assert all(re.fullmatch(pin + files, one) for one in LOCK)
     assert len(PINS) == len(LOCK)
+
+
+def test_the_lock_is_installed_by_checksum() -> None:
+    recipe = (ROOT / "Makefile").read_text()
+    assert "install --no-deps --require-hashes -r requirements.lock" in recipe
 
 
 EXTRAS = PROJECT["optional-dependencies"]

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from xml.etree import ElementTree
+
+from defusedxml import ElementTree
+from defusedxml.common import DefusedXmlException
 
 from rths_engine.foundation.errors import Issue, RthsError
 
@@ -52,10 +54,10 @@ def _png(data: bytes) -> Image:
 
 
 def _svg(data: bytes) -> Image:
-    if b"<!DOCTYPE" in data.upper() or b"<!ENTITY" in data.upper():
-        raise _refused("has a document type declaration, which can hide other content; delete it")
     try:
-        root = ElementTree.fromstring(data)
+        root = ElementTree.fromstring(data, forbid_dtd=True)
+    except DefusedXmlException:
+        raise _refused("has a document type declaration, which can hide other content; delete it") from None
     except (ElementTree.ParseError, ValueError, LookupError):
         raise _refused("is neither a PNG nor an SVG image") from None
     if _name(root.tag) != "svg":

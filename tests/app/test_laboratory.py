@@ -72,6 +72,7 @@ def test_a_logo_is_stored_answered_as_an_image_and_removed(web: TestClient, data
         (b"\x89PNG\r\n\x1a\n", "not a complete PNG"),
         (png(9000, 1), "9000 × 1 pixels"),
         (b"<!DOCTYPE svg [<!ENTITY a 'b'>]><svg>&a;</svg>", "document type declaration"),
+        ("<!DOCTYPE svg [<!ENTITY a 'b'>]><svg>&a;</svg>".encode("utf-16"), "document type declaration"),
         (svg("<script>alert(1)</script>"), "<script>"),
         (svg("<foreignObject/>"), "<foreignobject>"),
         (svg('<path onload="alert(1)"/>'), "script in its attribute onload"),

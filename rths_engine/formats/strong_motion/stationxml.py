@@ -5,13 +5,19 @@ Source: FDSN StationXML 1.2, InstrumentSensitivity: counts per `InputUnits` at o
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from defusedxml import ElementTree
+from defusedxml.common import DefusedXmlException
 
 from rths_engine.foundation.errors import FileError, Issue
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 # chosen; see docs/decisions/0023
 _MOST_FILES = 50
@@ -87,15 +93,16 @@ def at(known: list[Sensitivity], channel: str, start: datetime, end: datetime) -
 def sensitivities(raw: bytes, name: str) -> list[Sensitivity]:
     """Every sensitivity in a StationXML file. Raises FileError where it is not well-formed."""
     try:
-        if b"<!DOCTYPE" in raw or b"<!ENTITY" in raw:
-            raise FileError(Issue(name, "contains a document type, which StationXML does not have", fix="get the file again"))
-        root = ElementTree.fromstring(raw)
+        root = ElementTree.fromstring(raw, forbid_dtd=True)
         return list(_channels(root, name))
+    except DefusedXmlException:
+        problem = "contains a document type, which StationXML does not have"
+        raise FileError(Issue(name, problem, fix="get the file again")) from None
     except (ElementTree.ParseError, ValueError, KeyError) as error:
         raise FileError(Issue(name, "is not a valid StationXML file", str(error), "get the file again or remove it")) from None
 
 
-def _channels(root: ElementTree.Element, name: str) -> Iterator[Sensitivity]:
+def _channels(root: Element, name: str) -> Iterator[Sensitivity]:
     for network in root.iterfind("{*}Network"):
         for station in network.iterfind("{*}Station"):
             for channel in station.iterfind("{*}Channel"):
@@ -131,7 +138,7 @@ def identity(network: str, station: str, location: str, channel: str) -> str:
     return ".".join((network.strip(), station.strip(), "" if location == "--" else location, channel.strip()))
 
 
-def _text(node: ElementTree.Element, path: str) -> str:
+def _text(node: Element, path: str) -> str:
     found = node.find(path)
     return (found.text or "").strip() if found is not None else ""
 
