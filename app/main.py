@@ -14,6 +14,7 @@ from fastapi.staticfiles import StaticFiles
 
 from app import db, headers, openapi, pages, problems
 from app.annotations.endpoints import router as run_annotations
+from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
@@ -51,7 +52,6 @@ from app.pages.table4 import router as table4_page
 from app.pages.wall import router as wall_page
 from app.plans.endpoints import router as plans
 from app.preflight.endpoints import router as preflight
-from app.preflight.process import DryRuns
 from app.publishing.endpoints import router as publishing
 from app.publishing.run_endpoints import router as run_publishing
 from app.queue.endpoints import router as queue
@@ -84,8 +84,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.settings = configured
     app.state.hub = Hub()
-    app.state.dry_runs = DryRuns()
-    app.state.identifications = DryRuns("identifications")
+    app.state.calculations = Calculations()
     problems.install(app)
     openapi.install(app)
     for router in (
@@ -164,8 +163,6 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         if worker:
             await asyncio.to_thread(worker.stop)
         await asyncio.to_thread(dispatcher.stop)
-        await asyncio.to_thread(app.state.dry_runs.close)
-        await asyncio.to_thread(app.state.identifications.close)
         app.state.queue.close()
         engine.dispose()
 

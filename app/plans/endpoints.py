@@ -5,14 +5,19 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Request
-from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import PlainTextResponse, Response
+from fastapi.responses import Response
 
-from app.openapi import PlanData, file
+from app.calculations.answer import Calculated, Made
+from app.calculations.bound import Bound
+from app.openapi import PlanData, file, told
 from app.plans.dependency import Plans
 from app.plans.schemas import CheckOut, TemplateOut
+from app.plans.service import PlanService
 
 router = APIRouter(prefix="/api/v1", tags=["plans"])
+CHECK = Bound("check of the plan", seconds=10, megabytes=1000, mend="use fewer storeys, stations or samples")
+DRIVE = Bound("preview of the drive", seconds=10, megabytes=1000, mend="use fewer points or a shorter drive")
+READING = Bound("reading of the YAML", seconds=10, megabytes=1000, mend="send the plan as JSON, or shorten it")
 YAML: dict[str, Any] = {"requestBody": {"required": True, "content": {"application/yaml": {"schema": {"type": "string"}}}}}
 
 
@@ -37,25 +42,33 @@ def schema(plans: Plans) -> dict[str, Any]:
     return plans.schema()
 
 
-@router.post("/plans/check")
-def check(plan: Annotated[PlanData, Body()], plans: Plans) -> CheckOut:
+@router.post("/plans/check", response_model=CheckOut, responses=told(503))
+def check(plan: Annotated[PlanData, Body()], plans: Plans) -> Response:
     """Check a plan without queueing it. The response has every default, the digest, warnings and a summary."""
+    return Calculated(CHECK, _checked, plans, plan)
+
+
+@router.post("/plans/drive", response_model=dict[str, Any], responses=told(503))
+def drive(data: Annotated[dict[str, Any], Body()], plans: Plans) -> Response:
+    """The displacement of a drive against time, its peak and its largest velocity, for `{drive, controller_rate, duration}`."""
+    return Calculated(DRIVE, plans.drive, data)
+
+
+@router.post("/plans/read", openapi_extra=YAML, response_model=PlanData, responses=told(503))
+async def read(request: Request, plans: Plans) -> Response:
+    """Convert a plan from YAML to JSON."""
+    return Calculated(READING, plans.read, await request.body())
+
+
+@router.post("/plans/write", response_class=Response, responses=file("application/yaml") | told(503))
+def write(plan: Annotated[PlanData, Body()], plans: Plans) -> Response:
+    """Convert a plan from JSON to YAML."""
+    return Calculated(CHECK, _written, plans, plan)
+
+
+def _checked(plans: PlanService, plan: Any) -> CheckOut:
     return CheckOut(**plans.check(plan))
 
 
-@router.post("/plans/drive")
-def drive(data: Annotated[dict[str, Any], Body()], plans: Plans) -> dict[str, Any]:
-    """The displacement of a drive against time, its peak and its largest velocity, for `{drive, controller_rate, duration}`."""
-    return plans.drive(data)
-
-
-@router.post("/plans/read", openapi_extra=YAML)
-async def read(request: Request, plans: Plans) -> PlanData:
-    """Convert a plan from YAML to JSON."""
-    return await run_in_threadpool(plans.read, await request.body())
-
-
-@router.post("/plans/write", response_class=Response, responses=file("application/yaml"))
-def write(plan: Annotated[PlanData, Body()], plans: Plans) -> PlainTextResponse:
-    """Convert a plan from JSON to YAML."""
-    return PlainTextResponse(plans.write(plan), media_type="application/yaml")
+def _written(plans: PlanService, plan: Any) -> Made:
+    return Made(plans.write(plan).encode(), "application/yaml")

@@ -14,7 +14,7 @@ from app.rigs.service import RigService
 
 
 def preflight_service(request: Request, motions: Library) -> PreflightService:
-    """The service of preflights. Its session ends before the dry run begins."""
+    """The service of preflights."""
 
     def rig_of(rig_id: str) -> Rig:
         with unit_of_work(request.app.state.sessions) as session:
@@ -22,8 +22,7 @@ def preflight_service(request: Request, motions: Library) -> PreflightService:
             session.expunge(rig)
             return rig
 
-    state = request.app.state
-    return PreflightService(motions, state.dry_runs, state.identifications, rig_of)
+    return PreflightService(motions, rig_of)
 
 
 Preflights = Annotated[PreflightService, Depends(preflight_service)]

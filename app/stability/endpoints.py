@@ -9,16 +9,17 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body
 from fastapi.responses import Response
 
-from app.openapi import PLAN
-from app.stability.service import StabilityService
+from app.calculations.answer import Calculated
+from app.openapi import PLAN, told
+from app.stability.service import STABILITY, predicted
 
 router = APIRouter(tags=["plans"])
 
 
-@router.post("/api/v1/stability")
-def predict(plan: Annotated[Any, PLAN, Body()]) -> dict[str, Any]:
+@router.post("/api/v1/stability", response_model=dict[str, Any], responses=told(503))
+async def predict(plan: Annotated[Any, PLAN, Body()]) -> Response:
     """Predict the stability of a plan about rest: spectral radius, modes, delay margins, and a map over two delays."""
-    return StabilityService().predict(plan)
+    return Calculated(STABILITY, predicted, plan)
 
 
 @router.get("/static/plotly.min.js", include_in_schema=False)

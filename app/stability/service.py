@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.calculations.bound import Bound
 from rths_engine import stability
 from rths_engine.planning.reading import read_model
 
 POINTS = 31
+STABILITY = Bound("stability prediction", seconds=20, megabytes=1500, mend="use fewer storeys or stations")
 
 
-class StabilityService:
-    """Predicts the stability of a plan's closed loop."""
-
-    def predict(self, data: Any) -> dict[str, Any]:
-        """Spectral radius, verdict, modes, delay margins, and the map (null with fewer than two stations). Raises PlanError."""
-        model = read_model(data)
-        return {"name": model.plan.name, **stability.summary(model), "map": stability.mapped(model, POINTS)}
+def predicted(data: Any) -> dict[str, Any]:
+    """Spectral radius, verdict, modes, delay margins, and the map (null with fewer than two stations). Raises PlanError."""
+    model = read_model(data)
+    return {"name": model.plan.name, **stability.summary(model), "map": stability.mapped(model, POINTS)}

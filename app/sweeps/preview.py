@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from app.calculations.bound import Bound
 from app.checking import checked
 from app.sweeps.schemas import Prediction, Refusal
 from app.sweeps.shown import inputs_of
+from app.text import refuse_unstorable
 from rths_engine import stability
-from rths_engine.foundation.errors import Issue, MotionError, RthsError
+from rths_engine.foundation.errors import Issue, MotionError, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.model import Model
-from rths_engine.sweeps.design import Design
+from rths_engine.sweeps.design import Design, read_design
 
 LEAST = 10  # points that are examined however long they take
 FIRST = 5  # invalid and unstable points that are listed
 SEED = 0  # of the sample of points
+EXAMINATION = Bound("examination of the sweep", seconds=20, megabytes=2000, mend="vary fewer fields or use fewer points")
 
 
 @dataclass
@@ -32,6 +36,22 @@ class Examined:
     """The first examined point (from 0) that is valid."""
     first_invalid: list[Refusal] = field(default_factory=list)
     stability: Prediction = field(default_factory=lambda: Prediction(predicted=0, stable=0, unstable=0, first_unstable=[]))
+
+
+def examination(data: Any, motions: MotionLibrary, within_s: float) -> tuple[Design, Examined]:
+    """The design of a definition, and its examined points. Raises PlanError or MotionError with every issue."""
+    design = read(data, motions)
+    return design, examined(design, motions, within_s)
+
+
+def read(data: Any, motions: MotionLibrary) -> Design:
+    """The design of a definition, whose records exist. Raises PlanError or MotionError with every issue."""
+    refuse_unstorable(data)
+    design = read_design(data)
+    if not design.definition.name.strip():
+        raise PlanError(Issue("name", "is blank", design.definition.name, "give the sweep a name"))
+    check_records(design, motions)
+    return design
 
 
 def examined(design: Design, motions: MotionLibrary, within_s: float) -> Examined:

@@ -11,21 +11,20 @@ from typing import Any
 
 from sqlalchemy.orm import Session
 
+from app.calculations.answer import Calculator
 from app.config import Settings
 from app.jobs.service import JobService, Queue, named
 from app.jobs.states import State
 from app.models import Run, Sweep, SweepShard
-from app.preflight.process import DryRuns
-from app.preflight.process import Order as Trial
+from app.preflight.calculation import DRY_RUN, dry_run
 from app.problems import Conflict, NotFound, Unavailable
 from app.runs.service import RunService
 from app.sweeps.job import SHARDS, left
 from app.sweeps.order import ShardEnd
-from app.sweeps.preview import Examined, check_records, examined
+from app.sweeps.preview import EXAMINATION, Examined, examination
 from app.sweeps.repository import Standing, SweepRepository
 from app.sweeps.schemas import Duration, PreviewOut
 from app.sweeps.shown import axes, column
-from app.text import refuse_unstorable
 from rths_engine import __version__
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.sweeps.columns import Column, columns, from_dict
@@ -41,18 +40,19 @@ EXAMINED_S = 0.3  # of points that are checked before a sweep is queued
 class SweepService:
     """Rules of sweeps."""
 
-    def __init__(self, session: Session, runs: RunService, settings: Settings, trials: DryRuns, queue: Queue | None = None):
+    def __init__(
+        self, session: Session, runs: RunService, settings: Settings, calculate: Calculator, queue: Queue | None = None
+    ):
         self.rows = SweepRepository(session)
         self.jobs: JobService[SweepShard, ShardEnd] = JobService(session, SHARDS, queue)
-        self.runs, self.settings, self.trials = runs, settings, trials
+        self.runs, self.settings, self.calculate = runs, settings, calculate
 
     def submit(self, data: Any, by: str) -> Sweep:
         """Store and queue a sweep.
 
         Raises PlanError with every issue of the definition, and where no examined point is valid.
         """
-        design = self.read(data)
-        found = examined(design, self.runs.motions, EXAMINED_S)
+        design, found = self.calculate(EXAMINATION, examination, data, self.runs.motions, EXAMINED_S)
         if found.examined and found.invalid == found.examined:
             first = found.first_invalid[0]
             raise PlanError(
@@ -77,8 +77,7 @@ class SweepService:
 
     def preview(self, data: Any) -> PreviewOut:
         """What a sweep would do: its points, columns, stability and computing time. Raises PlanError or MotionError."""
-        design = self.read(data)
-        found = examined(design, self.runs.motions, PREVIEW_S)
+        design, found = self.calculate(EXAMINATION, examination, data, self.runs.motions, PREVIEW_S)
         return PreviewOut(
             name=design.definition.name,
             method=design.definition.method,
@@ -94,15 +93,6 @@ class SweepService:
             duration=self._duration(design, found),
         )
 
-    def read(self, data: Any) -> Design:
-        """The design of a definition, whose records exist. Raises PlanError or MotionError with every issue."""
-        refuse_unstorable(data)
-        design = read_design(data)
-        if not design.definition.name.strip():
-            raise PlanError(Issue("name", "is blank", design.definition.name, "give the sweep a name"))
-        check_records(design, self.runs.motions)
-        return design
-
     def _duration(self, design: Design, found: Examined) -> Duration:
         """The computing time, from the newest points of sweeps of the same kind here, or else from a trial of one point."""
         processes = self.settings.sweep_processes
@@ -117,12 +107,12 @@ class SweepService:
         return Duration(point_s=one, processes=processes, predicted_s=whole, basis=basis)
 
     def _trial(self, design: Design, found: Examined) -> float | None:
-        """Computing time (s) of one point in the process of the dry runs; None where it does not answer."""
+        """Computing time (s) of one point, from a dry run; None where it does not answer."""
         if found.first_valid is None:
             return None
         plan = {**design.named(found.first_valid), "pace": {"kind": "fastest"}}
         try:
-            answer = self.trials.execute(Trial(plan, self.runs.motions.folder, []))
+            answer = self.calculate(DRY_RUN, dry_run, plan, self.runs.motions.folder, [])
         except (RthsError, Unavailable):
             return None
         elapsed: float | None = answer["expected_elapsed_s"]

@@ -6,6 +6,7 @@ import json
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +16,18 @@ from fastapi.testclient import TestClient
 from app.cli.main import main
 from app.config import Settings
 from app.main import create_app
-from app.preflight import process
+from app.preflight import endpoints
+from app.preflight.calculation import DRY_RUN, IDENTIFICATION
 from rths_engine.planning import templates
 from rths_engine.planning.reading import plan_to_yaml
-from tests.app.conftest import ADDRESS, app_of, plan
+from tests.app.conftest import ADDRESS, plan
 
 PATH = "/api/v1/plans/preflight"
 
 
 @pytest.fixture(scope="module")
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    """A service whose process of dry runs stays for the tests of this file."""
+    """One service for the tests of this file."""
     settings = Settings(data=tmp_path_factory.mktemp("preflight"), embedded_worker=False)
     with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as one:
         yield one
@@ -81,14 +83,14 @@ def test_the_service_answers_while_a_long_plan_is_simulated(running: TestClient)
     assert 0 < found["covered_s"] < 1500.0
 
 
-def test_a_dry_run_that_does_not_answer_is_given_up(running: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(process, "ANSWER_S", 0.0)
-    refused = running.post(PATH, json={"plan": plan()})
-    assert (refused.status_code, refused.headers["Retry-After"]) == (503, "5")
-    assert "did not answer within 0 s" in refused.json()["detail"]
+def test_a_dry_run_beyond_its_bound_is_refused_with_the_bound(running: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(endpoints, "DRY_RUN", replace(DRY_RUN, megabytes=1))
+    refused = running.post(PATH, json={"plan": plan(duration=30.0)})
+    assert refused.status_code == 422
+    assert "needs more than the limit of 1 MB of memory" in refused.json()["detail"]
+    assert refused.json()["errors"][0]["fix"].startswith("shorten the test")
     monkeypatch.undo()
-    app_of(running).state.dry_runs.close()
-    assert running.post(PATH, json={"plan": plan()}).json()["verdict"] == "completes"  # by a new process
+    assert running.post(PATH, json={"plan": plan()}).json()["verdict"] == "completes"
 
 
 def test_the_command_line_says_whether_a_plan_would_trip(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -152,12 +154,12 @@ def test_a_delay_is_identified_and_the_plan_stays_as_it_was(running: TestClient)
     assert running.get("/api/v1/runs").json()["total"] == 0
 
 
-def test_an_identification_that_takes_too_long_names_its_command(running: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(process, "IDENTIFIED_S", 0.0)
+def test_an_identification_beyond_its_bound_names_its_command(running: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(endpoints, "IDENTIFICATION", replace(IDENTIFICATION, megabytes=1))
     refused = running.post("/api/v1/plans/identify", json={"plan": plan(), "seconds": 5.0})
-    assert refused.status_code == 503
-    assert "The identification did not answer within 0 s" in refused.json()["detail"]
-    assert "`rths identify PLAN`" in refused.json()["detail"]
+    assert refused.status_code == 422
+    assert "the identification needs more than the limit of 1 MB of memory" in refused.json()["detail"]
+    assert "`rths identify PLAN`" in refused.json()["errors"][0]["fix"]
 
 
 def test_an_identification_names_the_field_that_is_wrong(running: TestClient) -> None:

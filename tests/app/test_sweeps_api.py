@@ -18,9 +18,9 @@ from app.jobs.service import JobService
 from app.jobs.states import State
 from app.main import create_app
 from app.models import SweepShard
-from app.preflight.process import DryRuns
 from app.sweeps.job import SHARDS, left
 from app.sweeps.order import ShardOrder
+from app.sweeps.service import SweepService
 from app.worker import sweep as process
 from rths_engine.sweeps.columns import columns
 from rths_engine.sweeps.design import read_design
@@ -47,7 +47,7 @@ def submit(client: TestClient, **changes: Any) -> str:
 @pytest.fixture(autouse=True)
 def trials(monkeypatch: pytest.MonkeyPatch) -> None:
     """Dry runs that end at once; tests/app/test_preflight_api.py has real ones."""
-    monkeypatch.setattr(DryRuns, "execute", lambda *_: {"expected_elapsed_s": 0.5})
+    monkeypatch.setattr(SweepService, "_trial", lambda *_: 0.5)
 
 
 def get(client: TestClient, path: str) -> Any:
