@@ -24,7 +24,7 @@ LOCK ?=
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
 run: setup
-	@$(BIN)/rths serve --demo
+	@$(BIN)/rths serve --demo --local
 
 test: setup browser postgres compiler opensees check
 	$(BIN)/pytest -n 2 --dist loadfile --durations 25 $(if $(PYTEST),,--cov) $(PYTEST)

@@ -34,7 +34,8 @@ class Variable:
 class Settings:
     """Everything that differs between installations. All data is in the folder `data`; limits are in bytes.
 
-    `hosts` are the host names that browsers use when they differ from `host`, for example behind a proxy.
+    `hosts` are the host names that browsers use when they differ from `host`, for example behind a proxy. With `local_sign_in`
+    a request from this computer without credentials acts as an administrator.
     """
 
     data: Path = Path("rths-data")
@@ -49,6 +50,7 @@ class Settings:
     upload_limit: int = 20 * MEGABYTE
     measurements_limit: int = 1100 * MEGABYTE
     rig_host: str = "127.0.0.1"
+    local_sign_in: bool = False
     laboratory: str = ""
     laboratory_address: str = ""
     laboratory_logo: Path | None = None

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Request, Response
 from pydantic import BaseModel
 from sqlalchemy.exc import SQLAlchemyError
 
+from app.access import ANYONE, allowed
 from app.db import unit_of_work
 from app.jobs.workers import Workers, alive
 from rths_engine import __version__
@@ -24,6 +25,7 @@ class Health(BaseModel):
 
 
 @router.get("/healthz", responses={503: {"model": Health, "description": "The database or every worker is silent"}})
+@allowed(ANYONE)
 def health(request: Request, response: Response) -> Health:
     """Report the health of the service: 200 while the database answers and a worker is alive, else 503."""
     try:

@@ -11,13 +11,16 @@ from fastapi import FastAPI
 from fastapi.openapi.docs import get_swagger_ui_html
 from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
+from starlette.routing import Route
 
 from app import db, headers, openapi, pages, problems
+from app.access import ANYONE, Role, allowed
 from app.annotations.endpoints import router as run_annotations
 from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
 from app.diagnoses.endpoints import router as diagnoses
+from app.gate import Gate
 from app.guard import Guard
 from app.head import Head
 from app.health import router as health
@@ -121,7 +124,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(publishing, max_body_size=configured.upload_limit)
     app.include_router(batches, max_body_size=configured.measurements_limit)
     app.include_router(measured, max_body_size=configured.measurements_limit)
-    app.mount("/static", StaticFiles(directory=STATIC), name="static")
+    app.mount("/static", allowed(ANYONE)(StaticFiles(directory=STATIC)), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
     app.include_router(stability_page)
     app.include_router(batches_page)
@@ -137,6 +140,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(wall_page)
     app.include_router(settings_page)
     app.include_router(pages.router)
+    _declare_description(app)
+    app.add_middleware(Gate, settings=configured)
     app.add_middleware(Head)
     app.add_middleware(Guard, settings=configured)
     return app
@@ -173,6 +178,14 @@ def _purge(app: FastAPI) -> None:
         RunEditing(session).purge(app.state.settings.recordings)
 
 
+def _declare_description(app: FastAPI) -> None:
+    """Declare who may read the OpenAPI description, whose route the framework adds."""
+    for route in app.routes:
+        if isinstance(route, Route) and route.path == app.openapi_url:
+            allowed(Role.VIEWER)(route.endpoint)
+
+
+@allowed(Role.VIEWER)
 def _docs() -> HTMLResponse:
     page = get_swagger_ui_html(
         openapi_url="/openapi.json",

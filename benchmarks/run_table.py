@@ -184,12 +184,12 @@ def main() -> None:
     asked = given.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
         data = asked.data or Path(temporary)
-        settings = Settings(data=data, database_url=asked.url, embedded_worker=False)
+        settings = Settings(data=data, database_url=asked.url, embedded_worker=False, local_sign_in=True)
         if not (asked.data and (data / "rths.sqlite").exists()):
             begin = time.perf_counter()
             fill(settings.prepared().url, asked.runs)
             print(f"filled in {time.perf_counter() - begin:.0f} s")
-        with TestClient(create_app(settings), "http://127.0.0.1:8000") as client:
+        with TestClient(create_app(settings), "http://127.0.0.1:8000", client=("127.0.0.1", 50_000)) as client:
             everything: list[float] = []
             for sort in SORTS:
                 for order in ("desc", "asc"):

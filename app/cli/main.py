@@ -226,6 +226,9 @@ def parser() -> argparse.ArgumentParser:
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")
     serve.add_argument("--port", type=int, help="port to listen on (RTHS_PORT; default 8000)")
     serve.add_argument("--demo", action="store_true", help="queue a demonstration test, unless one is queued or running")
+    serve.add_argument(
+        "--local", action="store_true", help="sign in everyone on this computer as administrator; only at a loopback address"
+    )
     serve.add_argument("--no-worker", action="store_true", help="start no worker; tests wait for `rths worker`")
 
     worker = _command(

@@ -14,7 +14,7 @@ from fastapi import FastAPI
 
 from app.cli.main import DONE, FAILED
 from app.cli.settings import stored
-from app.config import Settings
+from app.config import LOOPBACK, Settings
 from app.demonstration import queue_demonstration
 from app.main import create_app
 from rths_engine.foundation.errors import Issue, RthsError
@@ -25,7 +25,10 @@ LOCK = "control-room.lock"
 
 def serve(given: Namespace) -> int:
     """`rths serve`: run the control room until Ctrl-C; returns the exit code."""
-    settings = stored(given, embedded_worker=not given.no_worker)
+    settings = stored(given, embedded_worker=not given.no_worker, local_sign_in=given.local)
+    if settings.local_sign_in and settings.host not in LOOPBACK:
+        fix = "leave out --local and give each person an account: docs/accounts.md"
+        raise RthsError(Issue("host", "can be reached from other computers, where --local is not allowed", settings.host, fix))
     with only_server(settings) if settings.embedded_worker else nullcontext():
         return _serve(settings, given.demo)
 
@@ -55,6 +58,8 @@ class Server(uvicorn.Server):
         if self.demonstrate:
             queue_demonstration(self.app)
         print(f"\nRTHS control room: {address(self.settings)}")
+        if self.settings.local_sign_in:
+            print("Everyone on this computer is signed in as administrator. For accounts, start it without --local.")
         print(f"Data folder: {self.settings.data.resolve()}\nPress Ctrl-C to stop the control room.", flush=True)
 
 

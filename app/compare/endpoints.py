@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query
 from fastapi.responses import Response
 
+from app.access import Role, allowed
 from app.compare.dependency import Comparisons
 from app.compare.schemas import CandidateOut, ComparisonOut, PreviousOut
 from app.compare.signals import Shown
@@ -20,6 +21,7 @@ Seconds = Annotated[float | None, Query(allow_inf_nan=False)]
 
 
 @router.get("", responses=told(404, 409))
+@allowed(Role.VIEWER)
 def compare(items: Items, comparisons: Comparisons, reference: Annotated[str, Query(max_length=80)] = "") -> ComparisonOut:
     """Compare runs and imported recordings: the plan fields that differ, and measures with differences to the reference.
 
@@ -30,6 +32,7 @@ def compare(items: Items, comparisons: Comparisons, reference: Annotated[str, Qu
 
 
 @router.get("/signals", response_class=Response, responses=file("application/octet-stream") | told(404, 409))
+@allowed(Role.VIEWER)
 def signals(
     items: Items,
     comparisons: Comparisons,
@@ -52,12 +55,14 @@ def signals(
 
 
 @router.get("/candidates")
+@allowed(Role.VIEWER)
 def candidates(comparisons: Comparisons, q: Annotated[str, Query(max_length=200)] = "") -> dict[str, list[CandidateOut]]:
     """List the latest runs with a recording and the latest imported recordings that can be compared."""
     return {"candidates": comparisons.candidates(q)}
 
 
 @router.get("/previous/{run_id}")
+@allowed(Role.VIEWER)
 def previous(run_id: str, comparisons: Comparisons) -> PreviousOut:
     """The run before a run of the same template or of the same name, and the page that compares both."""
     return comparisons.previous(run_id)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 from pydantic import BaseModel
 
+from app.access import Role, allowed
 from rths_engine.results.glossary import glossary
 
 router = APIRouter(prefix="/api/v1", tags=["plans"])
@@ -26,6 +27,7 @@ class GlossaryOut(BaseModel):
 
 
 @router.get("/glossary")
+@allowed(Role.VIEWER)
 def terms() -> GlossaryOut:
     """Terms, symbols, measures and channels with their units and meanings."""
     return GlossaryOut(terms=[TermOut(**one._asdict()) for one in glossary()])

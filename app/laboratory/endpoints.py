@@ -8,6 +8,7 @@ from fastapi import APIRouter, Body, File, UploadFile
 from fastapi.responses import Response
 
 from app import headers
+from app.access import Role, allowed
 from app.laboratory.dependency import OneLaboratory
 from app.laboratory.logo import PNG, SVG
 from app.laboratory.schemas import Identity, LaboratoryOut
@@ -19,12 +20,14 @@ ONLY_AN_IMAGE = {headers.POLICY: headers.PICTURE, "Cache-Control": "no-cache"}
 
 
 @router.get("", responses=told(422))
+@allowed(Role.VIEWER)
 def shown(laboratory: OneLaboratory) -> LaboratoryOut:
     """Name, address, signatures and logo of the laboratory, as reports show them."""
     return laboratory.shown()
 
 
 @router.put("")
+@allowed(Role.ADMINISTRATOR)
 def save(laboratory: OneLaboratory, identity: Annotated[Identity, Body()]) -> LaboratoryOut:
     """Set name, address and signatures of the laboratory."""
     laboratory.save(identity)
@@ -36,6 +39,7 @@ def save(laboratory: OneLaboratory, identity: Annotated[Identity, Body()]) -> La
     response_class=Response,
     responses=told(404, 422) | {200: {"description": "The image", "content": {PNG: {"schema": {}}, SVG: {"schema": {}}}}},
 )
+@allowed(Role.VIEWER)
 def logo(laboratory: OneLaboratory) -> Response:
     """The logo of the laboratory, a PNG or SVG image."""
     image = laboratory.logo
@@ -45,6 +49,7 @@ def logo(laboratory: OneLaboratory) -> Response:
 
 
 @router.put("/logo")
+@allowed(Role.ADMINISTRATOR)
 def save_logo(laboratory: OneLaboratory, file: Annotated[UploadFile, File()]) -> LaboratoryOut:
     """Set the logo of the laboratory: a PNG or SVG image of at most 200 kB."""
     laboratory.save_logo(file.file.read())
@@ -52,6 +57,7 @@ def save_logo(laboratory: OneLaboratory, file: Annotated[UploadFile, File()]) ->
 
 
 @router.delete("/logo", status_code=204, response_class=Response, responses=told(404, 422))
+@allowed(Role.ADMINISTRATOR)
 def remove_logo(laboratory: OneLaboratory) -> None:
     """Remove the logo of the laboratory."""
     laboratory.remove_logo()

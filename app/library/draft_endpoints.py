@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Query
 from fastapi import Path as InPath
 
+from app.access import Role, allowed
 from app.library.dependency import Drafts
 from app.library.schemas import Closing, DraftDetail, DraftIn, DraftList, DraftOut
 from app.openapi import told
@@ -17,6 +18,7 @@ DraftId = Annotated[str, InPath(max_length=36, pattern="^[A-Za-z0-9-]+$")]
 
 
 @router.get("")
+@allowed(Role.VIEWER)
 def listed(
     drafts: Drafts,
     owner: Annotated[str | None, Query(max_length=80)] = None,
@@ -31,12 +33,14 @@ def listed(
 
 
 @router.get("/{draft_id}")
+@allowed(Role.VIEWER)
 def one(draft_id: str, drafts: Drafts) -> DraftDetail:
     """A draft with its plan as typed, and its problems in words."""
     return drafts.get(draft_id)
 
 
 @router.put("/{draft_id}", responses=told(409))
+@allowed(Role.ENGINEER)
 def save(draft_id: DraftId, asked: Annotated[DraftIn, Body()], drafts: Drafts) -> DraftOut:
     """Keep a plan as typed, valid or not. The status is 409 where another window has saved or closed the draft since.
 
@@ -47,12 +51,14 @@ def save(draft_id: DraftId, asked: Annotated[DraftIn, Body()], drafts: Drafts) -
 
 
 @router.post("/{draft_id}/close")
+@allowed(Role.ENGINEER)
 def close(draft_id: str, drafts: Drafts, asked: Annotated[Closing, Body()] = DISCARDED) -> DraftOut:
     """Take a draft off the list of open drafts. It stays stored and can be reopened."""
     return drafts.close(draft_id, asked.closed_as)
 
 
 @router.post("/{draft_id}/reopen")
+@allowed(Role.ENGINEER)
 def reopen(draft_id: str, drafts: Drafts) -> DraftOut:
     """Bring a closed draft back to the list of open drafts."""
     return drafts.reopen(draft_id)

@@ -10,6 +10,7 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import PlainTextResponse, Response
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.access import Role, allowed
 from app.library.dependency import Comparisons, KeptPlans
 from app.library.repository import Wanted
 from app.library.schemas import (
@@ -67,18 +68,21 @@ class Imported(BaseModel):
 
 
 @router.get("/plans")
+@allowed(Role.VIEWER)
 def listed(wanted: Annotated[Listing, Query()], plans: KeptPlans) -> LibraryList:
     """List the plans in the library with their newest versions, tags, and numbers of runs and drafts."""
     return plans.listed(wanted.wanted())
 
 
 @router.post("/plans", status_code=201, responses=told(404, 409))
+@allowed(Role.ENGINEER)
 def save(asked: Annotated[NewPlan, Body()], plans: KeptPlans) -> SavedOut:
     """Keep a valid plan under a name, as version 1."""
     return plans.save(asked)
 
 
 @router.post("/import", status_code=201, openapi_extra=YAML, responses=told(409))
+@allowed(Role.ENGINEER)
 async def import_yaml(request: Request, about: Annotated[Imported, Query()], plans: KeptPlans, texts: Plans) -> SavedOut:
     """Keep a plan from YAML under a name (default: the name in the plan), as version 1."""
     raw = await request.body()
@@ -90,24 +94,28 @@ async def import_yaml(request: Request, about: Annotated[Imported, Query()], pla
 
 
 @router.get("/plans/{plan_id}")
+@allowed(Role.VIEWER)
 def one(plan_id: str, plans: KeptPlans) -> LibraryPlanDetail:
     """A plan in the library with all its versions, newest first."""
     return plans.get(plan_id)
 
 
 @router.patch("/plans/{plan_id}", responses=told(409))
+@allowed(Role.ENGINEER)
 def change(plan_id: str, asked: Annotated[Changes, Body()], plans: KeptPlans) -> LibraryPlanDetail:
     """Rename a plan in the library, or give it other tags. Its versions stay as they are."""
     return plans.change(plan_id, asked)
 
 
 @router.post("/plans/{plan_id}/versions", status_code=201)
+@allowed(Role.ENGINEER)
 def save_version(plan_id: str, asked: Annotated[NewVersion, Body()], plans: KeptPlans) -> SavedOut:
     """Save a valid plan as the next version. Equal content makes no new version: `created` is then false."""
     return plans.save_version(plan_id, asked)
 
 
 @router.get("/plans/{plan_id}/versions/{version}", responses=told(422))
+@allowed(Role.VIEWER)
 def version(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> VersionDetail:
     """One version of a plan, with the plan."""
     return plans.version(plan_id, version)
@@ -118,6 +126,7 @@ def version(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> Version
     response_class=Response,
     responses=file("application/yaml") | told(422),
 )
+@allowed(Role.VIEWER)
 def text(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> PlainTextResponse:
     """One version of a plan as YAML."""
     headers = {"Content-Disposition": f'attachment; filename="{plan_id}-version-{version}.yaml"'}
@@ -125,24 +134,28 @@ def text(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> PlainTextR
 
 
 @router.post("/plans/{plan_id}/duplicate", status_code=201, responses=told(409))
+@allowed(Role.ENGINEER)
 def duplicate(plan_id: str, asked: Annotated[Copy, Body()], plans: KeptPlans) -> SavedOut:
     """Keep a copy of a version (default: the newest) as a plan of its own, with the same tags."""
     return plans.duplicate(plan_id, asked)
 
 
 @router.post("/plans/{plan_id}/archive")
+@allowed(Role.ENGINEER)
 def archive(plan_id: str, plans: KeptPlans, person: Annotated[Person, Body()] = NOBODY) -> LibraryPlanDetail:
     """Archive a plan: it leaves the list, and all its versions stay stored."""
     return plans.archive(plan_id, person.by)
 
 
 @router.post("/plans/{plan_id}/unarchive")
+@allowed(Role.ENGINEER)
 def unarchive(plan_id: str, plans: KeptPlans) -> LibraryPlanDetail:
     """Bring an archived plan back to the list."""
     return plans.unarchive(plan_id)
 
 
 @router.get("/plans/{plan_id}/runs")
+@allowed(Role.VIEWER)
 def runs(
     plan_id: str,
     plans: KeptPlans,
@@ -154,6 +167,7 @@ def runs(
 
 
 @router.get("/differences", responses=told(404))
+@allowed(Role.VIEWER)
 def differences(
     comparisons: Comparisons,
     first: Annotated[str, Query(max_length=120)],

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import hmac
 import json
 import struct
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
+from app.access import WORKER, allowed
 from app.live.hub import Hub
 
 router = APIRouter()
 FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
-NOT_ALLOWED = 4403
 
 
 @router.websocket("/api/v1/worker")
+@allowed(WORKER)
 async def ingest(socket: WebSocket) -> None:
-    """Receive frames and messages from a worker that sends the worker token."""
-    token = socket.headers.get("authorization", "").removeprefix("Bearer ")
+    """Receive frames and messages from a worker, whose token the gate has checked."""
     await socket.accept()
-    if not hmac.compare_digest(token.encode(), socket.app.state.settings.worker_token.encode()):
-        await socket.close(NOT_ALLOWED, "wrong worker token")
-        return
     hub: Hub = socket.app.state.hub
     try:
         while True:

@@ -7,6 +7,7 @@ from typing import Any
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
+from app.access import Role, allowed
 from app.db import unit_of_work
 from app.live import from_recording
 from app.live.hub import Hub, LiveRun
@@ -22,6 +23,7 @@ UNKNOWN_RUN, UNREADABLE = 4404, 4409
 
 
 @router.websocket("/api/v1/runs/{run_id}/live")
+@allowed(Role.VIEWER)
 async def watch(socket: WebSocket, run_id: str) -> None:
     """Send a run to a viewer: schema, buckets from number `from` on, live frames, and the end; see docs/architecture.md."""
     await socket.accept()

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, File, Form, Query, UploadFile
 from fastapi.responses import PlainTextResponse, Response
 
+from app.access import Role, allowed
 from app.measured.dependency import Batches
 from app.measured.schemas import BatchList, BatchOut, BatchSummary
 from app.openapi import file
@@ -16,6 +17,7 @@ router = APIRouter(prefix="/api/v1/recordings/batches", tags=["recordings"])
 
 
 @router.post("", status_code=201)
+@allowed(Role.ENGINEER)
 def add(
     batches: Batches,
     files: Annotated[list[UploadFile], File()],
@@ -34,6 +36,7 @@ def add(
 
 
 @router.get("")
+@allowed(Role.VIEWER)
 def listed(
     batches: Batches,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
@@ -45,12 +48,14 @@ def listed(
 
 
 @router.get("/{batch_id}")
+@allowed(Role.VIEWER)
 def one(batch_id: str, batches: Batches) -> BatchOut:
     """A batch with a row for each file: its recording or the reasons against it, and what differs from the other files."""
     return batches.get(batch_id)
 
 
 @router.get("/{batch_id}/table.csv", response_class=Response, responses=file("text/csv"))
+@allowed(Role.VIEWER)
 def table(batch_id: str, batches: Batches) -> PlainTextResponse:
     """The table of a batch as CSV."""
     headers = {"Content-Disposition": f'attachment; filename="{batch_id}.csv"'}

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, File, Form, UploadFile
 from fastapi.responses import Response
 
+from app.access import Role, allowed
 from app.motions.dependency import Motions
 from app.motions.schemas import MotionFile
 from app.motions.service import preview
@@ -17,12 +18,14 @@ Text = Annotated[str, Form(max_length=200)]
 
 
 @router.get("")
+@allowed(Role.VIEWER)
 def listed(motions: Motions) -> dict[str, Any]:
     """List the ground motions with PGA, time step and duration."""
     return {"motions": motions.listed()}
 
 
 @router.post("", status_code=201)
+@allowed(Role.ENGINEER)
 def upload(
     motions: Motions,
     file: Annotated[UploadFile, File()],
@@ -39,6 +42,7 @@ def upload(
 
 
 @router.post("/contents")
+@allowed(Role.VIEWER)
 def contents(motions: Motions, file: Annotated[UploadFile, File()]) -> MotionFile:
     """What stands in a file: its acceleration channels, its header, and what the header states beside what was read.
 
@@ -48,6 +52,7 @@ def contents(motions: Motions, file: Annotated[UploadFile, File()]) -> MotionFil
 
 
 @router.post("/preview")
+@allowed(Role.VIEWER)
 def look(
     motions: Motions,
     file: Annotated[UploadFile, File()],
@@ -61,18 +66,21 @@ def look(
 
 
 @router.get("/{name}")
+@allowed(Role.VIEWER)
 def one(name: str, motions: Motions) -> dict[str, Any]:
     """A ground motion with PGA, time step, duration and provenance."""
     return motions.summary(name)
 
 
 @router.get("/{name}/preview")
+@allowed(Role.VIEWER)
 def shown(name: str, motions: Motions) -> dict[str, Any]:
     """Samples and response spectrum of a ground motion, for plots."""
     return motions.preview(name)
 
 
 @router.delete("/{name}", status_code=204, response_class=Response, responses=told(422))
+@allowed(Role.ENGINEER)
 def remove(name: str, motions: Motions) -> None:
     """Delete a ground motion that was uploaded. Bundled ground motions cannot be deleted."""
     motions.remove(name)

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+from app.access import Role, allowed
 from app.dependencies import OneSession
 from app.events.tables import EventKind
 from app.notifications.schemas import EventList
@@ -42,6 +43,7 @@ class Since(BaseModel):
 
 
 @router.get("/events")
+@allowed(Role.VIEWER)
 def events(wanted: Annotated[Since, Query()], session: OneSession) -> EventList:
     """List events, newest first: starts and ends of runs and diagnoses, and holds and releases of the queue."""
     return NotificationService(session).events(wanted.since, wanted.after, wanted.kind, wanted.run_id, wanted.limit)

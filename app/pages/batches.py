@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.measured.dependency import Batches
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
@@ -14,6 +15,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/recordings/batches/{batch_id}")
+@allowed(Role.VIEWER)
 def one(request: Request, batch_id: str, batches: Batches) -> HTMLResponse:
     """The page of a batch with a row for each file."""
     batch = batches.get(batch_id)

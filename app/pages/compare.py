@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse, RedirectResponse, Response
 
+from app.access import Role, allowed
 from app.compare.dependency import Comparisons
 from app.compare.items import MOST, Ref, refs
 from app.compare.schemas import ComparisonOut, MeasureOut
@@ -25,6 +26,7 @@ IN_PAGE = {"ref", "kind", "label", "name", "start_s", "duration_s"}  # of an ite
 
 
 @router.get("/compare")
+@allowed(Role.VIEWER)
 def compare(
     request: Request, comparisons: Comparisons, items: Items = NOTHING, reference: str = "", q: str = "", choose: bool = False
 ) -> Response:
@@ -42,6 +44,7 @@ def compare(
 
 
 @router.get("/compare/previous/{run_id}")
+@allowed(Role.VIEWER)
 def previous(request: Request, run_id: str, comparisons: Comparisons) -> Response:
     """Redirect to the comparison of a run with the run before it, or offer what to compare it with."""
     found = comparisons.previous(run_id)

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.dependencies import Configured
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.exports import facts
@@ -30,6 +31,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/diagnoses")
+@allowed(Role.VIEWER)
 def listed(
     request: Request,
     diagnoses: Diagnoses,
@@ -58,6 +60,7 @@ def listed(
 
 
 @router.get("/diagnoses/{diagnosis_id}")
+@allowed(Role.VIEWER)
 def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: Configured) -> HTMLResponse:
     """The page of a diagnosis."""
     diagnosis = diagnoses.get(diagnosis_id)

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import FileResponse, HTMLResponse, Response
 from markupsafe import Markup
 
+from app.access import Role, allowed
 from app.help import documents
 from app.help.search import search
 from app.pages.errors import PageRoute
@@ -20,6 +21,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/help")
+@allowed(Role.VIEWER)
 def start(request: Request, q: Annotated[str, Query(max_length=200)] = "") -> HTMLResponse:
     """The start of the help, or what a search found."""
     body = None if q.strip() else Markup(documents.html(INDEX))
@@ -27,6 +29,7 @@ def start(request: Request, q: Annotated[str, Query(max_length=200)] = "") -> HT
 
 
 @router.get("/help/{name:path}")
+@allowed(Role.VIEWER)
 def document(request: Request, name: str) -> Response:
     """One document, or a picture in it."""
     if not name.endswith(".md"):

@@ -9,6 +9,7 @@ from typing import Any
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.demonstration import TEMPLATE
 from app.dependencies import OneSession
 from app.events.log import EventLog
@@ -33,18 +34,21 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/")
+@allowed(Role.VIEWER)
 def lab(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
     """The Lab page."""
     return page(request, "lab.html", **_now(request, runs, queued))
 
 
 @router.get("/lab")
+@allowed(Role.VIEWER)
 def lab_now(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
     """The changing part of the Lab page."""
     return page(request, "lab_now.html", **_now(request, runs, queued))
 
 
 @router.get("/lab/since")
+@allowed(Role.VIEWER)
 def lab_since(request: Request, session: OneSession, moment: datetime) -> HTMLResponse:
     """What happened since a moment, the newest first."""
     events, total = EventLog(session).listed(since=moment, kinds=WORTH_TELLING, limit=500)

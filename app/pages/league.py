@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.league.dependency import Leagues
 from app.league.endpoints import Case
 from app.pages.errors import PageRoute
@@ -20,6 +21,7 @@ _FIELDS = {kind.model_fields["kind"].default: kind.model_fields for kind in comp
 
 
 @router.get("/league")
+@allowed(Role.VIEWER)
 def league(request: Request, leagues: Leagues, case: Case = 1) -> HTMLResponse:
     """The page of the league of a partitioning case."""
     if leagues.shown(case) is None:

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.config import MEGABYTE
 from app.dependencies import Configured
 from app.measured.dependency import Batches, Recordings
@@ -21,6 +22,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/recordings")
+@allowed(Role.VIEWER)
 def listed(
     request: Request,
     configured: Configured,
@@ -38,6 +40,7 @@ def listed(
 
 
 @router.get("/recordings/{recording_id}")
+@allowed(Role.VIEWER)
 def one(request: Request, recording_id: str, recordings: Recordings) -> HTMLResponse:
     """The page of a recording."""
     return page(request, "recording.html", recording=recordings.get(recording_id))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.events.tables import EventKind
 from app.laboratory.dependency import OneLaboratory
 from app.pages.errors import PageRoute
@@ -16,12 +17,14 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/settings")
+@allowed(Role.VIEWER)
 def settings(request: Request, laboratory: OneLaboratory) -> HTMLResponse:
     """The settings of the laboratory."""
     return page(request, "settings.html", laboratory=laboratory.shown(), event_kinds=list(EventKind))
 
 
 @router.get("/runs/{run_id}/designsafe")
+@allowed(Role.VIEWER)
 def designsafe(request: Request, run_id: str, runs: Runs) -> HTMLResponse:
     """The form of a data set for DesignSafe."""
     return page(request, "designsafe.html", run=runs.get(run_id), licences=LICENCES)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse, RedirectResponse, Response
 
+from app.access import Role, allowed
 from app.pages.errors import PageRoute
 from app.pages.rendering import plotted
 from app.plans.dependency import Plans
@@ -17,6 +18,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/stability")
+@allowed(Role.VIEWER)
 def first(request: Request, plans: Plans, draft: str | None = None) -> Response:
     """The stability of the draft that the page New test keeps in the browser; without `draft`, that of the first template."""
     if draft is None:
@@ -25,6 +27,7 @@ def first(request: Request, plans: Plans, draft: str | None = None) -> Response:
 
 
 @router.get("/stability/{name}")
+@allowed(Role.VIEWER)
 def stability(request: Request, name: str, plans: Plans, runs: Runs) -> HTMLResponse:
     """The stability of a template or of a run; `name` is the template's name or the run's id."""
     templates = plans.templates()

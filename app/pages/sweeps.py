@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.library.dependency import KeptPlans
 from app.library.repository import Wanted
 from app.pages.errors import PageRoute
@@ -23,6 +24,7 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/sweeps")
+@allowed(Role.VIEWER)
 def listed(request: Request, sweeps: Sweeps, number: Annotated[int, Query(alias="page", ge=1, le=10**6)] = 1) -> HTMLResponse:
     """The list of sweeps, the newest first."""
     found, total = sweeps.listed(LIMIT, LIMIT * (number - 1))
@@ -31,6 +33,7 @@ def listed(request: Request, sweeps: Sweeps, number: Annotated[int, Query(alias=
 
 
 @router.get("/sweeps/new")
+@allowed(Role.VIEWER)
 def new(request: Request, plans: Plans, library: KeptPlans) -> HTMLResponse:
     """The form of a new sweep. The address names its base: `template`, `library`, `run` or an earlier sweep, `from`."""
     kept = library.listed(Wanted(limit=OFFERED)).plans
@@ -39,6 +42,7 @@ def new(request: Request, plans: Plans, library: KeptPlans) -> HTMLResponse:
 
 
 @router.get("/sweeps/{sweep_id}")
+@allowed(Role.VIEWER)
 def one(request: Request, sweep_id: str, sweeps: Sweeps) -> HTMLResponse:
     """The page of a sweep."""
     sweep = sweeps.get(sweep_id)

@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
+from app.access import Role, allowed
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
 from app.pages.table4_chart import chart
@@ -22,12 +23,14 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 
 @router.get("/table4")
+@allowed(Role.VIEWER)
 def whole(request: Request, table4: Table4) -> HTMLResponse:
     """The page of Table IV."""
     return page(request, "table4.html", record=engine.BUNDLED, **_now(table4))
 
 
 @router.get("/table4/now")
+@allowed(Role.VIEWER)
 def now(request: Request, table4: Table4) -> HTMLResponse:
     """The changing part of the page of Table IV."""
     return page(request, "table4_now.html", **_now(table4))

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Request
 from fastapi.responses import Response
 
+from app.access import Role, allowed
 from app.calculations.answer import Calculated, Made
 from app.calculations.bound import Bound
 from app.openapi import PlanData, file, told
@@ -22,18 +23,21 @@ YAML: dict[str, Any] = {"requestBody": {"required": True, "content": {"applicati
 
 
 @router.get("/templates")
+@allowed(Role.VIEWER)
 def templates(plans: Plans) -> dict[str, Any]:
     """List the templates, each with name, title and group."""
     return {"templates": plans.templates()}
 
 
 @router.get("/templates/{name}")
+@allowed(Role.VIEWER)
 def template(name: str, plans: Plans) -> TemplateOut:
     """The plan of a template."""
     return TemplateOut(**plans.template(name))
 
 
 @router.get("/schema")
+@allowed(Role.VIEWER)
 def schema(plans: Plans) -> dict[str, Any]:
     """JSON Schema of a plan. Each number has its SI unit, the unit shown to people and the factor between them.
 
@@ -43,24 +47,28 @@ def schema(plans: Plans) -> dict[str, Any]:
 
 
 @router.post("/plans/check", response_model=CheckOut, responses=told(503))
+@allowed(Role.VIEWER)
 def check(plan: Annotated[PlanData, Body()], plans: Plans) -> Response:
     """Check a plan without queueing it. The response has every default, the digest, warnings and a summary."""
     return Calculated(CHECK, _checked, plans, plan)
 
 
 @router.post("/plans/drive", response_model=dict[str, Any], responses=told(503))
+@allowed(Role.VIEWER)
 def drive(data: Annotated[dict[str, Any], Body()], plans: Plans) -> Response:
     """The displacement of a drive against time, its peak and its largest velocity, for `{drive, controller_rate, duration}`."""
     return Calculated(DRIVE, plans.drive, data)
 
 
 @router.post("/plans/read", openapi_extra=YAML, response_model=PlanData, responses=told(503))
+@allowed(Role.VIEWER)
 async def read(request: Request, plans: Plans) -> Response:
     """Convert a plan from YAML to JSON."""
     return Calculated(READING, plans.read, await request.body())
 
 
 @router.post("/plans/write", response_class=Response, responses=file("application/yaml") | told(503))
+@allowed(Role.VIEWER)
 def write(plan: Annotated[PlanData, Body()], plans: Plans) -> Response:
     """Convert a plan from JSON to YAML."""
     return Calculated(CHECK, _written, plans, plan)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 from fastapi.responses import Response
 
+from app.access import Role, allowed
 from app.calculations.answer import Calculated
 from app.openapi import told
 from app.preflight.calculation import DRY_RUN, IDENTIFICATION
@@ -18,6 +19,7 @@ router = APIRouter(prefix="/api/v1", tags=["plans"])
 
 
 @router.post("/plans/preflight", response_model=PreflightOut, responses=told(503))
+@allowed(Role.VIEWER)
 def preflight(asked: PreflightIn, preflights: Preflights) -> Response:
     """Simulate a plan before it is queued. The response has the trip with its field, peaks against limits, and times.
 
@@ -27,6 +29,7 @@ def preflight(asked: PreflightIn, preflights: Preflights) -> Response:
 
 
 @router.post("/plans/identify", response_model=IdentificationOut, responses=told(503))
+@allowed(Role.VIEWER)
 def identify(asked: IdentificationIn, preflights: Preflights) -> Response:
     """Identify the delay of a station by a short random test of its emulated actuator and specimen.
 

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query
 from fastapi.responses import HTMLResponse, Response
 
+from app.access import Role, allowed
 from app.openapi import file, told
 from app.publishing.answers import PDF, as_html, as_pdf
 from app.publishing.dependency import OfComparisons, OfDiagnoses, OfSweeps
@@ -22,18 +23,21 @@ Result = Annotated[str, Query(description="key of the result that is shown in fu
 
 
 @router.get("/diagnoses/{diagnosis_id}/report.html", response_class=HTMLResponse, responses=told(409, 422))
+@allowed(Role.VIEWER)
 def diagnosis_html(diagnosis_id: str, reports: OfDiagnoses, interactive: bool = False) -> HTMLResponse:
     """The report of a diagnosis as one HTML file below 1 MB; `interactive` gives plots that zoom, in about 5 MB."""
     return as_html(reports.of(diagnosis_id), interactive)
 
 
 @router.get("/diagnoses/{diagnosis_id}/report.pdf", response_class=Response, responses=file(PDF) | told(409, 422))
+@allowed(Role.VIEWER)
 def diagnosis_pdf(diagnosis_id: str, reports: OfDiagnoses) -> Response:
     """The report of a diagnosis as PDF."""
     return as_pdf(reports.of(diagnosis_id), diagnosis_id)
 
 
 @router.get("/compare/report.html", response_class=HTMLResponse, responses=told(404, 409))
+@allowed(Role.VIEWER)
 def comparison_html(
     items: Items, reports: OfComparisons, reference: Reference = "", station: Station = 1, floor: Floor = 1
 ) -> HTMLResponse:
@@ -42,6 +46,7 @@ def comparison_html(
 
 
 @router.get("/compare/report.pdf", response_class=Response, responses=file(PDF) | told(404, 409))
+@allowed(Role.VIEWER)
 def comparison_pdf(
     items: Items, reports: OfComparisons, reference: Reference = "", station: Station = 1, floor: Floor = 1
 ) -> Response:
@@ -50,12 +55,14 @@ def comparison_pdf(
 
 
 @router.get("/sweeps/{sweep_id}/report.html", response_class=HTMLResponse)
+@allowed(Role.VIEWER)
 def sweep_html(sweep_id: str, reports: OfSweeps, measure: Result = "") -> HTMLResponse:
     """The report of a sweep as one HTML file below 1 MB: spread, best and worst points, and the influence of each input."""
     return as_html(reports.of(sweep_id, measure), False)
 
 
 @router.get("/sweeps/{sweep_id}/report.pdf", response_class=Response, responses=file(PDF))
+@allowed(Role.VIEWER)
 def sweep_pdf(sweep_id: str, reports: OfSweeps, measure: Result = "") -> Response:
     """The report of a sweep as PDF: spread, best and worst points, and the influence of each input."""
     return as_pdf(reports.of(sweep_id, measure), sweep_id)

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 
+from app.access import Role, allowed
 from app.openapi import told
 from app.queue.dependency import Queued
 from app.queue.schemas import MOST_RUNS, Cancelled, CancelledOut, HoldIn, Move, NewPriority, QueueOut
@@ -16,12 +17,14 @@ NOBODY = Person()
 
 
 @router.get("/queue")
+@allowed(Role.VIEWER)
 def queue(queued: Queued, limit: Annotated[int, Query(ge=1, le=MOST_RUNS)] = 200) -> QueueOut:
     """The queue: held or not, running tests, and waiting tests in their order with reason, expected start and end."""
     return queued.state(limit)
 
 
 @router.post("/queue/order", responses=told(404, 409))
+@allowed(Role.OPERATOR)
 def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
     """Move queued runs before or after another queued run, or to the top or the bottom of the queue.
 
@@ -32,6 +35,7 @@ def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
 
 
 @router.post("/queue/priority", responses=told(404, 409))
+@allowed(Role.OPERATOR)
 def priority(asked: Annotated[NewPriority, Body()], queued: Queued) -> QueueOut:
     """Give queued runs a priority. Runs of a higher priority start first, whatever their position."""
     queued.prioritise(asked.runs, asked.priority)
@@ -39,12 +43,14 @@ def priority(asked: Annotated[NewPriority, Body()], queued: Queued) -> QueueOut:
 
 
 @router.post("/queue/cancel")
+@allowed(Role.OPERATOR)
 def cancel(asked: Annotated[Cancelled, Body()], queued: Queued) -> CancelledOut:
     """Cancel several queued or running runs. Runs that have ended are left as they are, each with its reason."""
     return queued.cancel(asked.runs, asked.by)
 
 
 @router.post("/queue/hold")
+@allowed(Role.OPERATOR)
 def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
     """Hold the queue: queued tests do not start, running tests go on. The reason is shown until the release."""
     queued.hold_it(asked.by, asked.reason)
@@ -52,6 +58,7 @@ def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
 
 
 @router.post("/queue/release")
+@allowed(Role.OPERATOR)
 def release(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
     """Release the queue after a hold or an abort, so that queued tests start."""
     queued.release(person.by)
@@ -59,6 +66,7 @@ def release(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> Queue
 
 
 @router.post("/abort")
+@allowed(Role.VIEWER)
 def abort(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> dict[str, Any]:
     """Hold the queue and stop every running test. This is not the laboratory's emergency stop."""
     return {"held": True, "stopping": [run.id for run in queued.abort(person.by)]}

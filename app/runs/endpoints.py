@@ -9,6 +9,7 @@ from fastapi import APIRouter, Body, Query
 from fastapi.responses import FileResponse, PlainTextResponse, Response, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+from app.access import Role, Scope, allowed
 from app.dependencies import Configured
 from app.jobs.states import State
 from app.openapi import file, told
@@ -60,6 +61,7 @@ class Wanted(BaseModel):
 
 
 @router.post("/runs", status_code=201)
+@allowed(Role.OPERATOR, Scope.SUBMIT)
 def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
     """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued."""
     if (body.plan is None) == (body.plans is None):
@@ -72,6 +74,7 @@ def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
 
 
 @router.get("/runs")
+@allowed(Role.VIEWER)
 def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
     """List runs by filter, order and page. `sort` is a column, or a measure and a station number: `mte_mm:1`."""
     found, total = runs.listed(wanted.filter(), wanted.page())
@@ -79,30 +82,35 @@ def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
 
 
 @router.get("/runs/{run_id}")
+@allowed(Role.VIEWER)
 def one(run_id: str, runs: Runs) -> RunDetail:
     """A run with its plan and its measures."""
     return RunDetail.of(runs.get(run_id))
 
 
 @router.post("/runs/{run_id}/cancel", responses=told(409))
+@allowed(Role.OPERATOR)
 def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
     """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored."""
     return RunOut.of(runs.cancel(run_id, person.by))
 
 
 @router.post("/runs/{run_id}/undo-cancel", responses=told(409))
+@allowed(Role.OPERATOR)
 def undo_cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
     """Undo the cancel of a queued test within 10 minutes: it is back at its place in the queue."""
     return RunOut.of(runs.undo_cancel(run_id, person.by))
 
 
 @router.post("/runs/{run_id}/retry", status_code=201, responses=told(409))
+@allowed(Role.OPERATOR)
 def retry(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
     """Queue the plan of a run that has ended again, on the same rig. The new run names the first one in `retry_of`."""
     return RunOut.of(runs.retry(run_id, person.by))
 
 
 @router.get("/runs/{run_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))
+@allowed(Role.VIEWER)
 def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileResponse:
     """The recording of a run as HDF5."""
     run = runs.get(run_id)
@@ -113,6 +121,7 @@ def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileRespo
 
 
 @router.get("/runs/{run_id}/recording.csv", response_class=StreamingResponse, responses=file("text/csv") | told(409))
+@allowed(Role.VIEWER)
 def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingResponse:
     """The recording of a run as CSV."""
     run = runs.get(run_id)
@@ -121,6 +130,7 @@ def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingR
 
 
 @router.get("/runs/{run_id}/measures.csv", response_class=PlainTextResponse, responses=file("text/csv") | told(409))
+@allowed(Role.VIEWER)
 def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
     """The measures of a run as CSV. Each row has station or floor, key, label, value and unit."""
     run = runs.get(run_id)
@@ -129,6 +139,7 @@ def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
 
 
 @router.get("/runs/{run_id}/plan.yaml", response_class=Response, responses=file("application/yaml"))
+@allowed(Role.VIEWER)
 def plan_text(run_id: str, runs: Runs) -> PlainTextResponse:
     """The plan of a run as YAML."""
     run = runs.get(run_id)

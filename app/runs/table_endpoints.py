@@ -11,6 +11,7 @@ from fastapi import APIRouter, Depends, Query, Request
 from fastapi.responses import StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from app.access import Role, allowed
 from app.db import unit_of_work
 from app.dependencies import OneSession
 from app.openapi import file
@@ -59,18 +60,21 @@ Table = Annotated[RunTableService, Depends(table_service)]
 
 
 @router.get("/runs/columns")
+@allowed(Role.VIEWER)
 def columns(table: Table) -> ColumnList:
     """Every column of the run table: facts, measures, and the plan fields that the stored plans have."""
     return table.columns()
 
 
 @router.get("/runs/table")
+@allowed(Role.VIEWER)
 def page(chosen: Annotated[ChosenPage, Query()], table: Table) -> RunTable:
     """A page of the run table with chosen columns. `where` filters and `sort` orders by any column, plan fields too."""
     return table.page(chosen.wanted(), chosen.limit, chosen.offset)
 
 
 @router.get("/runs/table.csv", response_class=StreamingResponse, responses=file("text/csv"))
+@allowed(Role.VIEWER)
 def export(request: Request, chosen: Annotated[Chosen, Query()], table: Table) -> StreamingResponse:
     """The run table with chosen columns as CSV: all runs that the filter keeps, at most 100 000."""
     wanted = chosen.wanted()

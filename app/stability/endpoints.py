@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body
 from fastapi.responses import Response
 
+from app.access import Role, allowed
 from app.calculations.answer import Calculated
 from app.openapi import PLAN, told
 from app.stability.service import STABILITY, predicted
@@ -17,12 +18,14 @@ router = APIRouter(tags=["plans"])
 
 
 @router.post("/api/v1/stability", response_model=dict[str, Any], responses=told(503))
+@allowed(Role.VIEWER)
 async def predict(plan: Annotated[Any, PLAN, Body()]) -> Response:
     """Predict the stability of a plan about rest: spectral radius, modes, delay margins, and a map over two delays."""
     return Calculated(STABILITY, predicted, plan)
 
 
 @router.get("/static/plotly.min.js", include_in_schema=False)
+@allowed(Role.VIEWER)
 def plotly() -> Response:
     """plotly.js from the installed package plotly."""
     headers = {"Cache-Control": "public, max-age=86400"}

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from app.access import Role, allowed
 from app.sweeps.analysis import SweepAnalysis
 from app.sweeps.analysis_schemas import FragilityOut, SensitivityOut
 from app.sweeps.dependency import Sweeps
@@ -15,6 +16,7 @@ Key = Annotated[str, Query(max_length=400)]
 
 
 @router.get("/{sweep_id}/fragility")
+@allowed(Role.VIEWER)
 def fragility(
     sweep_id: str,
     sweeps: Sweeps,
@@ -32,6 +34,7 @@ def fragility(
 
 
 @router.get("/{sweep_id}/sensitivity")
+@allowed(Role.VIEWER)
 def sensitivity(sweep_id: str, sweeps: Sweeps, measure: Key) -> SensitivityOut:
     """How strongly a measure depends on each input over the completed points so far: the bars of a tornado diagram."""
     return SweepAnalysis(sweeps).sensitivity(sweep_id, measure)

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Body, Query
 from fastapi.responses import Response
 
+from app.access import Role, allowed
 from app.openapi import PlanData, told
 from app.runs.schemas import Person, RunOut
 from app.sweeps import exports
@@ -39,24 +40,28 @@ FILES: dict[int | str, dict[str, Any]] = {
 
 
 @router.post("/preview")
+@allowed(Role.VIEWER)
 def preview(sweep: Annotated[SweepData, Body()], sweeps: Sweeps) -> PreviewOut:
     """Count the points of a sweep and predict their stability and computing time, without queueing it."""
     return sweeps.preview(sweep)
 
 
 @router.get("/schema")
+@allowed(Role.VIEWER)
 def schema() -> dict[str, Any]:
     """JSON Schema of a sweep, `rths-sweep/1`."""
     return Definition.model_json_schema()
 
 
 @router.post("/fields")
+@allowed(Role.VIEWER)
 def fields(plan: Annotated[PlanData, Body()]) -> PlanFields:
     """List the numbers of a plan that a sweep can vary, each with path, label, unit, value and bounds."""
     return PlanFields(fields=[PlanField(**one.as_dict()) for one in numbers(validated(Plan, plan))])
 
 
 @router.post("", status_code=201)
+@allowed(Role.ENGINEER)
 def submit(body: Annotated[SweepSubmission, Body()], sweeps: Sweeps) -> SweepOut:
     """Queue a sweep. If its definition has an error, or no examined point is valid, nothing is queued."""
     sweep = sweeps.submit(body.sweep, body.submitted_by)
@@ -64,6 +69,7 @@ def submit(body: Annotated[SweepSubmission, Body()], sweeps: Sweeps) -> SweepOut
 
 
 @router.get("")
+@allowed(Role.VIEWER)
 def listed(
     sweeps: Sweeps,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
@@ -75,6 +81,7 @@ def listed(
 
 
 @router.get("/{sweep_id}")
+@allowed(Role.VIEWER)
 def one(sweep_id: str, sweeps: Sweeps) -> SweepDetail:
     """A sweep with its progress, its definition and the declarations of its columns."""
     sweep = sweeps.get(sweep_id)
@@ -82,6 +89,7 @@ def one(sweep_id: str, sweeps: Sweeps) -> SweepDetail:
 
 
 @router.get("/{sweep_id}/results", response_model=ResultsOut, responses=FILES)
+@allowed(Role.VIEWER)
 def results(
     sweep_id: str,
     sweeps: Sweeps,
@@ -101,6 +109,7 @@ def results(
 
 
 @router.post("/{sweep_id}/cancel", responses=told(409))
+@allowed(Role.ENGINEER)
 def cancel(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NOBODY) -> SweepOut:
     """Cancel a sweep. It stops within a second; the points done are kept, and `resume` executes the others."""
     sweep = sweeps.cancel(sweep_id, person.by)
@@ -108,6 +117,7 @@ def cancel(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NO
 
 
 @router.post("/{sweep_id}/resume", responses=told(409))
+@allowed(Role.ENGINEER)
 def resume(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NOBODY) -> SweepOut:
     """Queue the points of a cancelled or failed sweep that have no result."""
     sweep = sweeps.resume(sweep_id, person.by)
@@ -115,12 +125,14 @@ def resume(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NO
 
 
 @router.delete("/{sweep_id}", status_code=204, response_class=Response, responses=told(409))
+@allowed(Role.ENGINEER)
 def remove(sweep_id: str, sweeps: Sweeps) -> None:
     """Delete a sweep that has ended, with its results."""
     sweeps.remove(sweep_id)
 
 
 @router.get("/{sweep_id}/points/{point}", responses=told(422))
+@allowed(Role.VIEWER)
 def point(sweep_id: str, point: int, sweeps: Sweeps) -> PointOut:
     """One point of a sweep, counted from 1: its inputs, results and plan."""
     design, table = sweeps.point(sweeps.get(sweep_id), point)
@@ -135,6 +147,7 @@ def point(sweep_id: str, point: int, sweeps: Sweeps) -> PointOut:
 
 
 @router.post("/{sweep_id}/points/{point}/run", status_code=201)
+@allowed(Role.ENGINEER)
 def run(sweep_id: str, point: int, sweeps: Sweeps, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
     """Queue the plan of a point as an ordinary run, whose recording has the full histories."""
     return RunOut.of(sweeps.run_point(sweep_id, point, person.by))

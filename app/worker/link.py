@@ -11,7 +11,8 @@ from typing import Any
 from websockets.exceptions import ConnectionClosedError, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from app.live.endpoints import FRAME_HEADER, NOT_ALLOWED
+from app.gate import NOT_ALLOWED
+from app.live.endpoints import FRAME_HEADER
 from app.live.frames import FrameStore
 
 log = logging.getLogger(__name__)

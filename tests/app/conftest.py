@@ -21,6 +21,7 @@ from tests.browser.service import Service, running
 
 ARCHIVE = Path(__file__).parents[1] / "data" / "earlier_build_0_1_0.tar.xz"
 ADDRESS = "http://127.0.0.1:8000"
+HERE = ("127.0.0.1", 50_000)  # address of a client on this computer
 
 
 @pytest.fixture(scope="session")
@@ -35,12 +36,12 @@ def migrated(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def settings(tmp_path: Path, migrated: Path) -> Settings:
     shutil.copytree(migrated.parent, tmp_path / "rths")
-    return Settings(data=tmp_path / "rths", embedded_worker=False)
+    return Settings(data=tmp_path / "rths", embedded_worker=False, local_sign_in=True)
 
 
 @pytest.fixture
 def client(settings: Settings) -> Iterator[TestClient]:
-    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as one:
+    with TestClient(create_app(settings), ADDRESS, client=HERE, raise_server_exceptions=False) as one:
         yield one
 
 
@@ -66,8 +67,8 @@ def unpack_earlier(folder: Path) -> Path:
 @pytest.fixture(scope="module")
 def earlier(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     """Files of version 0.1.0 under today's service, migrated: rows in every state; no worker takes what waits."""
-    settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("earlier")), embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as client:
+    settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("earlier")), embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), ADDRESS, client=HERE, raise_server_exceptions=False) as client:
         yield client
 
 

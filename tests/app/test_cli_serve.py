@@ -48,8 +48,9 @@ def serving(port: int, data: Path, *options: str) -> Iterator[httpx.Client]:
     )
     try:
         assert running.stdout is not None
-        heading = [running.stdout.readline().strip() for _ in range(4)]
-        assert heading[1:3] == [f"RTHS control room: http://127.0.0.1:{port}/", f"Data folder: {data}"]
+        heading = [running.stdout.readline().strip() for _ in range(5)]
+        assert heading[1] == f"RTHS control room: http://127.0.0.1:{port}/" and heading[3] == f"Data folder: {data}"
+        assert heading[2].startswith("Everyone on this computer is signed in as administrator.")
         with httpx.Client(base_url=f"http://127.0.0.1:{port}/api/v1", timeout=20) as http:
             yield http
         os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the service, its worker and the engines
@@ -82,10 +83,10 @@ def test_one_demonstration_waits_however_often_the_control_room_starts(client: T
 
 def test_ctrl_c_ends_the_worker_and_its_engines_too(free: int, tmp_path: Path) -> None:
     """And a control room without a worker starts with the data that it finds."""
-    with serving(free, tmp_path, "--demo") as http:
+    with serving(free, tmp_path, "--demo", "--local") as http:
         until(lambda: runs(http)[0]["state"], lambda state: state == "running")
         assert runs(http)[0]["template"] == "table3-04"
-    with serving(free, tmp_path, "--demo", "--no-worker") as http:
+    with serving(free, tmp_path, "--demo", "--local", "--no-worker") as http:
         assert len(runs(http)) == 1
 
 
@@ -103,6 +104,11 @@ def test_a_taken_port_is_refused_with_the_way_to_choose_another(
     ("options", "variable", "problem"),
     [
         (["--port", "70000"], None, "port = 70000: needs 1 to 65535"),
+        (
+            ["--local", "--host", "0.0.0.0"],
+            None,
+            "host = 0.0.0.0: can be reached from other computers",
+        ),
         (["--host", "203.0.113.7"], None, "can't listen on this address"),
         (["--data", "/dev/null/rths"], None, "data folder = /dev/null/rths: can't be used"),
         ([], ("RTHS_PORT", "http"), "RTHS_PORT = http: needs a whole number"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 from app import headers
 from app.config import Settings
 from app.main import create_app
+from tests.app.conftest import HERE
 from tests.app.test_head import addresses
 from tests.app.test_openapi import DOCUMENT
 
@@ -85,8 +87,8 @@ def test_a_monitor_asks_for_the_health_under_any_host_name(client: TestClient) -
 
 
 def test_a_service_on_a_network_knows_the_hosts_of_its_settings(settings: Settings) -> None:
-    settings_of_lab = Settings(data=settings.data, embedded_worker=False, host="0.0.0.0", hosts=("Lab.example",))
-    with TestClient(create_app(settings_of_lab), "http://lab.example") as one:
+    settings_of_lab = replace(settings, host="0.0.0.0", hosts=("Lab.example",))
+    with TestClient(create_app(settings_of_lab), "http://lab.example", client=HERE) as one:
         assert one.get("/api/v1/runs").status_code == 200
         assert one.get("/api/v1/runs", headers={"host": "elsewhere.example"}).status_code == 421
 

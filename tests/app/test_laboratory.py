@@ -16,6 +16,7 @@ from app.laboratory.service import Laboratory
 from app.main import create_app
 from app.problems import NotFound
 from rths_engine.foundation.errors import RthsError
+from tests.app.conftest import ADDRESS, HERE
 
 SVG = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 4"><path d="M0 0h8v4H0z" fill="#0c5f6e"/></svg>'
 
@@ -36,7 +37,8 @@ def svg(inside: str) -> bytes:
 @pytest.fixture
 def web(tmp_path: Path) -> TestClient:
     """The service without its database: the identity needs none."""
-    return TestClient(create_app(Settings(data=tmp_path, embedded_worker=False)), "http://127.0.0.1:8000")
+    settings = Settings(data=tmp_path, embedded_worker=False, local_sign_in=True)
+    return TestClient(create_app(settings), ADDRESS, client=HERE)
 
 
 def test_the_identity_is_set_shown_and_kept(web: TestClient, tmp_path: Path) -> None:

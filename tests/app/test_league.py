@@ -14,11 +14,12 @@ from app.config import Settings
 from app.league.service import SHIPPED, shipped
 from app.main import create_app
 from rths_engine.parts import compensators
-from tests.app.conftest import ADDRESS
+from tests.app.conftest import ADDRESS, HERE
 
 
 def client(folder: Path) -> TestClient:
-    return TestClient(create_app(Settings(data=folder, embedded_worker=False)), ADDRESS)
+    settings = Settings(data=folder, embedded_worker=False, local_sign_in=True)
+    return TestClient(create_app(settings), ADDRESS, client=HERE)
 
 
 def test_the_shipped_league_is_shown_until_the_data_folder_has_its_own(tmp_path: Path) -> None:

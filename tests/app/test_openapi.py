@@ -16,7 +16,7 @@ from jsonschema import Draft202012Validator
 from app.config import Settings
 from app.main import create_app
 from app.openapi_examples import RECORDING, REQUESTS, RUN, SHA256, WAITING
-from tests.app.conftest import plan, unpack_earlier
+from tests.app.conftest import HERE, plan, unpack_earlier
 from tests.engine import measurements
 
 WITH_ROWS = {
@@ -155,8 +155,8 @@ def test_every_json_body_and_every_answer_with_a_form_has_an_example_that_fits()
 
 
 def test_what_changes_rows_answers_as_described(tmp_path_factory: pytest.TempPathFactory) -> None:
-    settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("changed")), embedded_worker=False)
-    with TestClient(create_app(settings), "http://127.0.0.1:8000") as client:
+    settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("changed")), embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), "http://127.0.0.1:8000", client=HERE) as client:
         raw = measurements.csv()
         held("POST /api/v1/recordings/files", client.post("/api/v1/recordings/files", files={"file": ("a.csv", raw)}))
         record = b"\n".join(b"%.2f %.4f" % (step / 100, step % 7 / 10) for step in range(200))

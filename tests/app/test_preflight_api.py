@@ -20,7 +20,7 @@ from app.preflight import endpoints
 from app.preflight.calculation import DRY_RUN, IDENTIFICATION
 from rths_engine.planning import templates
 from rths_engine.planning.reading import plan_to_yaml
-from tests.app.conftest import ADDRESS, plan
+from tests.app.conftest import ADDRESS, HERE, plan
 
 PATH = "/api/v1/plans/preflight"
 
@@ -28,8 +28,8 @@ PATH = "/api/v1/plans/preflight"
 @pytest.fixture(scope="module")
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     """One service for the tests of this file."""
-    settings = Settings(data=tmp_path_factory.mktemp("preflight"), embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as one:
+    settings = Settings(data=tmp_path_factory.mktemp("preflight"), embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), ADDRESS, client=HERE, raise_server_exceptions=False) as one:
         yield one
 
 

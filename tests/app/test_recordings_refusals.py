@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from app.config import Settings
 from app.main import create_app
-from tests.app.conftest import ADDRESS
+from tests.app.conftest import ADDRESS, HERE
 from tests.app.test_recordings_api import URL, add, kept, post, upload
 from tests.engine import measurements as made
 
@@ -59,7 +59,7 @@ def test_a_file_that_is_too_large_is_refused_by_the_bound_of_the_configuration(s
         for _ in range(20):
             yield b"0.1\n" * 250_000
 
-    with TestClient(create_app(small), ADDRESS, raise_server_exceptions=False) as client:
+    with TestClient(create_app(small), ADDRESS, client=HERE, raise_server_exceptions=False) as client:
         declared = client.post(f"{URL}/files", files={"file": ("a.csv", b"0.1\n" * 600_000)})
         counted = client.post(f"{URL}/files", content=endless(), headers={"content-type": "multipart/form-data; boundary=b"})
     for answer in (declared, counted):
@@ -70,7 +70,7 @@ def test_a_file_that_is_too_large_is_refused_by_the_bound_of_the_configuration(s
 
 def test_a_file_larger_than_other_requests_may_be_is_taken(client: TestClient, settings: Settings) -> None:
     small = replace(settings, upload_limit=20_000)
-    with TestClient(create_app(small), ADDRESS, raise_server_exceptions=False) as one:
+    with TestClient(create_app(small), ADDRESS, client=HERE, raise_server_exceptions=False) as one:
         assert upload(one)["size"] > 20_000
 
 

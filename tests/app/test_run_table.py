@@ -18,7 +18,7 @@ from app.main import create_app
 from app.models import Diagnosis, DiagnosisInput, Run, RunStation
 from app.runs import query
 from app.runs.editing import GRACE, RunEditing
-from tests.app.conftest import ADDRESS, app_of, plan
+from tests.app.conftest import ADDRESS, HERE, app_of, plan
 from tests.app.test_runs_api import RUNS
 
 TABLE = f"{RUNS}/table"
@@ -33,8 +33,8 @@ class Laboratory(NamedTuple):
 @pytest.fixture(scope="module")
 def lab(tmp_path_factory: pytest.TempPathFactory, migrated: Any) -> Iterator[Laboratory]:
     """Runs #1 to #6: five have ended with measures 1 mm to 5 mm at station 1, the last is queued."""
-    settings = Settings(data=tmp_path_factory.mktemp("table"), embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS, raise_server_exceptions=False) as client:
+    settings = Settings(data=tmp_path_factory.mktemp("table"), embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), ADDRESS, client=HERE, raise_server_exceptions=False) as client:
         plans = []
         for number in range(1, 7):
             one = plan(name=f"Brace {number}", seed=number)

@@ -10,15 +10,15 @@ from fastapi.testclient import TestClient
 
 from app.config import Settings
 from app.main import create_app
-from tests.app.conftest import ADDRESS, plan
+from tests.app.conftest import ADDRESS, HERE, plan
 from tests.app.test_sweeps_api import DAMPING, SWEEPS, execute, get, submit
 
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory: pytest.TempPathFactory, migrated: Any) -> Iterator[tuple[TestClient, str]]:
     """A sweep of six points with results: three scales, of which the largest trips, times two damping ratios."""
-    settings = Settings(data=tmp_path_factory.mktemp("swept"), embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS) as client:
+    settings = Settings(data=tmp_path_factory.mktemp("swept"), embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), ADDRESS, client=HERE) as client:
         scales = {"kind": "factor", "values": [0.1, 0.2, 90]}
         fields = [{"path": DAMPING, "values": [1, 5], "unit": "%"}]
         sweep = submit(client, plan=plan(duration=1.5), fields=fields, scales=scales)

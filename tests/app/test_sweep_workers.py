@@ -20,7 +20,7 @@ from app.db import unit_of_work
 from app.main import create_app
 from app.models import SweepShard
 from tests.app import postgres
-from tests.app.conftest import ADDRESS, app_of, plan
+from tests.app.conftest import ADDRESS, HERE, app_of, plan
 from tests.browser.service import ROOT, UNMEASURED, until
 
 SWEEPS = "/api/v1/sweeps"
@@ -105,9 +105,9 @@ def database() -> Iterator[str]:
 
 
 def test_a_killed_worker_of_several_loses_no_point_and_none_is_stored_twice(database: str, tmp_path: Path) -> None:
-    settings = Settings(data=tmp_path, database_url=database, embedded_worker=False)
+    settings = Settings(data=tmp_path, database_url=database, embedded_worker=False, local_sign_in=True)
     with (
-        TestClient(create_app(settings), ADDRESS) as client,
+        TestClient(create_app(settings), ADDRESS, client=HERE) as client,
         worker(settings, "doomed") as doomed,
         worker(settings, "second"),
     ):

@@ -24,7 +24,7 @@ from app.sweeps.service import SweepService
 from app.worker import sweep as process
 from rths_engine.sweeps.columns import columns
 from rths_engine.sweeps.design import read_design
-from tests.app.conftest import ADDRESS, app_of, plan
+from tests.app.conftest import ADDRESS, HERE, app_of, plan
 
 SWEEPS = "/api/v1/sweeps"
 ALPHA = "stations.*.compensator.alpha_es"
@@ -94,8 +94,8 @@ def execute(client: TestClient, settings: Settings, shards: int = 10**9) -> None
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory, migrated: Any) -> Iterator[tuple[TestClient, str]]:
     """A sweep of four points with results, of which two tripped."""
-    settings = Settings(data=tmp_path_factory.mktemp("done"), embedded_worker=False)
-    with TestClient(create_app(settings), ADDRESS) as client:
+    settings = Settings(data=tmp_path_factory.mktemp("done"), embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), ADDRESS, client=HERE) as client:
         fields = [
             {"path": "stations.0.limits.displacement", "values": ["1e-6 mm", "200 mm"]},
             {"path": DAMPING, "values": [0.01, 0.05]},

@@ -12,4 +12,5 @@ from app.main import create_app
 
 if __name__ == "__main__":
     data, port = Path(sys.argv[1]), int(sys.argv[2])
-    uvicorn.run(create_app(from_environment(data=data, port=port)), host="127.0.0.1", port=port, log_level="warning")
+    settings = from_environment(data=data, port=port, local_sign_in=True)
+    uvicorn.run(create_app(settings), host="127.0.0.1", port=port, log_level="warning")

@@ -1,0 +1,155 @@
+"""The gate: every request passes it before its body is read, and only with the role that the address declares."""
+
+from __future__ import annotations
+
+import hmac
+from typing import Any
+from urllib.parse import quote
+
+from fastapi.routing import iter_route_contexts
+from starlette._utils import get_route_path
+from starlette.applications import Starlette
+from starlette.datastructures import Headers
+from starlette.responses import RedirectResponse, Response
+from starlette.routing import Match, compile_path
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from app.access import LOCAL, PERSON, Access, Open, Role, SignedIn, declared
+from app.config import LOOPBACK, Settings
+from app.problems import problem
+
+KEPT = 4096  # addresses whose declaration is remembered
+NOT_ALLOWED = 4403
+FORWARDED = ("forwarded", "x-forwarded-for", "x-real-ip")
+SIGN_IN = "Sign in at /sign-in, or send an API token in the header `Authorization: Bearer TOKEN`: docs/accounts.md."
+UNKNOWN = Access(Role.VIEWER, None)  # an address that leads nowhere: only who is signed in learns that
+
+
+class Gate:
+    """ASGI middleware that finds the declaration of an address and the person behind a request, and refuses what does not fit.
+
+    The routes are read once, at the first request. An address that leads to no route of then is answered here.
+    """
+
+    def __init__(self, app: ASGIApp, settings: Settings):
+        self.app, self.settings = app, settings
+        self._places: list[Place] = []
+        self._known: dict[tuple[str, str, str], tuple[Match, Access | None]] = {}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] not in {"http", "websocket"}:
+            await self.app(scope, receive, send)
+            return
+        match, access = self._access(scope)
+        refusal = await self._refusal(scope, access)
+        if refusal is None and match is Match.NONE:
+            refusal = problem(404, f"There is nothing at {scope['path']}.")
+        if refusal is None:
+            await self.app(scope, receive, send)
+        elif scope["type"] == "http":
+            await refusal(scope, receive, send)
+        else:
+            await _close(access, receive, send)
+
+    def _access(self, scope: Scope) -> tuple[Match, Access | None]:
+        """Whether the address leads to a route, and the declaration of that route."""
+        key = (scope["type"], scope.get("method", ""), get_route_path(scope))
+        found = self._known.get(key)
+        if found is None:
+            if not self._places:
+                self._places = places(scope["app"])
+            if len(self._known) >= KEPT:
+                self._known.clear()
+            found = self._known[key] = self._looked_up(*key)
+        return found
+
+    def _looked_up(self, kind: str, method: str, path: str) -> tuple[Match, Access | None]:
+        partial = None
+        for place in self._places:
+            match = place.match(kind, method, path)
+            if match is Match.FULL:
+                return match, place.access
+            if match is Match.PARTIAL:
+                partial = match
+        other = path.rstrip("/") if path.endswith("/") else f"{path}/"  # to which the router redirects
+        if partial or any(place.match(kind, method, other) is not Match.NONE for place in self._places):
+            return Match.PARTIAL, UNKNOWN
+        return Match.NONE, UNKNOWN
+
+    async def _refusal(self, scope: Scope, access: Access | None) -> Response | None:
+        if access is None:
+            return problem(403, f"Nobody may use {scope['path']}: the program does not declare who may.")
+        if access.who is Open.ANYONE:
+            return None
+        if access.who is Open.WORKER:
+            return None if self._is_worker(Headers(scope=scope)) else problem(403, "This address needs the token of workers.")
+        person = self._person(scope)
+        if person is None:
+            return _sign_in(scope)
+        scope[PERSON] = person
+        if person.role < access.who:
+            needed = f"It needs the role {access.who.name.lower()}; {person.name} is {person.role.name.lower()}."
+            return problem(403, f"{needed} An administrator changes roles on the page Settings.")
+        return None
+
+    def _person(self, scope: Scope) -> SignedIn | None:
+        return LOCAL if self.settings.local_sign_in and _on_this_computer(scope) else None
+
+    def _is_worker(self, headers: Headers) -> bool:
+        return hmac.compare_digest(_bearer(headers).encode(), self.settings.worker_token.encode())
+
+
+class Place:
+    """Where a route lies and who may use it."""
+
+    def __init__(self, context: Any):
+        mounted = not context.endpoint
+        self.access = declared(context.app if mounted else context.endpoint)
+        self.kind = "" if mounted else "http" if context.methods else "websocket"  # a mount takes both
+        self.methods = set(context.methods or ())
+        self.path = f"{context.path.rstrip('/')}/{{path:path}}" if mounted else context.path
+        self.pattern = compile_path(self.path)[0]
+
+    def match(self, kind: str, method: str, path: str) -> Match:
+        if self.kind not in {"", kind} or not self.pattern.match(path):
+            return Match.NONE
+        return Match.FULL if not self.methods or method in self.methods else Match.PARTIAL
+
+
+def places(app: Starlette) -> list[Place]:
+    """Every route, websocket and mount of an application, in the order in which the application tries them."""
+    return [Place(context) for context in iter_route_contexts(app.routes)]
+
+
+def _on_this_computer(scope: Scope) -> bool:
+    """Whether a request comes from this computer, and not through a proxy on it."""
+    address, headers = (scope.get("client") or ("", 0))[0], Headers(scope=scope)
+    return address in LOOPBACK and not any(name in headers for name in FORWARDED)
+
+
+def _bearer(headers: Headers) -> str:
+    kind, _, token = headers.get("authorization", "").partition(" ")
+    return token if kind.lower() == "bearer" else ""
+
+
+def _sign_in(scope: Scope) -> Response:
+    """The answer to a request without credentials: a page leads to the sign-in page and back, anything else gets 401."""
+    headers = Headers(scope=scope)
+    page = "text/html" in headers.get("accept", "") and not scope["path"].startswith("/api/")
+    if scope.get("method") == "GET" and page and "hx-request" not in headers:
+        query = scope["query_string"].decode("latin-1")
+        back = f"{scope['path']}?{query}" if query else scope["path"]
+        return RedirectResponse(f"/sign-in?to={quote(back, safe='')}", 303)
+    answer = problem(401, SIGN_IN)
+    answer.headers["WWW-Authenticate"] = "Bearer"
+    return answer
+
+
+async def _close(access: Access | None, receive: Receive, send: Send) -> None:
+    """Refuse a websocket. A worker, which is no browser, is told why."""
+    if access is not None and access.who is Open.WORKER:
+        await receive()
+        await send({"type": "websocket.accept"})
+        await send({"type": "websocket.close", "code": NOT_ALLOWED, "reason": "wrong worker token"})
+    else:
+        await send({"type": "websocket.close", "code": NOT_ALLOWED, "reason": "sign in first"})
