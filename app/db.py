@@ -11,10 +11,20 @@ from typing import Any, ClassVar, Literal
 import sqlalchemy as sa
 from alembic import command
 from alembic.config import Config
+from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from sqlalchemy.orm import DeclarativeBase, Session, sessionmaker
+
+from rths_engine.foundation.errors import Issue, RthsError
 
 MIGRATIONS = Path(__file__).parent.parent / "migrations"
 BUSY_TIMEOUT_MS = 30_000
+CONNECTIONS = 64  # more than the threads that ask for one: those of requests (40), of the queue and of webhooks
+LOCK_WAIT_S = 30
+CUT_S = 10  # after which a connection counts as cut at both ends: otherwise a worker that was cut off keeps its locks for hours
+
+DATABASE_SILENT = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+"""Errors of a database that is away, full, locked or has cut the connection: the same transaction may succeed later."""
 
 
 class UtcDateTime(sa.TypeDecorator[datetime]):
@@ -50,9 +60,20 @@ class Base(DeclarativeBase):
 
 
 def connect(url: str) -> sa.Engine:
-    """The database engine for a URL. Connections to SQLite use write-ahead logging, foreign keys and a busy timeout."""
-    engine = sa.create_engine(url.replace("postgresql:", "postgresql+psycopg:", 1), pool_pre_ping=True)
-    if engine.dialect.name == "sqlite":
+    """The database engine for a URL.
+
+    Connections to SQLite use write-ahead logging, foreign keys and a busy timeout, and take the lock of the database at the
+    start of a transaction that writes. Connections to PostgreSQL notice at both ends when the network between them is cut.
+    """
+    sqlite = url.startswith("sqlite")
+    engine = sa.create_engine(
+        url.replace("postgresql:", "postgresql+psycopg:", 1),
+        pool_pre_ping=True,
+        pool_size=8,
+        max_overflow=CONNECTIONS - 8,
+        connect_args={} if sqlite else _POSTGRES,
+    )
+    if sqlite:
         sa.event.listen(engine, "connect", _prepare_sqlite)
     return engine
 
@@ -60,6 +81,14 @@ def connect(url: str) -> sa.Engine:
 def sessions(engine: sa.Engine) -> sessionmaker[Session]:
     """The factory of sessions; their rows stay readable after a commit."""
     return sessionmaker(engine, expire_on_commit=False)
+
+
+def now(session: Session) -> datetime:
+    """The time by the clock of the database: the same for every machine. SQLite has the clock of this machine."""
+    if session.get_bind().dialect.name == "sqlite":
+        return datetime.now(UTC)
+    told: datetime = session.execute(sa.select(sa.func.clock_timestamp())).scalar_one()
+    return told.astimezone(UTC)
 
 
 @contextmanager
@@ -75,8 +104,38 @@ def afterwards(session: Session, event: Literal["after_commit", "after_rollback"
 
 
 def migrate(url: str) -> None:
-    """Bring the database to the newest schema."""
+    """Bring the database to the newest schema. Raises RthsError for a database of a newer version of the program."""
+    _refuse_newer(*schemas(url))
     command.upgrade(alembic_config(url), "head")
+
+
+def check_schema(url: str) -> None:
+    """Raise RthsError unless the schema of the database is the one of this program."""
+    found, known = schemas(url)
+    _refuse_newer(found, known)
+    if found != known[0]:
+        fix = "run 'rths migrate', or start 'rths serve', which does the same"
+        raise RthsError(Issue("database", f"has the schema of an older version of the program (needs {known[0]})", found, fix))
+
+
+def schemas(url: str) -> tuple[str, list[str]]:
+    """The schema of the database ("none" without one), and the schemas that this program knows, newest first."""
+    engine = connect(url)
+    try:
+        with engine.connect() as connection:
+            found = MigrationContext.configure(connection).get_current_revision()
+    finally:
+        engine.dispose()
+    known = ScriptDirectory.from_config(alembic_config(url)).walk_revisions()
+    return found or "none", [one.revision for one in known]
+
+
+def _refuse_newer(found: str, known: list[str]) -> None:
+    if found not in (*known, "none"):
+        fix = "install that version here too: older programs cannot read it"
+        raise RthsError(
+            Issue("database", f"has the schema of a newer version of the program (known to {known[0]})", found, fix)
+        )
 
 
 def alembic_config(url: str, folder: Path | None = None) -> Config:
@@ -87,6 +146,26 @@ def alembic_config(url: str, folder: Path | None = None) -> Config:
     return config
 
 
+_POSTGRES = {
+    "connect_timeout": CUT_S,
+    "keepalives_idle": CUT_S // 2,
+    "keepalives_interval": 2,
+    "keepalives_count": 3,
+    "tcp_user_timeout": CUT_S * 1000,
+    "options": " ".join(
+        f"-c {name}={value}"
+        for name, value in {
+            "tcp_keepalives_idle": CUT_S // 2,
+            "tcp_keepalives_interval": 2,
+            "tcp_keepalives_count": 3,
+            "tcp_user_timeout": CUT_S * 1000,
+            "lock_timeout": LOCK_WAIT_S * 1000,
+        }.items()
+    ),
+}
+
+
 def _prepare_sqlite(connection: Any, _: Any) -> None:
+    connection.isolation_level = "IMMEDIATE"  # a lock asked for at once waits; a read lock that becomes one fails at once
     for pragma in ("journal_mode=wal", "synchronous=normal", f"busy_timeout={BUSY_TIMEOUT_MS}", "foreign_keys=on"):
         connection.execute(f"pragma {pragma}")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import asyncio
+from collections.abc import AsyncIterator, Iterator
 from typing import Annotated
 
 from fastapi import Depends, Request
@@ -10,7 +11,12 @@ from sqlalchemy.orm import Session
 
 from app.config import Settings
 from app.db import unit_of_work
+from app.problems import Unavailable
 from rths_engine.parts.ground_motions import MotionLibrary
+
+READING = frozenset({"GET", "HEAD", "OPTIONS"})
+WRITERS = 32  # requests that may write at the same time; the threads of requests are 40
+PATIENCE_S = 60.0
 
 
 def settings(request: Request) -> Settings:
@@ -19,7 +25,27 @@ def settings(request: Request) -> Settings:
     return found
 
 
-def session(request: Request) -> Iterator[Session]:
+async def writing(request: Request) -> AsyncIterator[None]:
+    """A place among the requests that may write at the same time. Raises Unavailable when none is free for PATIENCE_S.
+
+    Requests wait here without a thread. The request that has the lock of the database needs a thread to end; if all threads
+    waited for that lock, it would never be given back.
+    """
+    if request.method in READING:
+        yield
+        return
+    places: asyncio.Semaphore = request.app.state.writing
+    try:
+        await asyncio.wait_for(places.acquire(), PATIENCE_S)
+    except TimeoutError:
+        raise Unavailable("Too many requests write at the same time. Try again in a moment.") from None
+    try:
+        yield
+    finally:
+        places.release()
+
+
+def session(request: Request, _: Annotated[None, Depends(writing, scope="function")]) -> Iterator[Session]:
     """A session that commits at the end of a request without errors."""
     with unit_of_work(request.app.state.sessions) as one:
         yield one

@@ -10,7 +10,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.access import ANYONE, allowed
 from app.db import unit_of_work
-from app.jobs.workers import Workers, alive
+from app.jobs.workers import Workers
 from rths_engine import __version__
 
 router = APIRouter(tags=["health"])
@@ -30,10 +30,10 @@ def health(request: Request, response: Response) -> Health:
     """Report the health of the service: 200 while the database answers and a worker is alive, else 503."""
     try:
         with unit_of_work(request.app.state.sessions) as session:
-            seen = Workers(session).last_beat()
+            workers = Workers(session)
+            beating = workers.alive(workers.last_beat())
     except SQLAlchemyError:
         response.status_code = 503
         return Health(database="silent", worker="unknown", version=__version__)
-    beating = alive(seen)
     response.status_code = 200 if beating else 503
     return Health(database="ok", worker="alive" if beating else "silent", version=__version__)

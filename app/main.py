@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 from fastapi import FastAPI
@@ -19,6 +20,7 @@ from app.annotations.endpoints import router as run_annotations
 from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
+from app.dependencies import WRITERS
 from app.diagnoses.endpoints import router as diagnoses
 from app.gate import Gate
 from app.guard import Guard
@@ -26,6 +28,7 @@ from app.head import Head
 from app.health import router as health
 from app.help.endpoints import router as glossary
 from app.jobs import queue as durable
+from app.jobs.workers import Workers
 from app.laboratory.endpoints import router as laboratory
 from app.league.endpoints import router as league
 from app.library.draft_endpoints import router as drafts
@@ -88,6 +91,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = configured
     app.state.hub = Hub()
     app.state.calculations = Calculations()
+    app.state.writing = asyncio.Semaphore(WRITERS)
     problems.install(app)
     openapi.install(app)
     for router in (
@@ -159,7 +163,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     await asyncio.to_thread(_purge, app)
     dispatcher = Dispatcher(app.state.sessions)
     dispatcher.start()
-    worker = EmbeddedWorker(settings) if settings.embedded_worker else None
+    worker = EmbeddedWorker(settings, partial(_worker_ended, app)) if settings.embedded_worker else None
     if worker:
         worker.start()
     try:
@@ -183,6 +187,12 @@ def _declare_description(app: FastAPI) -> None:
     for route in app.routes:
         if isinstance(route, Route) and route.path == app.openapi_url:
             allowed(Role.VIEWER)(route.endpoint)
+
+
+def _worker_ended(app: FastAPI, worker: str) -> None:
+    """Remove the heartbeat of the embedded worker at its end, so that the next one takes over at once."""
+    with suppress(*db.DATABASE_SILENT), db.unit_of_work(app.state.sessions) as session:
+        Workers(session).forget(worker)
 
 
 @allowed(Role.VIEWER)

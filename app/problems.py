@@ -9,7 +9,8 @@ from typing import Any
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import InterfaceError, OperationalError
+from sqlalchemy.exc import TimeoutError as PoolTimeout
 from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
@@ -65,7 +66,8 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(NotFound, lambda _, error: problem(404, str(error)))
     app.add_exception_handler(Conflict, lambda _, error: problem(409, str(error)))
     app.add_exception_handler(Unavailable, _unavailable)
-    app.add_exception_handler(OperationalError, _database_error)
+    for error in (OperationalError, InterfaceError, PoolTimeout):
+        app.add_exception_handler(error, _database_error)
     app.add_exception_handler(Exception, _unexpected)
 
 

@@ -236,7 +236,7 @@ def parser() -> argparse.ArgumentParser:
     )
     _data(worker)
     worker.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the control room (default %(default)s)")
-    worker.add_argument("--name", help="name of this worker (default: machine and process)")
+    worker.add_argument("--name", help="name of this worker (default: the machine)")
     worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
 
     _data(_command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import socket
 from argparse import Namespace
 
@@ -11,13 +10,14 @@ from app import db
 from app.cli.settings import stored
 from app.jobs import queue
 from app.worker.main import work
+from app.worker.peers import unique
 
 
 def worker(given: Namespace) -> None:
     """`rths worker`: execute queued jobs until the process ends."""
     settings = stored(given)
     logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
-    work(settings, given.web, given.name or f"{socket.gethostname()}-{os.getpid()}")
+    work(settings, given.web, unique(given.name or socket.gethostname()))
 
 
 def migrate(given: Namespace) -> None:

@@ -48,8 +48,10 @@ class JobRepository(Generic[Row]):
     def count(self, state: State) -> int:
         return self.session.scalar(sa.select(sa.func.count()).where(self.table.state == state)) or 0
 
-    def cancel_requested(self, job_id: str) -> bool:
-        return self.session.scalar(sa.select(self.table.cancel_requested_by).where(self.table.id == job_id)) is not None
+    def to_stop(self, job_id: str, attempt: int) -> bool:
+        table = self.table
+        runs_on = (table.id == job_id) & (table.attempt == attempt) & (table.state == State.RUNNING)
+        return self.session.scalar(sa.select(table.id).where(runs_on, table.cancel_requested_by.is_(None))) is None
 
     def progress(self, job_id: str, attempt: int, doing: str, share: float) -> None:
         """Store the progress of an attempt while it runs."""

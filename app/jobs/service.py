@@ -177,9 +177,9 @@ class JobService(Generic[Row, Result]):
         """Store the progress of an attempt; nothing happens if the attempt is not the current one."""
         self.rows.progress(job_id, attempt, doing, share)
 
-    def cancel_requested(self, job_id: str) -> bool:
-        """Whether someone asked to cancel a running job."""
-        return self.rows.cancel_requested(job_id)
+    def to_stop(self, job_id: str, attempt: int) -> bool:
+        """Whether an attempt that runs should stop: someone cancelled it, or another worker took the job over meanwhile."""
+        return self.rows.to_stop(job_id, attempt)
 
     def keep(self, job_id: str, attempt: int, parts: Sequence[Any]) -> None:
         """Store parts of the result of an attempt; nothing happens if the job has ended or was taken over."""

@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 from app.jobs.service import UNDO
 from app.jobs.states import State
 from app.jobs.tables import QueueState
-from app.jobs.workers import Workers, alive
+from app.jobs.workers import Workers
 from app.models import Run
 from app.queue.expected import Expected, Span, Speeds, schedule
 from app.queue.repository import QueueRepository, Waiting
@@ -32,7 +32,7 @@ def outlook(session: Session, rows: QueueRepository, hold: QueueState, limit: in
     left = [_left(run, speeds, now) for run in running]
     tests = [(one.rig_id, time.time_s) for one, time in zip(line, expected, strict=True)]
     spans = schedule([(run.rig_id, time) for run, time in zip(running, left, strict=True)], tests, places, rigs)
-    waits = _Waits(hold, seen, running, places, rigs)
+    waits = _Waits(hold, workers.alive(seen), running, places, rigs)
     total = max([span.end_s for span in spans if span.end_s is not None] + [time for time in left if time is not None] or [0.0])
     known = all(span.end_s is not None for span in spans) and all(time is not None for time in left)
     waiting = [
@@ -51,17 +51,15 @@ def outlook(session: Session, rows: QueueRepository, hold: QueueState, limit: in
         total_s=total if known and len(line) < SCHEDULED else None,
         tests_at_a_time=places,
         worker_seen_at=seen,
-        worker_alive=alive(seen),
+        worker_alive=workers.alive(seen),
     )
 
 
 class _Waits:
     """Why tests wait, asked in the order of the queue."""
 
-    def __init__(
-        self, hold: QueueState, seen: datetime | None, running: Sequence[Run], places: int, rigs: dict[str, int | None]
-    ):
-        self.hold, self.alive, self.running, self.places, self.rigs = hold, alive(seen), running, places, rigs
+    def __init__(self, hold: QueueState, alive: bool, running: Sequence[Run], places: int, rigs: dict[str, int | None]):
+        self.hold, self.alive, self.running, self.places, self.rigs = hold, alive, running, places, rigs
         self.before = 0
 
     def reason(self, one: Waiting) -> str:

@@ -61,6 +61,7 @@ class QueueService:
 
     def cancel(self, runs: Sequence[str], by: str) -> CancelledOut:
         """Cancel queued and running runs. Others are left as they are, each with its reason."""
+        self.hold.locked()  # first, as at a start: two requests that lock runs in opposite orders would block each other
         cancelled, refused = [], []
         for run in dict.fromkeys(runs):
             job = self.jobs.rows.locked(run)

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import secrets
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 
 from app.config import Settings
+from app.worker.peers import unique
 
 NAME = "embedded"
 BACK_OFF_S = (0.2, 10.0)
@@ -17,8 +20,9 @@ LIVED_S = 30.0
 class EmbeddedWorker:
     """The worker as a child process. Its standard input is a pipe that closes when this process ends, however it ends."""
 
-    def __init__(self, settings: Settings):
-        self.settings = settings
+    def __init__(self, settings: Settings, ended: Callable[[str], None]):
+        """`ended` is told the identity of each worker whose process has ended."""
+        self.settings, self.ended = settings, ended
         self.process: subprocess.Popen[bytes] | None = None
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._keep, daemon=True, name="rths-embedded-worker")
@@ -35,19 +39,22 @@ class EmbeddedWorker:
     def _keep(self) -> None:
         delay = BACK_OFF_S[0]
         while not self._stopping.is_set():
-            self.process = self._spawn()
+            boot = secrets.token_hex(3)
+            self.process = self._spawn(boot)
             try:
                 self.process.wait(LIVED_S)
             except subprocess.TimeoutExpired:
                 delay = BACK_OFF_S[0]
                 self.process.wait()
+            self.ended(unique(NAME, boot))
             self._stopping.wait(delay)
             delay = min(2 * delay, BACK_OFF_S[1])
 
-    def _spawn(self) -> subprocess.Popen[bytes]:
+    def _spawn(self, boot: str) -> subprocess.Popen[bytes]:
         settings = self.settings
         host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
-        command = [sys.executable, "-m", "app.worker", "--with-parent", "--name", NAME, "--web", f"ws://{host}:{settings.port}"]
+        known = ["--name", NAME, "--boot", boot]
+        command = [sys.executable, "-m", "app.worker", "--with-parent", *known, "--web", f"ws://{host}:{settings.port}"]
         environment = {
             **os.environ,
             "RTHS_DATA": str(settings.data.resolve()),

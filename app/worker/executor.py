@@ -19,6 +19,7 @@ from app.jobs.order import Order
 from app.jobs.service import JobService
 from app.worker.child import Done, Failed, Part, Progress
 from app.worker.link import Link, Telling
+from app.worker.patience import patiently
 from app.worker.pool import JobProcess, Outcome, Pool, ProcessDied
 
 log = logging.getLogger("rths.worker")
@@ -71,13 +72,13 @@ class Executor:
     def execute(self, kind: AnyKind, turn: str) -> None:
         """Execute a job to its end, and again if its process dies. `turn` is the delivery of the queue: JobService.start."""
         try:
-            self._attempt(kind, turn)
+            patiently(lambda: self._attempt(kind, turn))
         except ProcessDied as died:
             log.warning("the process died (%s) over turn %s of %s", died, turn, kind.queue)
             self.execute(kind, turn)
 
     def look(self) -> None:
-        """Store the progress of running jobs, and stop the jobs that someone cancelled."""
+        """Store the progress of running jobs, and stop the jobs that someone cancelled or that another worker took over."""
         with self._lock:
             running = list(self.running.values())
         for one in running:
@@ -102,8 +103,8 @@ class Executor:
             jobs = JobService(session, one.kind)
             if news is not None:
                 jobs.progress(order.job_id, order.attempt, news.doing, news.share)
-            cancelled = jobs.cancel_requested(order.job_id)
-        if cancelled:
+            stop = jobs.to_stop(order.job_id, order.attempt)
+        if stop:
             one.process.cancel()
 
     def _attempt(self, kind: AnyKind, turn: str) -> None:
@@ -151,10 +152,8 @@ class Executor:
             try:
                 outcome = process.execute(order, running.take)
             finally:
-                self._keep(running)
+                patiently(lambda: self._keep(running))
             self._end(kind, order, outcome)
-        except OSError as error:
-            self._end(kind, order, Failed(f"The result of the {kind.noun} was not stored: {error.strerror or error}."))
         finally:
             with self._lock:
                 del self.running[order.job_id]
@@ -163,7 +162,14 @@ class Executor:
                 telling.ended = True
 
     def _end(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
-        """Store the outcome of an attempt: rows and files together; if either fails, the next attempt redoes both."""
+        """Store the outcome of an attempt, rows and files together. While the database is away, the result waits here."""
+        try:
+            patiently(lambda: self._store(kind, order, outcome))
+        except OSError as error:
+            failed = Failed(f"The result of the {kind.noun} was not stored: {error.strerror or error}.")
+            patiently(lambda: self._store(kind, order, failed))
+
+    def _store(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
         with unit_of_work(self.maker) as session:
             jobs = JobService(session, kind)
             if isinstance(outcome, Done):

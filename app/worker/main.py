@@ -14,26 +14,27 @@ import sys
 import threading
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-import sqlalchemy as sa
 from dbos import DBOS
-from sqlalchemy.orm import Session, sessionmaker
 
 from app.config import Settings, from_environment
-from app.db import connect, sessions, unit_of_work
+from app.db import DATABASE_SILENT, check_schema, connect, sessions
 from app.jobs.kind import Kind
 from app.jobs.queue import APPLICATION, VERSION
 from app.jobs.service import MOST_ATTEMPTS
-from app.jobs.workers import Workers
 from app.worker.executor import Executor
 from app.worker.kinds import KINDS
 from app.worker.link import Link
+from app.worker.patience import patiently
+from app.worker.peers import Peers, unique
+from rths_engine.foundation.errors import RthsError
 
 log = logging.getLogger("rths.worker")
 WATCH_S = 0.1
-BEAT_S = 1.0
+LOOK_S = 1.0  # between two heartbeats, each with a look at the other workers
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # the processes of jobs share the cores
 
 
@@ -43,7 +44,8 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--data", type=Path, help="data folder (RTHS_DATA)")
     parser.add_argument("--database-url", help="database (RTHS_DATABASE_URL)")
     parser.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the web service")
-    parser.add_argument("--name", default=f"{socket.gethostname()}-{os.getpid()}", help="name of this worker")
+    parser.add_argument("--name", default=socket.gethostname(), help="name of this worker")
+    parser.add_argument("--boot", help="word that tells this start of the worker apart from others of the same name")
     parser.add_argument("--workers", type=int, dest="worker_concurrency", help="tests at the same time (RTHS_WORKERS)")
     parser.add_argument("--with-parent", action="store_true", help="end when standard input closes")
     given = parser.parse_args(arguments)
@@ -54,23 +56,33 @@ def main(arguments: list[str] | None = None) -> None:
     if given.with_parent:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C also reaches the parent, which ends this process
         threading.Thread(target=_end_with_parent, daemon=True).start()
-    work(settings, given.web, given.name)
+    try:
+        work(settings, given.web, unique(given.name, given.boot))
+    except RthsError as error:
+        sys.exit(f"rths worker: {error}")
 
 
-def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any, Any]] = KINDS) -> None:
-    """Serve the queues of all kinds of job until the process ends."""
+def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, Any, Any]] = KINDS) -> None:
+    """Serve the queues of all kinds of job until the process ends. `worker` is the identity of this process: unique().
+
+    Raises RthsError where the schema of the database is not the one of this program.
+    """
+    check_schema(settings.url)
     os.environ.update(ONE_THREAD)  # read where the processes of jobs load numpy
     engine = connect(settings.url)
     maker = sessions(engine)
     link = Link(f"{web}/api/v1/worker", settings.worker_token)
-    executor = Executor(settings, maker, link, name, kinds)
+    executor = Executor(settings, maker, link, worker, kinds)
+    peers = Peers(maker, worker, settings.worker_concurrency)
+    patiently(peers.beat)  # before the queue is served: whoever holds a turn without a heartbeat is dead
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     for kind in kinds:
         _register(kind, executor)
     DBOS(
         config={
             "name": APPLICATION,
             "system_database_engine": engine,
-            "executor_id": name,
+            "executor_id": worker,
             "application_version": VERSION,
             "log_level": "WARNING",
             "run_migrations": False,
@@ -84,7 +96,12 @@ def work(settings: Settings, web: str, name: str, kinds: Sequence[Kind[Any, Any,
             polling_interval_sec=kind.polling_s,
             on_conflict="always_update",
         )
-    _watch(executor, maker, name, settings.worker_concurrency)
+    try:
+        _watch(executor, peers)
+    finally:
+        with suppress(Exception):
+            peers.leave()
+        os._exit(0)
 
 
 def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
@@ -99,30 +116,18 @@ def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
         execute(turn)
 
 
-def _watch(executor: Executor, maker: sessionmaker[Session], name: str, tests_at_a_time: int) -> None:
+def _watch(executor: Executor, peers: Peers) -> None:
     """Store progress, pass on cancels, write this worker's heartbeat, and take over the jobs of workers that have died."""
-    beaten = 0.0
+    looked = 0.0
     while True:
         try:
             executor.look()
-            if time.monotonic() - beaten >= BEAT_S:
-                beaten = time.monotonic()
-                _beat(maker, name, tests_at_a_time)
-        except sa.exc.OperationalError as error:
+            if time.monotonic() - looked >= LOOK_S:
+                looked = time.monotonic()
+                peers.look()
+        except DATABASE_SILENT as error:
             log.warning("the database did not answer: %s", error)
         time.sleep(WATCH_S)
-
-
-def _beat(maker: sessionmaker[Session], name: str, tests_at_a_time: int) -> None:
-    with unit_of_work(maker) as session:
-        workers = Workers(session)
-        workers.beat(name, tests_at_a_time)
-        silent = workers.silent()
-    for dead in silent:
-        for workflow in DBOS.list_workflows(status="PENDING", executor_id=dead):
-            DBOS.resume_workflow(workflow.workflow_id, queue_name=workflow.queue_name)
-        with unit_of_work(maker) as session:
-            Workers(session).forget(dead)
 
 
 def _end_with_parent() -> None:

@@ -44,7 +44,7 @@ class Service:
         run: str = self.post("/runs", {"plan": self.plan(**changes), "submitted_by": by})["runs"][0]["id"]
         return run
 
-    def wait(self, run_id: str, *states: str, within_s: float = 60) -> dict[str, Any]:
+    def wait(self, run_id: str, *states: str, within_s: float = 120) -> dict[str, Any]:
         """The run once it is in one of the states (by default: once it has ended); fails when it ends in another."""
         run: dict[str, Any] = until(
             lambda: self.get(f"/runs/{run_id}"), lambda run: run["state"] in ENDED.union(states), within_s
