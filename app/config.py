@@ -36,6 +36,7 @@ class Settings:
 
     `hosts` are the host names that browsers use when they differ from `host`, for example behind a proxy. With `local_sign_in`
     a request from this computer without credentials acts as an administrator.
+    With `store`, recordings, measured files and ground motions lie there instead: app/store.
     """
 
     data: Path = Path("rths-data")
@@ -54,6 +55,9 @@ class Settings:
     laboratory: str = ""
     laboratory_address: str = ""
     laboratory_logo: Path | None = None
+    store: str = ""
+    store_endpoint: str = ""
+    store_cache: int = 10_000 * MEGABYTE
 
     @property
     def url(self) -> str:
@@ -143,5 +147,15 @@ VARIABLES: dict[str, Variable] = {
     "laboratory_address": Variable("RTHS_LABORATORY_ADDRESS", str, "address line of the laboratory in reports, likewise"),
     "laboratory_logo": Variable(
         "RTHS_LABORATORY_LOGO", Path, "PNG or SVG file with the laboratory's logo, likewise", default="none"
+    ),
+    "store": Variable(
+        "RTHS_STORE",
+        str,
+        "address of recordings, measured files and ground motions: file:///shared/rths or s3://bucket/prefix",
+        default="the data folder",
+    ),
+    "store_endpoint": Variable("RTHS_STORE_ENDPOINT", str, "URL of an S3-compatible server", default="that of AWS"),
+    "store_cache": Variable(
+        "RTHS_STORE_CACHE_MB", _megabytes, "local copies of files of an S3 store, in the data folder, MB", _in_megabytes
     ),
 }

@@ -9,7 +9,7 @@ from app.jobs.service import MOST_ATTEMPTS
 from app.jobs.states import State
 from app.runs.repository import Filter, Page
 from app.runs.service import RunService
-from rths_engine.parts.ground_motions import MotionLibrary
+from app.store.motions import motions_of
 from rths_engine.planning import templates
 from rths_engine.planning.plan import RealTime
 
@@ -20,7 +20,7 @@ SUBMITTER = "demonstration"
 def queue_demonstration(app: FastAPI) -> None:
     """Queue the demonstration, unless a demonstration is queued or running and has an attempt left."""
     with unit_of_work(app.state.sessions) as session:
-        runs = RunService(session, MotionLibrary(app.state.settings.motions), app.state.queue)
+        runs = RunService(session, motions_of(app.state.settings), app.state.queue)
         unfinished = Filter(states=(State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)
         if all(run.attempt >= MOST_ATTEMPTS for run in runs.listed(unfinished, Page())[0]):
             plan = templates.template(TEMPLATE).model_copy(update={"pace": RealTime()})

@@ -12,6 +12,9 @@ from sqlalchemy.orm import Session
 from app.config import Settings
 from app.db import unit_of_work
 from app.problems import Unavailable
+from app.store.base import Store
+from app.store.motions import StoredMotions
+from app.store.opening import store_of
 from rths_engine.parts.ground_motions import MotionLibrary
 
 READING = frozenset({"GET", "HEAD", "OPTIONS"})
@@ -55,9 +58,17 @@ Configured = Annotated[Settings, Depends(settings)]
 OneSession = Annotated[Session, Depends(session, scope="function")]
 
 
-def library(configured: Configured) -> MotionLibrary:
+def store(configured: Configured) -> Store:
+    """The store of recordings and other files."""
+    return store_of(configured)
+
+
+OneStore = Annotated[Store, Depends(store)]
+
+
+def library(store: OneStore) -> MotionLibrary:
     """The library of ground motions: bundled and added records."""
-    return MotionLibrary(configured.motions)
+    return StoredMotions(store)
 
 
 Library = Annotated[MotionLibrary, Depends(library)]

@@ -68,6 +68,8 @@ from app.runs.endpoints import router as runs
 from app.runs.table_endpoints import router as run_table
 from app.runs.view_endpoints import router as run_views
 from app.stability.endpoints import router as stability
+from app.store import answers
+from app.store.opening import store_of
 from app.sweeps.analysis_endpoints import router as sweep_analysis
 from app.sweeps.endpoints import router as sweeps
 from app.table4.endpoints import router as table4
@@ -94,6 +96,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.writing = asyncio.Semaphore(WRITERS)
     problems.install(app)
     openapi.install(app)
+    answers.install(app)
     for router in (
         run_table,
         run_views,
@@ -179,7 +182,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
 def _purge(app: FastAPI) -> None:
     """Remove the runs whose time to be restored is over."""
     with db.unit_of_work(app.state.sessions) as session:
-        RunEditing(session).purge(app.state.settings.recordings)
+        RunEditing(session).purge(store_of(app.state.settings))
 
 
 def _declare_description(app: FastAPI) -> None:

@@ -13,9 +13,9 @@ from app.cli.main import DONE, FAILED, INTERRUPTED
 from app.cli.run import Interrupt, advance
 from app.cli.run_input import model_of_plan
 from app.cli.settings import settings
+from app.store.motions import motions_of
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.foundation.part import validated
-from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning import templates
 from rths_engine.planning.model import Model
 from rths_engine.planning.plan import RealTime
@@ -29,7 +29,7 @@ BAR = 30  # characters
 
 def deadline(given: Namespace) -> int:
     """`rths deadline`: measure and print. Exit code: 0 no step missed, 1 missed, 2 invalid input, 130 interrupted."""
-    run = Run(_model(given), MotionLibrary(settings(given).motions))
+    run = Run(_model(given), motions_of(settings(given)))
     with Interrupt() as interrupt:
         advance(run, interrupt)
     assert run.timing is not None

@@ -14,24 +14,27 @@ from app.cli.league_text import text
 from app.cli.run_input import check_folder
 from app.cli.settings import settings
 from app.league.service import LeagueService, shipped
+from app.store.filed import LEAGUE, MOTIONS
+from app.store.motions import motions_of
+from app.store.opening import store_of
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, RthsError
 from rths_engine.league.running import Wanted
 from rths_engine.league.running import league as run_league
 from rths_engine.league.table import merged, write
-from rths_engine.parts.ground_motions import MotionLibrary
 
 
 def league(given: Namespace) -> None:
     """`rths league`: run it and store the results where the page looks for them. Raises RthsError for invalid input."""
     found = settings(given)
-    out: Path = given.out or found.data / "league" / f"case-{given.case}.json"
+    store = store_of(found)
+    out: Path = given.out or store.folder(LEAGUE) / f"case-{given.case}.json"
     if given.out:
         check_folder(out, "--out", "league.json")
     wanted = Wanted(given.case, given.record, given.plants, tuple(given.only))
-    service = LeagueService(found.data)
+    service = LeagueService(store)
     if not given.out:
-        wanted.check(MotionLibrary(found.motions))
+        wanted.check(motions_of(found))
         check(wanted, service.shown(given.case), shipped(given.case))
     with tqdm(total=0, unit="test", disable=None, file=sys.stderr) as bar:
 
@@ -39,7 +42,7 @@ def league(given: Namespace) -> None:
             bar.total, bar.n = total, done
             bar.refresh()
 
-        result = run_league(wanted, found.motions, given.processes or os.cpu_count() or 1, _command(given), progress)
+        result = run_league(wanted, store.folder(MOTIONS), given.processes or os.cpu_count() or 1, _command(given), progress)
     earlier = service.shown(given.case) if wanted.only and not given.out else None
     stored = merged(earlier, result) if earlier else result
     try:
@@ -47,6 +50,8 @@ def league(given: Namespace) -> None:
         with files.temporary(out) as written:
             written.write_text(write(stored), encoding="utf-8")
             os.replace(written, out)
+        if not given.out:
+            store.keep(LEAGUE, out.name)
     except OSError as error:
         raise RthsError(Issue("--out", f"was not written: {error.strerror}", str(out), "choose another file")) from None
     print(text(result))

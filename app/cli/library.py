@@ -18,9 +18,9 @@ from app.library.repository import LibraryRows, Wanted
 from app.library.schemas import LibraryPlanDetail, NewPlan, NewVersion, VersionDetail
 from app.library.service import LibraryService
 from app.problems import Conflict, NotFound
+from app.store.motions import motions_of
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.foundation.part import validated
-from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning import plan_yaml
 from rths_engine.planning.differences import FieldDifference
 
@@ -61,7 +61,7 @@ def _library(given: Namespace) -> Iterator[_Store]:
     engine = db.connect(settings.url)
     try:
         with db.unit_of_work(db.sessions(engine)) as session:
-            yield _Store(LibraryService(session, MotionLibrary(settings.motions)), LibraryRows(session))
+            yield _Store(LibraryService(session, motions_of(settings)), LibraryRows(session))
     except (NotFound, Conflict) as error:
         raise RthsError(str(error)) from None
     finally:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from argparse import Namespace
 
 from app.cli.settings import settings
+from app.store.motions import motions_of
 from rths_engine import __version__
 from rths_engine.foundation import units
-from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning import templates
 from rths_engine.planning.reading import plan_to_yaml
 
@@ -24,7 +24,7 @@ def plan(given: Namespace) -> None:
 def motions(given: Namespace) -> None:
     """`rths motions`: list the ground-motion records with PGA, time step and duration."""
     print(f"{'Name':48} {'PGA, g':>7} {'Step, s':>7} {'Duration, s':>11}  Record")
-    for record in MotionLibrary(settings(given).motions).summaries():
+    for record in motions_of(settings(given)).summaries():
         if record.problem:
             print(f"{record.name:48} can't be used: {record.problem}")
         else:

@@ -12,7 +12,7 @@ from typing import Any
 
 from app.cli.run_input import model_of_plan
 from app.cli.settings import settings
-from rths_engine.parts.ground_motions import MotionLibrary
+from app.store.motions import motions_of
 from rths_engine.preflight import preflight as dry_run
 
 WOULD_TRIP = 1
@@ -20,7 +20,7 @@ WOULD_TRIP = 1
 
 def preflight(given: Namespace) -> int:
     """`rths preflight`: print whether a plan would trip, its peaks against limits and capacities, and its times."""
-    found = dry_run(model_of_plan(given.plan), MotionLibrary(settings(given).motions))
+    found = dry_run(model_of_plan(given.plan), motions_of(settings(given)))
     print(json.dumps(found) if given.json else "\n".join(_lines(found)))
     return WOULD_TRIP if found["trip"] else 0
 

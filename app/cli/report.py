@@ -45,11 +45,11 @@ def report(given: Namespace) -> None:
 def _published(subject: str, configured: Settings) -> Any:
     from app.laboratory.service import Laboratory
     from app.publishing.runs import of_file
-    from rths_engine.parts.ground_motions import MotionLibrary
+    from app.store.motions import motions_of
 
     path, laboratory = Path(subject), Laboratory(configured)
     if path.exists() or path.suffix in ENDINGS:
-        return of_file(path, laboratory, MotionLibrary(configured.motions))
+        return of_file(path, laboratory, motions_of(configured))
     return _of_row(subject, configured, laboratory)
 
 
@@ -60,7 +60,7 @@ def _of_row(run_id: str, configured: Settings, laboratory: Any) -> Any:
     from app.problems import Conflict, NotFound
     from app.publishing.runs import RunReports
     from app.runs.service import RunService
-    from rths_engine.parts.ground_motions import MotionLibrary
+    from app.store.motions import motions_of
 
     if not configured.database_url and not (configured.data / "rths.sqlite").exists():
         fix = "give a recording file, or the data folder with --data"
@@ -68,7 +68,7 @@ def _of_row(run_id: str, configured: Settings, laboratory: Any) -> Any:
     engine = db.connect(configured.url)
     try:
         with db.unit_of_work(db.sessions(engine)) as session:
-            runs = RunService(session, MotionLibrary(configured.motions))
+            runs = RunService(session, motions_of(configured))
             return RunReports(runs, AnnotationService(session, runs), laboratory, configured).of(run_id)
     except (Conflict, NotFound) as error:
         raise RthsError(Issue(run_id, str(error).rstrip("."), fix="`rths report RECORDING.h5` reads a file")) from None

@@ -17,8 +17,8 @@ from app.cli.main import DONE, FAILED, INTERRUPTED, UNUSABLE
 from app.cli.result import text
 from app.cli.run_input import check_folder, read_model
 from app.cli.settings import settings
+from app.store.motions import motions_of
 from rths_engine.foundation.errors import Issue, RthsError
-from rths_engine.parts.ground_motions import MotionLibrary
 from rths_engine.planning.plan import RealTime
 from rths_engine.recordings.run_file import save
 from rths_engine.running.opening import opened
@@ -37,7 +37,7 @@ def run(given: Namespace) -> int:
             check_folder(given.out)
         model = read_model(given)
         warm()  # before a rig is connected, which must not wait
-        with opened(model, MotionLibrary(settings(given).motions)) as test, Interrupt() as interrupt:
+        with opened(model, motions_of(settings(given))) as test, Interrupt() as interrupt:
             elapsed_s = advance(test, interrupt)
     except RthsError as error:
         return _failed(error.issues, given.json, UNUSABLE)

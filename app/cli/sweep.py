@@ -18,6 +18,8 @@ from tqdm import tqdm
 from app.cli.main import DONE, INTERRUPTED
 from app.cli.run_input import check_folder
 from app.cli.settings import settings
+from app.store.filed import MOTIONS
+from app.store.opening import store_of
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, MotionError, PlanError, RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
@@ -31,7 +33,7 @@ from rths_engine.sweeps.table import SUFFIXES, Table, write
 
 def sweep(given: Namespace) -> int:
     """`rths sweep`: execute a sweep, or only count its points. Exit code: 0 done, 2 invalid input, 130 interrupted."""
-    motions = settings(given).motions
+    motions = store_of(settings(given)).folder(MOTIONS)
     design = _design(given.sweep, MotionLibrary(motions))
     if given.count:
         print(json.dumps({"points": design.count, "notes": design.notes}) if given.json else _counted(design))

@@ -10,6 +10,7 @@ from app.config import Settings
 from app.measured.service import MeasuredService
 from app.models import MeasuredRecording, Run
 from app.problems import Conflict
+from app.runs.exports import recording_path
 from app.runs.service import RunService
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 from rths_engine.recordings import selected
@@ -93,12 +94,13 @@ def opened(ref: Ref, runs: RunService, recordings: MeasuredService, settings: Se
     """An item with its recording. Raises NotFound, Conflict for a run without recording, and RecordingError."""
     if ref.kind == "recording":
         row = recordings.get(ref.id)
-        return Item(ref, row, selected.of_measured(recordings.path(row.id)))
+        return Item(ref, row, selected.of_measured(recordings.hdf5(row.id)))
     run = runs.get(ref.id)
     if not run.recording_sha256:
         why = "wait until it has ended" if not run.state.ended else "choose another run"
         raise Conflict(f"Run {run.number} ({run.name}) has no recording: it is {run.state}. To compare runs, {why}.")
+    path = recording_path(run, settings)
     try:
-        return Item(ref, run, selected.of_run(settings.recordings / f"{run.id}.h5"))
+        return Item(ref, run, selected.of_run(path))
     except RecordingError as error:
         raise RecordingError(Issue("", f"the recording of run {run.number} ({run.name}) cannot be read: {error}")) from None

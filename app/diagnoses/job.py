@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.config import Settings
 from app.diagnoses.order import Diagnosed, DiagnosisOrder
-from app.diagnoses.sources import file_of
+from app.diagnoses.sources import filed
 from app.jobs.kind import Ending, Kind
 from app.jobs.states import State
 from app.models import Diagnosis
@@ -24,9 +24,9 @@ class DiagnosisKind(Kind[Diagnosis, DiagnosisOrder, Diagnosed]):
         return job.name
 
     def order(self, job: Diagnosis, settings: Settings) -> DiagnosisOrder:
-        first, *others = [file_of(given, settings).resolve() for given in job.inputs]
+        first, *others = [filed(given) for given in job.inputs]
         plan = None if "fitted" in job.plan else job.plan
-        return DiagnosisOrder(job.id, job.attempt, plan, job.recording.name, first, tuple(others), job.level)
+        return DiagnosisOrder(job.id, job.attempt, plan, job.recording.name, first, tuple(others), job.level, settings)
 
     def store(self, job: Diagnosis, result: Diagnosed) -> Ending:
         job.plan = result.plan

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
+from app.config import Settings
 from app.jobs.order import Order
+from app.store.filed import Filed
 from rths_engine.diagnosis.schema import Pictures, Verdict
 
 
@@ -19,9 +20,10 @@ class DiagnosisOrder(Order):
 
     plan: dict[str, Any] | None
     name: str
-    recording: Path
-    heldout: tuple[Path, ...]
+    recording: Filed
+    heldout: tuple[Filed, ...]
     level: float
+    settings: Settings
 
 
 def linear(recording: str) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from app.models import Diagnosis, Run
 from app.problems import Conflict
 from app.reports.diagnosis_names import capital
 from app.reports.diagnosis_overlay import Overlaid
+from app.runs.exports import recording_path
 from app.runs.service import RunService
 from rths_engine import __version__
 from rths_engine.diagnosis.schema import Pictures, Verdict
@@ -139,7 +140,7 @@ class DiagnosisService:
         if not _completed(runs):
             return None
         recording = load(file_of(diagnosis.recording, settings))
-        before, after = (load(settings.recordings / f"{run.id}.h5") for run in runs)
+        before, after = (load(recording_path(run, settings)) for run in runs)
         return Overlaid(recording, before, after, lead(self.runs.plan_of(runs[0]), recording))
 
 

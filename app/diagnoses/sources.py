@@ -6,24 +6,39 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import sqlalchemy as sa
+from sqlalchemy.orm import object_session
+
 from app.config import Settings
 from app.diagnoses.schemas import Asked, Source
 from app.jobs.repository import JobRepository
 from app.measured.service import MeasuredService
+from app.measured.service import filed as filed_measured
 from app.models import Diagnosis, DiagnosisInput, MeasuredRecording, Run
 from app.plans.service import PlanService
 from app.problems import Conflict, NotFound
+from app.runs.exports import filed as filed_run
 from app.runs.service import RunService
+from app.store.filed import Filed
+from app.store.opening import store_of
 from app.text import refuse_unstorable
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
 
 
+def filed(given: DiagnosisInput) -> Filed:
+    """The HDF5 file of a recording that was imported or made by a run, as its row describes it."""
+    session = object_session(given)
+    assert session is not None
+    if given.recording_id:
+        return filed_measured(session.scalars(sa.select(MeasuredRecording).filter_by(id=given.recording_id)).one())
+    return filed_run(session.scalars(sa.select(Run).filter_by(id=given.run_id)).one())
+
+
 def file_of(given: DiagnosisInput, settings: Settings) -> Path:
-    """Path of the HDF5 file of a recording that was imported or made by a run."""
-    folder, name = (settings.measured, given.recording_id) if given.recording_id else (settings.recordings, given.run_id)
-    return folder / f"{name}.h5"
+    """Path of the verified file of a recording. Raises Damaged."""
+    return store_of(settings).verified(filed(given))
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,9 +16,12 @@ from app.config import Settings
 from app.laboratory.logo import ENDINGS, LARGEST, Image, checked
 from app.laboratory.schemas import Identity, LaboratoryOut, Logo
 from app.problems import NotFound
+from app.store.filed import LABORATORY
+from app.store.opening import store_of
 from rths_engine.foundation import files
 from rths_engine.foundation.errors import Issue, RthsError
 
+FRESH_S = 2.0  # changes that another web process made show within this time
 NONE = "none"  # ending of the file that says that the logo was removed
 
 
@@ -26,7 +29,12 @@ class Laboratory:
     """Reads and writes the identity of the laboratory."""
 
     def __init__(self, settings: Settings):
-        self.settings, self.folder = settings, settings.data / "laboratory"
+        self.settings, self.store = settings, store_of(settings)
+
+    @property
+    def folder(self) -> Path:
+        """The local folder of the stored identity."""
+        return self.store.folder(LABORATORY, within_s=FRESH_S)
 
     @property
     def identity(self) -> Identity:
@@ -44,6 +52,7 @@ class Laboratory:
         """Store name, address and signatures."""
         self.folder.mkdir(parents=True, exist_ok=True)
         files.write(self.folder / "identity.json", json.dumps(identity.model_dump(), ensure_ascii=False))
+        self.store.keep(LABORATORY, "identity.json")
 
     @property
     def logo(self) -> Image | None:
@@ -65,6 +74,7 @@ class Laboratory:
         with files.temporary(target) as written:
             written.write_bytes(image.data)
             written.replace(target)
+        self.store.keep(LABORATORY, target.name)
         self._forget(image.ending)
 
     def remove_logo(self) -> None:
@@ -74,6 +84,7 @@ class Laboratory:
         self.folder.mkdir(parents=True, exist_ok=True)
         if self.settings.laboratory_logo is not None:
             (self.folder / f"logo.{NONE}").touch()
+            self.store.keep(LABORATORY, f"logo.{NONE}")
         self._forget(NONE)
 
     def shown(self) -> LaboratoryOut:
@@ -87,7 +98,7 @@ class Laboratory:
     def _forget(self, kept: str) -> None:
         for ending in (*ENDINGS.values(), NONE):
             if ending != kept:
-                (self.folder / f"logo.{ending}").unlink(missing_ok=True)
+                self.store.drop(LABORATORY, f"logo.{ending}")
 
 
 def _read(path: Path) -> bytes:

@@ -6,13 +6,13 @@ from typing import Annotated
 
 from fastapi import Depends
 
-from app.dependencies import Configured
+from app.dependencies import OneStore
 from app.league.service import LeagueService
 
 
-def league_service(settings: Configured) -> LeagueService:
+def league_service(store: OneStore) -> LeagueService:
     """The service of the league."""
-    return LeagueService(settings.data)
+    return LeagueService(store)
 
 
 Leagues = Annotated[LeagueService, Depends(league_service)]

@@ -7,9 +7,12 @@ from pathlib import Path
 from app.league.schemas import LeagueOut
 from app.league.trial import trial
 from app.problems import NotFound
+from app.store.base import Store
+from app.store.filed import LEAGUE
 from rths_engine.league.table import League, read
 from rths_engine.planning.vrths import CASES
 
+FRESH_S = 2.0
 SHIPPED = Path(__file__).parent / "measured"
 
 
@@ -22,8 +25,8 @@ def shipped(case: int) -> League | None:
 class LeagueService:
     """Reads results of leagues; `rths league` writes them."""
 
-    def __init__(self, data: Path):
-        self.own = data / "league"
+    def __init__(self, store: Store):
+        self.store = store
 
     def league(self, case: int) -> LeagueOut:
         """The league of a case. Raises NotFound where it was not measured, RthsError where its file is damaged."""
@@ -43,5 +46,6 @@ class LeagueService:
         return self.league(case).league if self._path(case) else None
 
     def _path(self, case: int) -> Path | None:
-        found = (folder / f"case-{case}.json" for folder in (self.own, SHIPPED))
+        own = self.store.folder(LEAGUE, within_s=FRESH_S)
+        found = (folder / f"case-{case}.json" for folder in (own, SHIPPED))
         return next((path for path in found if path.is_file()), None)

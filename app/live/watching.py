@@ -10,8 +10,10 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from app.access import Role, allowed
 from app.db import unit_of_work
 from app.live import from_recording
+from app.live.frames import FrameStore
 from app.live.hub import Hub, LiveRun
 from app.live.messages import progress
+from app.runs.exports import recording_path
 from app.runs.repository import RunRepository
 from app.runs.schemas import RunOut
 from rths_engine.foundation.errors import RecordingError
@@ -84,10 +86,9 @@ class _Viewer:
     async def _end(self, run: RunOut, told: LiveRun | None) -> None:
         """Send the buckets that the viewer has not seen live, from the recording, and then the end of the run."""
         if run.recording and not self._saw_all(run, told):
-            path = self.socket.app.state.settings.recordings / f"{run.id}.h5"
             try:
-                schema, store = await asyncio.to_thread(from_recording.replay, path, run.attempt)
-            except RecordingError:
+                schema, store = await asyncio.to_thread(self._replay, run.attempt)
+            except (OSError, RecordingError):
                 return await self.socket.close(UNREADABLE, "the recording is missing or damaged")
             if told is None or told.attempt != run.attempt:
                 self.cursor = self.cursor if told is None else 0
@@ -104,6 +105,14 @@ class _Viewer:
             return False
         substeps: int = round(run.simulated_s / told.schema["dt"])
         return self.cursor >= -(-substeps // int(told.schema["bucket"]))
+
+    def _replay(self, attempt: int) -> tuple[dict[str, Any], FrameStore]:
+        with unit_of_work(self.socket.app.state.sessions) as session:
+            run = RunRepository(session).get(self.run_id)
+            if run is None:
+                raise RecordingError("the run was removed")
+            path = recording_path(run, self.socket.app.state.settings)
+        return from_recording.replay(path, attempt)
 
     def _run(self) -> RunOut | None:
         with unit_of_work(self.socket.app.state.sessions) as session:

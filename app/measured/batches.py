@@ -134,8 +134,7 @@ class _Work:
         readable = {row.sha256 for row in found if row.facts is not None}
         for sha256 in self.raw & readable:
             if self.recordings.rows.raw(sha256) is None:
-                path = self.recordings.raw_files.path(sha256)
-                afterwards(self.recordings.session, "after_rollback", partial(path.unlink, missing_ok=True))
+                afterwards(self.recordings.session, "after_rollback", partial(self.recordings.raw_files.remove, sha256))
         self.raw -= readable
         self._forget()
 
@@ -149,8 +148,7 @@ class _Work:
         if row.facts is not None:
             rows.keep_raw(row.sha256, row.size, storable(row.name))
         if recording is not None:
-            path = self.recordings.path(recording.id)
-            afterwards(self.recordings.session, "after_rollback", partial(path.unlink, missing_ok=True))
+            afterwards(self.recordings.session, "after_rollback", partial(self.recordings.discard, recording.id))
             rows.add(recording)
             del self.written[index]
         return {**listing.as_dict(row), "recording": recording.id if recording is not None else None}
@@ -158,11 +156,11 @@ class _Work:
     def clear(self) -> None:
         """Delete the recordings that were not added, and the raw files that were not settled and that no row needs."""
         for recording in self.written.values():
-            self.recordings.path(recording.id).unlink(missing_ok=True)
+            self.recordings.discard(recording.id)
         self._forget()
 
     def _forget(self) -> None:
         for sha256 in self.raw:
             if self.recordings.rows.raw(sha256) is None:
-                self.recordings.raw_files.path(sha256).unlink(missing_ok=True)
+                self.recordings.raw_files.remove(sha256)
         self.raw.clear()

@@ -6,14 +6,14 @@ from typing import Annotated
 
 from fastapi import Depends
 
-from app.dependencies import Configured, OneSession
+from app.dependencies import Configured, OneSession, OneStore
 from app.measured.batches import UNPACKED, BatchService
 from app.measured.service import MeasuredService
 
 
-def measured_service(session: OneSession, configured: Configured) -> MeasuredService:
+def measured_service(session: OneSession, store: OneStore) -> MeasuredService:
     """The service of measured recordings in the session of the request."""
-    return MeasuredService(session, configured.measured)
+    return MeasuredService(session, store)
 
 
 Recordings = Annotated[MeasuredService, Depends(measured_service)]

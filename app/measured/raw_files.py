@@ -8,7 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Protocol
 
-from app.problems import NotFound
+from app.store.base import Store
+from app.store.filed import RAW, RESTORE, Filed, of_raw
 from rths_engine.foundation import files
 from rths_engine.recordings.measured import Table, read
 
@@ -23,37 +24,40 @@ class Stream(Protocol):
 
 
 class RawFiles:
-    """Uploaded files in a folder, each under its SHA-256."""
+    """Uploaded files in the store, each under its SHA-256."""
 
-    def __init__(self, folder: Path):
-        self.folder = folder
+    def __init__(self, store: Store):
+        self.store = store
 
     def keep(self, stream: Stream) -> tuple[str, int]:
         """Store the stream as a file, complete or not at all; returns its checksum and size (bytes)."""
         digest, size = hashlib.sha256(), 0
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with files.temporary(self.folder / "upload") as path:
+        with files.temporary(self.store.scratch(RAW) / "upload") as path:
             with path.open("wb") as file:
                 while part := stream.read(PART):
                     digest.update(part)
                     size += file.write(part)
             files.sync(path)
-            path.replace(self.path(digest.hexdigest()))
-        files.sync(self.folder)
-        return digest.hexdigest(), size
+            sha256 = digest.hexdigest()
+            self.store.put(path, of_raw(sha256), sha256)
+        return sha256, size
 
-    def path(self, sha256: str) -> Path:
-        return self.folder / sha256
+    def verified(self, sha256: str, filename: str) -> Path:
+        """A local file with the content of an uploaded file. Raises Damaged."""
+        fix = f"{RESTORE}, or upload it again"
+        return self.store.verified(Filed(of_raw(sha256), f"The uploaded file {filename}", sha256, None, fix))
+
+    def remove(self, sha256: str) -> None:
+        """Delete a file that has no row."""
+        self.store.discard(of_raw(sha256))
 
     def table(self, sha256: str, filename: str) -> Table:
-        """The table in a file. Raises NotFound where the file no longer exists, MeasuredError where it can't be read."""
+        """The table in a file. Raises Damaged where the file is missing or altered, MeasuredError where it can't be read."""
         with _READING:
-            return _table(self.path(sha256), filename)
+            return _table(self.verified(sha256, filename), filename)
 
 
 @lru_cache(maxsize=2)
 def _table(path: Path, filename: str) -> Table:
     """The table in a file; cached, because a user reads the same file many times while editing its mapping."""
-    if not path.exists():
-        raise NotFound(f"The file {filename} is no longer stored. Upload it again.")
     return read(path, filename)

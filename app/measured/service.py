@@ -21,6 +21,8 @@ from app.measured.saved_mappings import SavedMappings
 from app.measured.schemas import EarlierMapping, Import, NewMapping, Preview, SavedMappingOut, Uploaded
 from app.models import MeasuredRecording, RawFile, SavedMapping
 from app.problems import Conflict, NotFound
+from app.store.base import Store
+from app.store.filed import MEASURED, Filed, of_measured
 from app.text import refuse_unstorable
 from rths_engine import __version__
 from rths_engine.foundation import files
@@ -36,9 +38,9 @@ NOBODY = "unnamed"
 class MeasuredService:
     """Rules of measured recordings: upload, preview, import and remove. No SQL, no HTTP."""
 
-    def __init__(self, session: Session, folder: Path):
-        self.session, self.folder = session, folder
-        self.rows, self.raw_files = MeasuredRepository(session), RawFiles(folder / "raw")
+    def __init__(self, session: Session, store: Store):
+        self.session, self.store = session, store
+        self.rows, self.raw_files = MeasuredRepository(session), RawFiles(store)
         self.saved = SavedMappings(session)
 
     def upload(self, stream: BinaryIO, filename: str) -> Uploaded:
@@ -46,7 +48,7 @@ class MeasuredService:
         name = storable(filename)
         sha256, size = self.raw_files.keep(stream)
         if self.rows.raw(sha256) is None:
-            afterwards(self.session, "after_rollback", lambda: self.raw_files.path(sha256).unlink(missing_ok=True))
+            afterwards(self.session, "after_rollback", lambda: self.raw_files.remove(sha256))
         table = self.raw_files.table(sha256, name)
         self.rows.keep_raw(sha256, size, name)
         for old in self.rows.abandoned(datetime.now(UTC) - KEPT_UNUSED):
@@ -75,8 +77,7 @@ class MeasuredService:
         measured = imported(self.raw_files.table(raw.sha256, raw.filename), mapping, raw.filename, raw.sha256)
         name = asked.name.strip() or mapping.title or raw.filename
         recording = self.written(replace(measured, title=name), mapping, asked.imported_by)
-        path = self.path(recording.id)
-        afterwards(self.session, "after_rollback", lambda: path.unlink(missing_ok=True))
+        afterwards(self.session, "after_rollback", lambda: self.discard(recording.id))
         if not self.rows.locked_raw(raw.sha256):
             raise NotFound(f"The file {raw.filename} is no longer stored. Upload it again.")
         self.rows.add(recording)
@@ -85,8 +86,10 @@ class MeasuredService:
     def written(self, measured: Measured, mapping: Mapping, imported_by: str) -> MeasuredRecording:
         """The row of a recording, which is not added yet; the file of the recording is written."""
         recording_id = str(uuid.uuid4())
-        path = self.path(recording_id)
+        path = self.store.scratch(MEASURED) / f"{recording_id}.h5"
         save(path, measured)
+        sha256, size = files.checksum(path), path.stat().st_size
+        self.store.put(path, of_measured(recording_id), sha256)
         return MeasuredRecording(
             id=recording_id,
             name=measured.title,
@@ -102,8 +105,8 @@ class MeasuredService:
             imported_by=imported_by.strip() or NOBODY,
             imported_at=datetime.now(UTC),
             code_version=__version__,
-            sha256=files.checksum(path),
-            size=path.stat().st_size,
+            sha256=sha256,
+            size=size,
         )
 
     def get(self, recording_id: str) -> MeasuredRecording:
@@ -123,12 +126,13 @@ class MeasuredService:
         return shown.preview(replace(measured, channels=tuple(channels)), part=part)
 
     def hdf5(self, recording_id: str) -> Path:
-        return _there(self.path(self.get(recording_id).id))
+        """The verified file of a recording. Raises Damaged."""
+        return self.store.verified(filed(self.get(recording_id)))
 
     def raw(self, recording_id: str) -> tuple[Path, str]:
         """The path and the name of the file that a recording was imported from."""
         recording = self.get(recording_id)
-        return _there(self.raw_files.path(recording.raw_sha256)), recording.filename
+        return self.raw_files.verified(recording.raw_sha256, recording.filename), recording.filename
 
     def mapping_text(self, recording_id: str) -> str:
         return mapping_yaml.write(Mapping.read(self.get(recording_id).mapping))
@@ -145,8 +149,7 @@ class MeasuredService:
             self.rows.remove(recording)
         except IntegrityError:
             raise Conflict(f"The recording {recording.name} is in use: another request has just started to use it.") from None
-        path = self.path(recording.id)
-        afterwards(self.session, "after_commit", lambda: path.unlink(missing_ok=True))
+        afterwards(self.session, "after_commit", lambda: self.discard(recording.id))
         self._forget_raw(recording.raw_sha256)
 
     def mappings(self) -> list[EarlierMapping]:
@@ -157,8 +160,9 @@ class MeasuredService:
                 found.append(EarlierMapping(recording=one.id, name=one.name, imported_at=one.imported_at, mapping=one.mapping))
         return found
 
-    def path(self, recording_id: str) -> Path:
-        return self.folder / f"{recording_id}.h5"
+    def discard(self, recording_id: str) -> None:
+        """Delete the file of a recording that has no row."""
+        self.store.discard(of_measured(recording_id))
 
     def _raw(self, sha256: str) -> RawFile:
         raw = self.rows.raw(sha256)
@@ -168,7 +172,7 @@ class MeasuredService:
 
     def _forget_raw(self, sha256: str) -> None:
         if self.rows.forget_raw(sha256):
-            afterwards(self.session, "after_commit", lambda: self.raw_files.path(sha256).unlink(missing_ok=True))
+            afterwards(self.session, "after_commit", lambda: self.raw_files.remove(sha256))
 
     def _described(self, sha256: str, size: int, filename: str, table: Table) -> Uploaded:
         return Uploaded(
@@ -210,10 +214,10 @@ def _fits(mapping: dict[str, Any], table: Table) -> bool:
     return all(one in table.names or (isinstance(one, int) and one <= len(table.columns)) for one in wanted)
 
 
-def _there(path: Path) -> Path:
-    if not path.exists():
-        raise Conflict(f"The file {path.name} is missing from the data folder.")
-    return path
+def filed(recording: MeasuredRecording) -> Filed:
+    """The file of a recording as its row describes it."""
+    what = f"The recording {recording.number} ({recording.name})"
+    return Filed(of_measured(recording.id), what, recording.sha256, recording.size)
 
 
 def storable(filename: str) -> str:

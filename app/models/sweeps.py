@@ -47,6 +47,7 @@ class SweepPart(Base):
 
     `reasons` has the reason of each point that did not complete, by its place in the part. The numbers of points that tripped,
     are invalid or failed, and the sums of computing time and simulated time (s), are stored to be counted without the values.
+    `sha256` is the checksum (hex) of `values`; null: an earlier version stored none.
     """
 
     __tablename__ = "sweep_part"
@@ -62,3 +63,4 @@ class SweepPart(Base):
     elapsed_s: Mapped[float]
     simulated_s: Mapped[float]
     stored_at: Mapped[datetime] = mapped_column(index=True)
+    sha256: Mapped[str | None] = mapped_column(sa.String(64))

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body, Depends
 from fastapi.responses import Response
 
 from app.access import Role, allowed
-from app.dependencies import Configured, OneSession
+from app.dependencies import OneSession, OneStore
 from app.openapi import told
 from app.runs.editing import RunEditing
 from app.runs.schemas import RunOut
@@ -48,10 +48,10 @@ def change(run_id: str, body: Annotated[RunChange, Body()], runs: Editing) -> Ru
 
 @router.delete("/runs/{run_id}", status_code=204, response_class=Response, responses=told(409))
 @allowed(Role.ENGINEER)
-def delete(run_id: str, runs: Editing, configured: Configured) -> None:
+def delete(run_id: str, runs: Editing, store: OneStore) -> None:
     """Delete a run. For 7 days it can be restored; after that its row and its recording are removed."""
     runs.delete(run_id)
-    runs.purge(configured.recordings)
+    runs.purge(store)
 
 
 @router.post("/runs/{run_id}/restore")

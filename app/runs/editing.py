@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
-from typing import Any
+from functools import partial
 
 from sqlalchemy.orm import Session
 
@@ -14,6 +13,8 @@ from app.models import Run
 from app.problems import Conflict, NotFound
 from app.runs.edit_rows import EditRows
 from app.runs.table_schemas import LONGEST_TAG, MOST_TAGS, Action, BulkResult, Refusal, RunChange
+from app.store.base import Store
+from app.store.filed import of_run
 from rths_engine.foundation.errors import Issue, RthsError
 
 GRACE = timedelta(days=7)  # from the deletion of a run to the removal of its row and its recording
@@ -78,12 +79,12 @@ class RunEditing:
         """Every tag that a run has."""
         return self.rows.tags()
 
-    def purge(self, recordings: Path, now: datetime | None = None) -> int:
+    def purge(self, store: Store, now: datetime | None = None) -> int:
         """Remove the runs that were deleted before GRACE, and their recordings after the commit. Returns their number."""
         removed = 0
         for run in self.rows.deleted_before((now or datetime.now(UTC)) - GRACE, PURGED):
             if self.rows.remove(run):
-                afterwards(self.session, "after_commit", _remover(recordings / f"{run.id}.h5"))
+                afterwards(self.session, "after_commit", partial(store.discard, of_run(run.id)))
                 removed += 1
         return removed
 
@@ -122,7 +123,3 @@ def _tag(run: Run, tags: Sequence[str]) -> None:
 
 def _untag(run: Run, tags: Sequence[str]) -> None:
     run.tags = [tag for tag in run.tags if tag not in tags]
-
-
-def _remover(path: Path) -> Callable[[], Any]:
-    return lambda: path.unlink(missing_ok=True)

@@ -14,6 +14,8 @@ from app.measures import rows as measured
 from app.models import Run
 from app.problems import Conflict
 from app.runs.schemas import RunOut
+from app.store.filed import Filed, of_run
+from app.store.opening import store_of
 from rths_engine.foundation.arrays import Array
 from rths_engine.recordings.run_file import rows
 from rths_engine.results.channels import Channel
@@ -22,13 +24,16 @@ ROWS = 4096
 
 
 def recording_path(run: Run, settings: Settings) -> Path:
-    """The path of the recording. Raises Conflict while there is no recording."""
-    path = settings.recordings / f"{run.id}.h5"
+    """The path of the verified recording. Raises Conflict while there is no recording, Damaged where its file is not intact."""
+    return store_of(settings).verified(filed(run))
+
+
+def filed(run: Run) -> Filed:
+    """The file of a recording as the row of its run describes it. Raises Conflict while there is no recording."""
     if not run.recording_sha256:
         raise Conflict(f"The test has no recording: it is {run.state}.")
-    if not path.exists():
-        raise Conflict(f"The recording of run {run.id} is missing from the data folder.")
-    return path
+    what = f"The recording of run {run.number} ({run.name})"
+    return Filed(of_run(run.id), what, run.recording_sha256, run.recording_size)
 
 
 def csv_parts(path: Path) -> Iterator[bytes]:

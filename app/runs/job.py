@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 from typing import Any
 
 import sqlalchemy as sa
@@ -16,12 +17,15 @@ from app.jobs.states import State
 from app.models import Rig, Run, RunStation
 from app.runs import values
 from app.runs.order import WAITING, Outcome, RunOrder
+from app.store.filed import RECORDINGS, of_run
+from app.store.opening import store_of
 from rths_engine.foundation.part import validated
 from rths_engine.planning.connections import external
 from rths_engine.planning.plan import Plan
 from rths_engine.results.measure import FloorMeasure, RunMeasure
 from rths_engine.results.measures import of
 
+UNSENT = "unsent"
 assert values  # the import makes values follow from runs
 
 
@@ -57,9 +61,8 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return f"The test drove an external rig ({named}), so it is not started again by itself. Inspect the rig, then retry."
 
     def order(self, job: Run, settings: Settings) -> RunOrder:
-        recording = settings.recordings / f".{job.id}.{job.attempt}.h5"
-        places = settings.motions.resolve(), settings.rig_host, settings.fmus.resolve()
-        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), *places)
+        recording = store_of(settings).scratch(RECORDINGS) / f".{job.id}.{job.attempt}.h5"
+        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings)
 
     def store(self, job: Run, result: Outcome) -> Ending:
         summary = _finite(result.summary)
@@ -74,19 +77,39 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return Ending(state, _reason(job, state))
 
     def place(self, order: RunOrder, settings: Settings) -> None:
-        """Move the recording to its final path, just before the commit of its row. After a failure both are done again."""
-        os.replace(order.recording, settings.recordings / f"{order.job_id}.h5")
+        """Move the recording to the store, just before the commit of its row. After a failure both are done again.
+
+        Where the store fails, the recording stays in the folder `unsent` of the worker's data folder.
+        """
+        try:
+            store_of(settings).put(order.recording, of_run(order.job_id))
+        except OSError as error:
+            kept = _kept(order.recording, settings.data / UNSENT / f"{order.job_id}.{order.attempt}.h5")
+            raise OSError(f"{error.strerror or error}. {kept}".removesuffix(".")) from error
 
     def discard(self, order: RunOrder) -> None:
         order.recording.unlink(missing_ok=True)
 
     def clear(self, job: Run, settings: Settings) -> None:
-        for path in settings.recordings.glob(f"*{job.id}*"):
-            if not (job.recording_sha256 and path.name == f"{job.id}.h5"):
+        store = store_of(settings)
+        for path in store.scratch(RECORDINGS).glob(f"*{job.id}*"):
+            if path.name != f"{job.id}.h5":
                 path.unlink(missing_ok=True)
+        if not job.recording_sha256 and job.attempt > 1:
+            store.delete(of_run(job.id))
 
 
 RUNS = RunKind()
+
+
+def _kept(recording: Path, target: Path) -> str:
+    """Keep a recording that cannot be stored; returns where it is."""
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        os.replace(recording, target)
+    except OSError as error:
+        return f"The recording is lost: {error.strerror}."
+    return f"The recording is kept on its worker: {target.resolve()}."
 
 
 def _reason(run: Run, state: State) -> str:

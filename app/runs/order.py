@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from app.config import Settings
 from app.jobs.order import Order
 
 WAITING = "waiting for client"  # begins what a test with a client does before its client connects
@@ -13,16 +14,14 @@ WAITING = "waiting for client"  # begins what a test with a client does before i
 
 @dataclass(frozen=True, slots=True)
 class RunOrder(Order):
-    """The order for one execution of a run: plan, path of the recording, and folder of the uploaded ground motions.
+    """The order for one execution of a run: plan, local path of the recording, and the settings of the worker.
 
-    `rig_host` is the address at which the rig of a test with a client listens; `fmus` is the folder of the service's FMUs.
+    The settings say where ground motions and FMUs are stored, and at which address the rig of a test with a client listens.
     """
 
     plan: dict[str, Any]
     recording: Path
-    motions: Path
-    rig_host: str = "127.0.0.1"
-    fmus: Path = Path("fmus")
+    settings: Settings
 
 
 @dataclass(frozen=True, slots=True)

@@ -45,6 +45,7 @@ REASONS = {
     "psycopg-binary": Reason("LGPL-3.0-only", "product", "The compiled half of psycopg, with PostgreSQL's own client library."),
     "certifi": Reason("MPL-2.0", "product", "HTTPX requires this list of certificate authorities; unchanged."),
     "orjson": Reason("MPL-2.0 AND (Apache-2.0 OR MIT)", "product", "pymseed requires it; unchanged."),
+    "python-dateutil": Reason("Dual License", "product", "A choice of Apache-2.0 and BSD-3-Clause; unchanged."),
     "tqdm": Reason("MPL-2.0 AND MIT", "product", "Progress of long commands; unchanged."),
     "asammdf": Reason("LGPL-3.0-or-later", "formats", "The only maintained reader of ASAM MDF; decision 0027."),
     "nptdms": Reason("LGPL-3.0-only", "formats", "The only complete reader of NI TDMS; decision 0027."),

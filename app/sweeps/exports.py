@@ -58,7 +58,7 @@ def detail(sweep: Sweep, standing: Standing) -> SweepDetail:
         sweep=sweep.definition,
         axes=axes(design),
         columns=[column(one) for one in columns_of(sweep)],
-        notes=design.notes,
+        notes=[*design.notes, *_unverified(standing)],
     )
 
 
@@ -79,6 +79,11 @@ def results(table: Table, sweep: Sweep, form: str, offset: int, limit: int | Non
     if form == "csv":
         return Response(csv_text(page), media_type="text/csv", headers=headers)
     return Response(arrow_bytes(page), media_type=ARROW, headers=headers)
+
+
+def _unverified(standing: Standing) -> list[str]:
+    count = standing.unverified
+    return [f"No checksum is stored for the results of {count} points: an earlier version computed them."] if count else []
 
 
 def _reason(sweep: Sweep, now: State, standing: Standing) -> str | None:

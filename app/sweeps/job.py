@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from datetime import UTC, datetime
+from hashlib import sha256
 
 from sqlalchemy.orm import object_session
 
@@ -40,14 +41,13 @@ class ShardKind(Kind[SweepShard, ShardOrder, ShardEnd]):
         end = job.first + job.count
         done = SweepRepository(session).spans(sweep.number, job.first, end)
         spans = tuple(left([(job.first, end)], done))
-        return ShardOrder(
-            job.id, job.attempt, sweep.id, sweep.definition, tuple(sweep.columns), spans, settings.motions.resolve()
-        )
+        return ShardOrder(job.id, job.attempt, sweep.id, sweep.definition, tuple(sweep.columns), spans, settings)
 
     def store_part(self, job: SweepShard, part: ShardPart) -> None:
         session = object_session(job)
         assert session is not None
-        row = SweepPart(sweep_number=job.sweep_number, stored_at=datetime.now(UTC), **asdict(part))
+        checksum = sha256(part.values).hexdigest()
+        row = SweepPart(sweep_number=job.sweep_number, stored_at=datetime.now(UTC), sha256=checksum, **asdict(part))
         SweepRepository(session).add_part(row)
 
     def store(self, job: SweepShard, result: ShardEnd) -> Ending:

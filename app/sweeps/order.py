@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
+from app.config import Settings
 from app.jobs.order import Order
 
 
@@ -17,7 +17,7 @@ class ShardOrder(Order):
     definition: dict[str, Any]
     columns: tuple[dict[str, Any], ...]
     spans: tuple[tuple[int, int], ...]
-    motions: Path
+    settings: Settings
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,10 @@ RECENT = 50  # parts from which the speed of the machine is estimated
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """How far a sweep is: shards in each state, points done and how they ended, times (s), first start and last end."""
+    """How far a sweep is: shards in each state, points done and how they ended, times (s), first start and last end.
+
+    `unverified` counts the points whose results have no checksum.
+    """
 
     states: dict[State, int]
     done: int = 0
@@ -29,6 +32,7 @@ class Standing:
     failed: int = 0
     elapsed_s: float = 0.0
     simulated_s: float = 0.0
+    unverified: int = 0
     started_at: datetime | None = None
     finished_at: datetime | None = None
     reason: str | None = None
@@ -75,11 +79,12 @@ class SweepRepository(JobRepository[SweepShard]):
             one["states"][state] = count
             one["started_at"] = min(filter(None, (one.get("started_at"), started)), default=None)
             one["finished_at"] = max(filter(None, (one.get("finished_at"), finished)), default=None)
-        sums = [sa.func.sum(getattr(SweepPart, name)) for name in COUNTED]
+        unverified = sa.case((SweepPart.sha256.is_(None), SweepPart.count), else_=0)
+        sums = [sa.func.sum(one) for one in (*(getattr(SweepPart, name) for name in COUNTED), unverified)]
         for number, *values in self.session.execute(
             sa.select(SweepPart.sweep_number, *sums).where(SweepPart.sweep_number.in_(numbers)).group_by(SweepPart.sweep_number)
         ):
-            found[number] |= dict(zip(("done", *COUNTED[1:]), values, strict=True))
+            found[number] |= dict(zip(("done", *COUNTED[1:], "unverified"), values, strict=True))
         for number, reason in self.session.execute(
             sa.select(SweepShard.sweep_number, sa.func.min(SweepShard.reason))
             .where(SweepShard.sweep_number.in_(numbers), SweepShard.state == State.FAILED)

@@ -7,6 +7,7 @@ import uuid
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from functools import lru_cache
+from hashlib import sha256
 from typing import Any
 
 from sqlalchemy.orm import Session
@@ -15,10 +16,11 @@ from app.calculations.answer import Calculator
 from app.config import Settings
 from app.jobs.service import JobService, Queue, named
 from app.jobs.states import State
-from app.models import Run, Sweep, SweepShard
+from app.models import Run, Sweep, SweepPart, SweepShard
 from app.preflight.calculation import DRY_RUN, dry_run
 from app.problems import Conflict, NotFound, Unavailable
 from app.runs.service import RunService
+from app.store.checks import Damaged
 from app.sweeps.job import SHARDS, left
 from app.sweeps.order import ShardEnd
 from app.sweeps.preview import EXAMINATION, Examined, examination
@@ -176,7 +178,7 @@ class SweepService:
         own = columns_of(sweep)
         if sort not in (POINT, *(column.key for column in own)):
             raise RthsError(Issue("sort", "is not a column of this sweep", sort, f"sort by {POINT} or {own[0].key}"))
-        found = decoded(own, [(one.first, one.count, one.values, one.reasons) for one in self.rows.parts(sweep)])
+        found = decoded(own, [_intact(sweep, one) for one in self.rows.parts(sweep)])
         if statuses:
             place = [column.key for column in own].index("status")
             codes = [float(own[place].categories.index(one)) for one in statuses]
@@ -189,7 +191,7 @@ class SweepService:
             raise NotFound(f"The sweep has no point {number}: its points are 1 to {sweep.points}.")
         index = number - 1
         parts = self.rows.parts(sweep, index - MOST_IN_SHARD, index + 1)
-        found = decoded(columns_of(sweep), [(one.first, one.count, one.values, one.reasons) for one in parts])
+        found = decoded(columns_of(sweep), [_intact(sweep, one) for one in parts])
         return design_of(sweep), found.taken(found.points == index)
 
     def run_point(self, sweep_id: str, number: int, by: str) -> Run:
@@ -207,6 +209,16 @@ class SweepService:
             for start in range(first, end, size)
         ]
         self.jobs.submit(shards, by)
+
+
+def _intact(sweep: Sweep, part: SweepPart) -> tuple[int, int, bytes, dict[str, Any]]:
+    """The results of a part. Raises Damaged where they are not those that its checksum was computed of."""
+    checksum = sha256(part.values).hexdigest()
+    if part.sha256 not in (None, checksum):
+        what = f"The results of points {part.first + 1} to {part.first + part.count} of sweep {sweep.number} ({sweep.name})"
+        problem = f"{what} are damaged: their SHA-256 is {checksum}; their row states {part.sha256}"
+        raise Damaged(Issue("", problem, fix="restore the database from a backup"))
+    return part.first, part.count, part.values, part.reasons
 
 
 def state(sweep: Sweep, standing: Standing) -> State:

@@ -23,7 +23,7 @@ def execute(order: RunOrder, line: Line) -> Outcome:
 
     try:
         run = ClientRun(read_model(order.plan))
-        listener = listening(run, order.rig_host)
+        listener = listening(run, order.settings.rig_host)
     except RthsError as error:
         raise Refused(str(error)) from None
     shown = Shown(run, order, line)
@@ -49,7 +49,7 @@ class Shown(Viewers):
     def __init__(self, run: Any, order: RunOrder, line: Line):
         super().__init__(run, order.attempt, line)
         self.session: Any = None
-        self._host = order.rig_host
+        self._host = order.settings.rig_host
         self._client: dict[str, Any] = {}
         self._begun, self._told = time.perf_counter(), 0.0
 

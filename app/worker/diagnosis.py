@@ -11,7 +11,11 @@ def prepare() -> None:
 
 
 def execute(order: DiagnosisOrder, line: Line) -> Diagnosed:
-    """Diagnose a recording, by a linear model if no plan is given. Raises Refused if the recording does not fit the plan."""
+    """Diagnose a recording, by a linear model if no plan is given.
+
+    Raises Refused if a recording is not as its row states, or does not fit the plan.
+    """
+    from app.store.opening import store_of
     from rths_engine.diagnosis.linear import linear_plan
     from rths_engine.diagnosis.pictures import pictures
     from rths_engine.diagnosis.verdict import diagnose
@@ -20,10 +24,11 @@ def execute(order: DiagnosisOrder, line: Line) -> Diagnosed:
     from rths_engine.recordings import opening
 
     line.progress("reading the recording", 0.0)
+    store = store_of(order.settings)
     try:
-        recording = opening.load(order.recording)
+        recording = opening.load(store.verified(order.recording))
         plan = linear_plan(recording, order.name) if order.plan is None else read_plan(order.plan)
-        heldout = [opening.load(path) for path in order.heldout]
+        heldout = [opening.load(store.verified(one)) for one in order.heldout]
         found = diagnose(plan, recording, heldout, order.level, told=line.progress)
     except RthsError as error:
         raise Refused("; ".join(str(issue) for issue in renamed(error, _names(order)).issues)) from None

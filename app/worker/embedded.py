@@ -59,6 +59,8 @@ class EmbeddedWorker:
             **os.environ,
             "RTHS_DATA": str(settings.data.resolve()),
             "RTHS_DATABASE_URL": settings.database_url,
+            "RTHS_STORE": settings.store,
+            "RTHS_STORE_ENDPOINT": settings.store_endpoint,
             "RTHS_WORKERS": str(settings.worker_concurrency),
             "RTHS_SWEEP_PROCESSES": str(settings.sweep_processes),
             "RTHS_RIG_HOST": settings.rig_host,

@@ -23,8 +23,8 @@ def prepare() -> None:
 
 def execute(order: RunOrder, line: Line) -> Outcome:
     """Execute a run and save its recording. Raises Refused if its plan cannot be executed."""
+    from app.store.motions import fmus_of, motions_of
     from rths_engine.foundation.errors import RthsError
-    from rths_engine.parts.ground_motions import MotionLibrary
     from rths_engine.planning.reading import read_model
     from rths_engine.recordings.run_file import save
     from rths_engine.running.opening import opened
@@ -33,7 +33,7 @@ def execute(order: RunOrder, line: Line) -> Outcome:
         return client.execute(order, line)
     with ExitStack() as rigs:
         try:
-            run = rigs.enter_context(opened(read_model(order.plan), MotionLibrary(order.motions), order.fmus))
+            run = rigs.enter_context(opened(read_model(order.plan), motions_of(order.settings), fmus_of(order.settings)))
         except RthsError as error:
             raise Refused(str(error)) from None
         telling = _Telling(run, order.attempt, line)

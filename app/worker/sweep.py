@@ -50,14 +50,14 @@ class _Sweep:
 
 @lru_cache(maxsize=2)
 def _points(sweep: _Sweep) -> Any:
-    from rths_engine.parts.ground_motions import MotionLibrary
+    from app.store.motions import motions_of
     from rths_engine.sweeps.columns import from_dict
     from rths_engine.sweeps.design import read_design
     from rths_engine.sweeps.running import Points
 
     order = sweep.order
     columns = tuple(from_dict(one) for one in order.columns)
-    return Points(read_design(order.definition), columns, MotionLibrary(order.motions))
+    return Points(read_design(order.definition), columns, motions_of(order.settings))
 
 
 def _span(points: Any, first: int, end: int, line: Line) -> bool:

@@ -187,7 +187,7 @@ def test_a_queued_run_and_a_damaged_recording_are_refused(service: Service, slow
     damaged = done(service, driven(service, 1.0, name="Damaged"))
     (service.data / "recordings" / f"{damaged.removeprefix('run:')}.h5").write_bytes(b"not HDF5")
     answer = refused(service, f"{damaged},{fast}")
-    assert answer.status_code == 409 and "(Damaged) cannot be read" in answer.json()["detail"]
+    assert answer.status_code == 409 and "(Damaged) is damaged" in answer.json()["detail"]
 
 
 def test_the_previous_run_is_of_the_same_name_or_template(service: Service, slow: str) -> None:

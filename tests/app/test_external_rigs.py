@@ -166,7 +166,7 @@ class Line:
 def test_every_end_in_the_worker_is_recorded_and_the_rig_holds(tmp_path: Path, ends: Any, looks: int, status: str) -> None:
     with serving(2.0, ends=ends) as server:
         given = plan(server.port, patience=0.2)
-        order = RunOrder("run", 1, given.as_dict(), tmp_path / "run.h5", tmp_path)
+        order = RunOrder("run", 1, given.as_dict(), tmp_path / "run.h5", Settings(data=tmp_path))
         outcome = engine.execute(order, Line(looks))  # type: ignore[arg-type]
     recording = load(tmp_path / "run.h5")
     assert outcome.summary["status"] == recording.status == status
@@ -198,7 +198,7 @@ class Jumper(Line):
 
 def test_a_limit_that_trips_in_the_first_controller_step_is_stored_as_a_trip(tmp_path: Path) -> None:
     given = led([rig_of_client()]).model_dump(mode="json", by_alias=True)
-    outcome = client_worker.execute(RunOrder("run", 1, given, tmp_path / "run.h5", tmp_path), Jumper())  # type: ignore[arg-type]
+    outcome = client_worker.execute(RunOrder("run", 1, given, tmp_path / "run.h5", Settings(data=tmp_path)), Jumper())  # type: ignore[arg-type]
     recording = load(tmp_path / "run.h5")
     assert outcome.summary["status"] == recording.status == "tripped" and outcome.summary["simulated_s"] == 0
     facts = record({}, recording)[0]
@@ -211,7 +211,7 @@ def test_a_rig_that_does_not_answer_refuses_the_test(tmp_path: Path) -> None:
     from app.worker.child import Refused
 
     with serving(2.0) as server:
-        order = RunOrder("run", 1, plan(server.port).as_dict(), tmp_path / "run.h5", tmp_path)
+        order = RunOrder("run", 1, plan(server.port).as_dict(), tmp_path / "run.h5", Settings(data=tmp_path))
         engine.execute(order, Line())  # type: ignore[arg-type]
     with pytest.raises(Refused, match="does not answer: Connection refused"):
         engine.execute(order, Line())  # type: ignore[arg-type]

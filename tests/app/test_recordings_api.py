@@ -225,7 +225,7 @@ def test_a_file_that_is_gone_from_the_folder_is_told_and_comes_back_by_uploading
     other = [upload(client, made.csv(made.COLUMNS[:count])) for count in (400, 500)]
     (settings.measured / "raw" / sent["sha256"]).unlink()
     answer = post(client, "/preview", sent["sha256"], sent["guess"])
-    assert answer.status_code == 404 and "Upload it again" in answer.json()["detail"]
+    assert answer.status_code == 409 and "upload it again" in answer.json()["detail"]
     upload(client, raw)
     assert post(client, "/preview", sent["sha256"], sent["guess"]).status_code == 200
     assert len(other) == 2

@@ -138,7 +138,7 @@ def test_a_recording_whose_file_is_damaged_or_missing_says_so(client: TestClient
     path = settings.measured / f"{recording['id']}.h5"
     path.write_bytes(path.read_bytes()[:2000])
     answer = client.get(f"{URL}/{recording['id']}/preview")
-    assert answer.status_code == 409 and "not a complete recording" in answer.json()["detail"]
+    assert answer.status_code == 409 and "has 2000 bytes; its row states" in answer.json()["detail"]
     path.unlink()
     assert client.get(f"{URL}/{recording['id']}/recording.h5").status_code == 409
 

@@ -18,6 +18,7 @@ from app.main import create_app
 from app.models import Diagnosis, DiagnosisInput, Run, RunStation
 from app.runs import query
 from app.runs.editing import GRACE, RunEditing
+from app.store.opening import store_of
 from tests.app.conftest import ADDRESS, HERE, app_of, plan
 from tests.app.test_runs_api import RUNS
 
@@ -217,7 +218,7 @@ def test_a_deleted_run_and_its_recording_are_removed_after_the_grace_period(lab:
     lab.client.delete(f"{RUNS}/{doomed}")
     for wait, removed in ((GRACE - timedelta(hours=1), 0), (GRACE + timedelta(hours=1), 1)):
         with unit_of_work(app.state.sessions) as session:
-            assert RunEditing(session).purge(folder, datetime.now(UTC) + wait) == removed
+            assert RunEditing(session).purge(store_of(app.state.settings), datetime.now(UTC) + wait) == removed
         assert (folder / f"{doomed}.h5").exists() is not bool(removed)
     assert lab.client.get(f"{RUNS}/{doomed}").status_code == 404
     assert numbers(lab.client, f"{ALPHA}>40") == [6]

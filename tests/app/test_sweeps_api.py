@@ -255,7 +255,7 @@ def test_a_shard_that_starts_again_executes_only_the_points_without_results(clie
 def test_a_process_that_is_cancelled_sends_the_points_that_it_has_finished() -> None:
     design = read_design(definition())
     own = tuple(column.as_dict() for column in columns(design))
-    order = ShardOrder("shard", 1, "sweep", definition(), own, ((0, 4),), Path("motions"))
+    order = ShardOrder("shard", 1, "sweep", definition(), own, ((0, 4),), Settings(data=Path("none")))
     line = Line(most=4)  # it asks before each point and once in it
     assert process.execute(order, line).cancelled  # type: ignore[arg-type]
     assert [(part.first, part.count) for part in line.parts] == [(0, 2)]

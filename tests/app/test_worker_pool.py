@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from app.config import Settings
 from app.runs.job import RUNS
 from app.runs.order import RunOrder
 from app.worker import pool as module
@@ -46,7 +47,7 @@ def engine(engines: Pool) -> Iterator[JobProcess]:
 
 @pytest.fixture
 def job(tmp_path: Path) -> RunOrder:
-    return RunOrder("run", 1, plan(pace=SLOW, duration=20.0), tmp_path / ".run.1.h5", tmp_path)
+    return RunOrder("run", 1, plan(pace=SLOW, duration=20.0), tmp_path / ".run.1.h5", Settings(data=tmp_path))
 
 
 def test_an_engine_that_is_taken_is_compiled_and_executes_at_once(engine: JobProcess, job: RunOrder) -> None:
