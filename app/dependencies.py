@@ -1,14 +1,15 @@
-"""Dependencies of all endpoints: settings, a session that commits once, and the library of ground motions."""
+"""Dependencies of all endpoints: settings, a session that commits once and records its request, and the library of motions."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Iterator
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Depends, Request
 from sqlalchemy.orm import Session
 
+from app.audit.requests import given_in, record, watch
 from app.config import Settings
 from app.db import unit_of_work
 from app.problems import Unavailable
@@ -48,10 +49,16 @@ async def writing(request: Request) -> AsyncIterator[None]:
         places.release()
 
 
-def session(request: Request, _: Annotated[None, Depends(writing, scope="function")]) -> Iterator[Session]:
-    """A session that commits at the end of a request without errors."""
+def session(
+    request: Request,
+    _: Annotated[None, Depends(writing, scope="function")],
+    __: Annotated[dict[str, Any], Depends(given_in)],
+) -> Iterator[Session]:
+    """A session that commits at the end of a request without errors, together with the entry of the audit log."""
     with unit_of_work(request.app.state.sessions) as one:
+        made = watch(one)
         yield one
+        record(one, request, made)
 
 
 Configured = Annotated[Settings, Depends(settings)]

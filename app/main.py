@@ -17,6 +17,10 @@ from starlette.routing import Route
 from app import db, headers, openapi, pages, problems
 from app.access import ANYONE, Role, allowed
 from app.annotations.endpoints import router as run_annotations
+from app.audit.log import SERVICE
+from app.audit.recorder import Recorder, Waiting
+from app.audit.requests import Recording
+from app.auditing.endpoints import router as auditing
 from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
@@ -43,6 +47,7 @@ from app.motions.endpoints import router as motions
 from app.notifications.dispatcher import Dispatcher
 from app.notifications.endpoints import router as notifications
 from app.notifications.webhook_endpoints import router as webhooks
+from app.pages.audit import router as audit_page
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
@@ -120,6 +125,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         laboratory,
         notifications,
         webhooks,
+        auditing,
         health,
         glossary,
         live,
@@ -145,10 +151,12 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(table4_page)
     app.include_router(sweeps_page)
     app.include_router(wall_page)
+    app.include_router(audit_page)
     app.include_router(settings_page)
     app.include_router(pages.router)
     _declare_description(app)
     app.add_middleware(Gate, settings=configured)
+    app.add_middleware(Recording)
     app.add_middleware(Head)
     app.add_middleware(Guard, settings=configured)
     return app
@@ -164,6 +172,9 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(app.state.queue.purge)
     await asyncio.to_thread(_purge, app)
+    app.state.audit = Recorder(app.state.sessions)
+    app.state.audit.start()
+    app.state.audit.put(Waiting(SERVICE, "service.started", details={"version": __version__}))
     dispatcher = Dispatcher(app.state.sessions)
     dispatcher.start()
     worker = EmbeddedWorker(settings, partial(_worker_ended, app)) if settings.embedded_worker else None
@@ -175,6 +186,8 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         if worker:
             await asyncio.to_thread(worker.stop)
         await asyncio.to_thread(dispatcher.stop)
+        app.state.audit.put(Waiting(SERVICE, "service.stopped"))
+        await asyncio.to_thread(app.state.audit.stop)
         app.state.queue.close()
         engine.dispose()
 

@@ -20,7 +20,10 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser().parse_args(arguments)
     module, _, function = given.function.partition(":")
     try:
-        return int(getattr(import_module(module), function)(given) or DONE)
+        code = int(getattr(import_module(module), function)(given) or DONE)
+        if code == DONE and getattr(given, "recorded", False):
+            import_module("app.cli.recorded").record(given)
+        return code
     except RthsError as error:
         for issue in error.issues:
             print(f"rths {given.command}: {issue}", file=sys.stderr)
@@ -239,8 +242,10 @@ def parser() -> argparse.ArgumentParser:
     worker.add_argument("--name", help="name of this worker (default: the machine)")
     worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
 
-    _data(_command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema"))
+    migrate = _command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema", recorded=True)
+    _data(migrate)
     _library(commands)
+    _audit(commands)
     _data(_command(commands, "motions", "app.cli.plans:motions", "list the ground-motion records"))
     _command(commands, "version", "app.cli.plans:version", "print the version")
     return top
@@ -260,7 +265,11 @@ def _library(commands: Commands) -> None:
     show.add_argument("--history", action="store_true", help="print number, time, author and comment of every version instead")
 
     save = _command(
-        actions, "save", "app.cli.library:save", "save a plan to the library, as a new plan or as the next version of a plan"
+        actions,
+        "save",
+        "app.cli.library:save",
+        "save a plan to the library, as a new plan or as the next version of a plan",
+        recorded=True,
     )
     save.add_argument("plan", metavar="PLAN.yaml", help="file with the plan; - reads standard input")
     save.add_argument("--name", metavar="NAME", help="name in the library (default: the name in the plan)")
@@ -277,9 +286,25 @@ def _library(commands: Commands) -> None:
         _data(command)
 
 
-def _command(commands: Commands, name: str, function: str, about: str) -> argparse.ArgumentParser:
+def _audit(commands: Commands) -> None:
+    top = commands.add_parser("audit", help="check, export and note the audit log of a data folder: docs/audit.md")
+    actions = top.add_subparsers(dest="action", metavar="ACTION", required=True)
+
+    about = "check that no entry was changed, removed or added in between; exit code 1 where the chain is broken"
+    check = _command(actions, "check", "app.cli.audit:check", about)
+    check.add_argument("--head", metavar="NUMBER:HASH", help="head that was noted earlier: the chain must still contain it")
+
+    head = _command(actions, "head", "app.cli.audit:head", "print number and hash of the last entry, to note them elsewhere")
+    export = _command(actions, "export", "app.cli.audit:export", "write every entry as a line of JSON")
+    export.add_argument("--out", type=Path, metavar="FILE.jsonl", help="file to write (default: standard output)")
+    for command in (check, head, export):
+        _data(command)
+
+
+def _command(commands: Commands, name: str, function: str, about: str, recorded: bool = False) -> argparse.ArgumentParser:
+    """A command; one that changes the data folder is `recorded` in the audit log."""
     command = commands.add_parser(name, help=about, description=f"{about[0].upper()}{about[1:]}.")
-    command.set_defaults(function=function)
+    command.set_defaults(function=function, recorded=recorded)
     return command
 
 

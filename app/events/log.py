@@ -8,6 +8,8 @@ from datetime import UTC, datetime
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.audit.log import AuditLog
+from app.audit.requests import recorded
 from app.events.tables import Event, EventKind, Webhook, WebhookDelivery
 
 
@@ -23,6 +25,9 @@ class EventLog:
         for webhook in self.session.scalars(sa.select(Webhook).where(Webhook.enabled)):
             if kind in webhook.kinds:
                 self.session.add(WebhookDelivery(webhook=webhook, event=event, next_at=event.at))
+        if not recorded(self.session):
+            audit = AuditLog(self.session)
+            audit.add(audit.acting, f"{about}.{kind}", f"{about}:{about_id or ''}".rstrip(":"), {"sentence": sentence})
         return event
 
     def listed(

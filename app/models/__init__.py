@@ -1,5 +1,6 @@
 """Tables of the service. Times are UTC; the name of a number ends with its unit."""
 
+from app.audit.tables import AuditEntry, AuditHead
 from app.events.tables import Event
 from app.models.diagnoses import Diagnosis, DiagnosisInput
 from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
@@ -11,6 +12,8 @@ __all__ = [
     "EMULATED",
     "LONGEST_VALUE",
     "Annotation",
+    "AuditEntry",
+    "AuditHead",
     "Diagnosis",
     "DiagnosisInput",
     "Event",

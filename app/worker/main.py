@@ -20,6 +20,7 @@ from typing import Any
 
 from dbos import DBOS
 
+from app.audit.log import Acting, acts
 from app.config import Settings, from_environment
 from app.db import DATABASE_SILENT, check_schema, connect, sessions
 from app.jobs.kind import Kind
@@ -71,6 +72,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     os.environ.update(ONE_THREAD)  # read where the processes of jobs load numpy
     engine = connect(settings.url)
     maker = sessions(engine)
+    acts(maker, Acting(worker, "worker"))
     link = Link(f"{web}/api/v1/worker", settings.worker_token)
     executor = Executor(settings, maker, link, worker, kinds)
     peers = Peers(maker, worker, settings.worker_concurrency)

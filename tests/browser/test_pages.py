@@ -42,6 +42,7 @@ CONTENT = {
     "/recordings/batches/{batch}": "tbody tr",
     "/compare": "#choose tbody tr",
     "/compare?items=run:{run},recording:{recording}": ".compared tbody tr",
+    "/audit": "#rows tr",
     "/sweeps": "tbody tr",
     "/sweeps/new?template=two-storeys": "#name",
     "/sweeps/{sweep}": "#tornado .main-svg",

@@ -1,0 +1,59 @@
+"""What a request does, in the words of the audit log: the words of its address and the name of its endpoint, `runs.cancel`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+PREFIX = "/api/v1/"
+SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
+CALCULATIONS = frozenset(
+    {
+        "/api/v1/motions/contents",
+        "/api/v1/motions/preview",
+        "/api/v1/plans/check",
+        "/api/v1/plans/drive",
+        "/api/v1/plans/identify",
+        "/api/v1/plans/preflight",
+        "/api/v1/plans/read",
+        "/api/v1/plans/write",
+        "/api/v1/recordings/preview",
+        "/api/v1/runs/{run_id}/designsafe.zip",
+        "/api/v1/runs/{run_id}/designsafe/check",
+        "/api/v1/stability",
+        "/api/v1/sweeps/fields",
+        "/api/v1/sweeps/preview",
+    }
+)
+"""Addresses whose POST requests calculate an answer and change nothing. A new address is recorded until it stands here."""
+
+
+def changes(method: str, route: Any) -> bool:
+    """Whether a request to a route may change something, and is recorded when it succeeds."""
+    return method not in SAFE and not (method == "POST" and _path(route) in CALCULATIONS)
+
+
+def action(route: Any, path: str) -> str:
+    """The action of a request: `runs.cancel`, `runs.annotations.add`; for an address without a route its first word."""
+    name = str(getattr(route, "name", "") or "")
+    if not name:
+        return area_of(path)
+    words = [word for word in _path(route).removeprefix(PREFIX).strip("/").split("/") if word and "{" not in word]
+    if words and words[-1].replace("-", "_") == name:
+        del words[-1]
+    return ".".join([*words, name])
+
+
+def area_of(path: str) -> str:
+    """The first word of an address below /api/v1; of a page, the first word of its address."""
+    return path.removeprefix(PREFIX).lstrip("/").partition("/")[0] or "pages"
+
+
+def about(parameters: dict[str, Any]) -> str:
+    """What a request is about: the first parameter of its address, `run:ID`; empty without one."""
+    for name, value in parameters.items():
+        return f"{name.removesuffix('_id')}:{value}"
+    return ""
+
+
+def _path(route: Any) -> str:
+    return str(getattr(route, "path", ""))

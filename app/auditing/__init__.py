@@ -1,0 +1,1 @@
+"""The audit log for people: list, check, head and export."""
