@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from app import logs
 from rths_engine.foundation.errors import Issue, RthsError
 
 MEGABYTE = 1_000_000
@@ -58,6 +59,9 @@ class Settings:
     store: str = ""
     store_endpoint: str = ""
     store_cache: int = 10_000 * MEGABYTE
+    disk_reserve: int | None = None
+    log_format: str = logs.TEXT
+    log_level: str = "warning"
 
     @property
     def url(self) -> str:
@@ -106,8 +110,18 @@ def from_environment(**given: Any) -> Settings:
 def _read(key: str, convert: Callable[[str], Any]) -> Any:
     try:
         return convert(os.environ[key])
-    except ValueError:
-        raise RthsError(Issue(key, "needs a whole number", os.environ[key], "correct or unset the variable")) from None
+    except ValueError as error:
+        needs = str(error) if str(error).startswith("needs ") else "needs a whole number"
+        raise RthsError(Issue(key, needs, os.environ[key], "correct or unset the variable")) from None
+
+
+def _one_of(known: tuple[str, ...]) -> Callable[[str], str]:
+    def read(text: str) -> str:
+        if text not in known:
+            raise ValueError(f"needs one of {', '.join(known)}")
+        return text
+
+    return read
 
 
 def _megabytes(text: str) -> int:
@@ -158,4 +172,14 @@ VARIABLES: dict[str, Variable] = {
     "store_cache": Variable(
         "RTHS_STORE_CACHE_MB", _megabytes, "local copies of files of an S3 store, in the data folder, MB", _in_megabytes
     ),
+    "disk_reserve": Variable(
+        "RTHS_DISK_RESERVE_MB",
+        _megabytes,
+        "free disk space below which new tests and uploads are refused, MB",
+        default="5 % of the disk, 2 GB at least and 20 GB at most, or a quarter of a small disk",
+    ),
+    "log_format": Variable(
+        logs.FORMAT_KEY, _one_of(logs.FORMATS), "form of the log: text, or json with one object on each line"
+    ),
+    "log_level": Variable(logs.LEVEL_KEY, _one_of(logs.LEVELS), "least level that is logged: debug, info, warning or error"),
 }

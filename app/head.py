@@ -24,8 +24,10 @@ class Head:
                 await send({"type": "http.response.body", "body": b""})
                 raise _Answered
 
+        asked = {**scope, "method": "GET"}
         with suppress(_Answered):
-            await self.app({**scope, "method": "GET"}, receive, only_headers)
+            await self.app(asked, receive, only_headers)
+        scope["route"] = asked.get("route")
 
 
 class _Answered(Exception):

@@ -43,10 +43,15 @@ from app.live.watching import router as watching
 from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
 from app.measured.mapping_endpoints import router as mappings
+from app.monitoring import statements
+from app.monitoring.collected import Collected
+from app.monitoring.endpoints import Monitor
+from app.monitoring.endpoints import router as monitoring
 from app.motions.endpoints import router as motions
 from app.notifications.dispatcher import Dispatcher
 from app.notifications.endpoints import router as notifications
 from app.notifications.webhook_endpoints import router as webhooks
+from app.observing import Observed
 from app.pages.audit import router as audit_page
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
@@ -79,6 +84,7 @@ from app.sweeps.analysis_endpoints import router as sweep_analysis
 from app.sweeps.endpoints import router as sweeps
 from app.table4.endpoints import router as table4
 from app.worker.embedded import EmbeddedWorker
+from app.worker.kinds import KINDS
 from rths_engine import __version__
 
 STATIC = Path(__file__).parent.parent / "frontend" / "static"
@@ -127,6 +133,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         webhooks,
         auditing,
         health,
+        monitoring,
         glossary,
         live,
         watching,
@@ -159,6 +166,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.add_middleware(Recording)
     app.add_middleware(Head)
     app.add_middleware(Guard, settings=configured)
+    app.add_middleware(Observed)
     return app
 
 
@@ -168,7 +176,9 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     await asyncio.to_thread(db.migrate, settings.url)
     await asyncio.to_thread(durable.migrate, settings.url)
     engine = db.connect(settings.url)
+    statements.watch(engine)
     app.state.sessions = db.sessions(engine)
+    app.state.monitor = Monitor(Collected(settings, app.state.sessions, app.state.hub, KINDS))
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(app.state.queue.purge)
     await asyncio.to_thread(_purge, app)
@@ -188,6 +198,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.to_thread(dispatcher.stop)
         app.state.audit.put(Waiting(SERVICE, "service.stopped"))
         await asyncio.to_thread(app.state.audit.stop)
+        app.state.monitor.close()
         app.state.queue.close()
         engine.dispose()
 

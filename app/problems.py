@@ -68,7 +68,6 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(Unavailable, _unavailable)
     for error in (OperationalError, InterfaceError, PoolTimeout):
         app.add_exception_handler(error, _database_error)
-    app.add_exception_handler(Exception, _unexpected)
 
 
 def too_large(limit: int) -> Response:
@@ -171,6 +170,8 @@ def _unavailable(_: Request, error: Exception) -> Response:
     return response
 
 
-def _unexpected(request: Request, error: Exception) -> Response:
-    log.exception("%s %s failed", request.method, request.url.path, exc_info=error)
-    return problem(500, "The service failed with an internal error; nothing was stored. Its log holds the details.")
+def unexpected(request_id: str) -> Response:
+    """The response to a request that failed by a fault of the program."""
+    return problem(
+        500, f"The service failed with an internal error; nothing was stored. Its log has it as request {request_id}."
+    )

@@ -9,6 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TypeAlias
 
+from app.logs import FORMATS, LEVELS
 from rths_engine.foundation.errors import RthsError
 
 DONE, FAILED, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
@@ -234,6 +235,8 @@ def parser() -> argparse.ArgumentParser:
     )
     serve.add_argument("--no-worker", action="store_true", help="start no worker; tests wait for `rths worker`")
 
+    _logging(serve)
+
     worker = _command(
         commands, "worker", "app.cli.worker:worker", "execute queued tests and diagnoses, beside `rths serve --no-worker`"
     )
@@ -241,6 +244,7 @@ def parser() -> argparse.ArgumentParser:
     worker.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the control room (default %(default)s)")
     worker.add_argument("--name", help="name of this worker (default: the machine)")
     worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
+    _logging(worker)
 
     migrate = _command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema", recorded=True)
     _data(migrate)
@@ -306,6 +310,11 @@ def _command(commands: Commands, name: str, function: str, about: str, recorded:
     command = commands.add_parser(name, help=about, description=f"{about[0].upper()}{about[1:]}.")
     command.set_defaults(function=function, recorded=recorded)
     return command
+
+
+def _logging(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--log-format", choices=FORMATS, help="form of the log (RTHS_LOG_FORMAT; default text)")
+    command.add_argument("--log-level", choices=LEVELS, help="least level that is logged (RTHS_LOG_LEVEL; default warning)")
 
 
 def _data(command: argparse.ArgumentParser) -> None:

@@ -12,6 +12,7 @@ from typing import IO
 import uvicorn
 from fastapi import FastAPI
 
+from app import logs
 from app.cli.main import DONE, FAILED
 from app.cli.settings import stored
 from app.config import LOOPBACK, Settings
@@ -29,6 +30,7 @@ def serve(given: Namespace) -> int:
     if settings.local_sign_in and settings.host not in LOOPBACK:
         fix = "leave out --local and give each person an account: docs/accounts.md"
         raise RthsError(Issue("host", "can be reached from other computers, where --local is not allowed", settings.host, fix))
+    logs.configure(settings.log_format, settings.log_level)
     with only_server(settings) if settings.embedded_worker else nullcontext():
         return _serve(settings, given.demo)
 
@@ -48,7 +50,8 @@ class Server(uvicorn.Server):
     """The web server; when the service answers, it queues the demonstration if asked and prints the address."""
 
     def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
-        super().__init__(uvicorn.Config(app, log_level="warning", timeout_graceful_shutdown=GRACE_S))
+        # app/logs.py and app/observing.py write what these two would
+        super().__init__(uvicorn.Config(app, timeout_graceful_shutdown=GRACE_S, log_config=None, access_log=False))
         self.app, self.settings, self.demonstrate = app, settings, demonstrate
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:

@@ -16,7 +16,7 @@ PORTS = range(1, 65_536)
 
 def settings(given: Namespace, **more: Any) -> Settings:
     """The settings of a command. Raises RthsError for values that are out of range."""
-    options = {name: getattr(given, name, None) for name in ("data", "host", "port")}
+    options = {name: getattr(given, name, None) for name in ("data", "host", "port", "log_format", "log_level")}
     found = from_environment(**options, worker_concurrency=getattr(given, "workers", None), **more)
     if found.port not in PORTS:
         raise RthsError(Issue("port", f"needs {PORTS[0]} to {PORTS[-1]}", found.port))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import logging
 import socket
 from argparse import Namespace
 
-from app import db
+from app import db, logs
 from app.cli.settings import stored
 from app.jobs import queue
 from app.worker.main import work
@@ -16,8 +15,9 @@ from app.worker.peers import unique
 def worker(given: Namespace) -> None:
     """`rths worker`: execute queued jobs until the process ends."""
     settings = stored(given)
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
-    work(settings, given.web, unique(given.name or socket.gethostname()))
+    name = unique(given.name or socket.gethostname())
+    logs.configure(settings.log_format, settings.log_level, worker=name)
+    work(settings, given.web, name)
 
 
 def migrate(given: Namespace) -> None:

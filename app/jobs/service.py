@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,6 +11,8 @@ from typing import Any, Generic, Protocol
 
 from sqlalchemy.orm import Session
 
+from app import metrics
+from app.db import afterwards
 from app.events.log import EventLog
 from app.events.tables import EventKind
 from app.jobs import states
@@ -19,6 +22,7 @@ from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.problems import Conflict, NotFound
 
+log = logging.getLogger("rths.jobs")
 MOST_ATTEMPTS = 3
 UNDO = timedelta(minutes=10)  # how long the cancel of a queued job can be undone
 NOBODY = "unnamed"
@@ -135,6 +139,8 @@ class JobService(Generic[Row, Result]):
         job.attempt += 1
         job.worker, job.started_at, job.doing, job.share = worker, datetime.now(UTC), "", 0.0
         again = f", attempt {job.attempt}" if job.attempt > 1 else ""
+        waited, kind = (job.started_at - job.submitted_at).total_seconds(), self.kind.name
+        afterwards(self.session, "after_commit", lambda: metrics.WAIT_SECONDS.labels(kind).observe(waited))
         self._tell(EventKind.STARTED, job, f"Started on worker {worker}{again}.")
         return Taken(started=job, left=left)
 
@@ -229,14 +235,24 @@ class JobService(Generic[Row, Result]):
     def _end(self, job: Row, state: State, reason: str) -> None:
         self._move(job, state)
         job.reason, job.finished_at, job.doing = reason, datetime.now(UTC), ""
+        if job.started_at is not None:
+            lasted = (job.finished_at - job.started_at).total_seconds()
+            kind = metrics.RUN_SECONDS.labels(self.kind.name, str(state))
+            afterwards(self.session, "after_commit", lambda: kind.observe(lasted))
         self._tell(EventKind(state), job, reason)
 
     def _tell(self, kind: EventKind, job: Row, sentence: str) -> None:
         if not self.kind.told:
             return
         title = self.kind.title(job)
+        self._log(sentence, job)
         called = f"{self.kind.name.capitalize()} {job.number}{', ' if title else ''}{title}"
         EventLog(self.session).add(kind, f"{called}: {sentence}", self.kind.name, job.id, title)
+
+    def _log(self, sentence: str, job: Row) -> None:
+        """Write what happened to a job into the log, when it is stored."""
+        about = {"run": job.id, "kind": self.kind.name, "number": str(job.number), "state": str(job.state)}
+        afterwards(self.session, "after_commit", lambda: log.info("%s", sentence, extra={"fields": about}))
 
 
 def named(by: str) -> str:

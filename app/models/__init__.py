@@ -5,6 +5,7 @@ from app.events.tables import Event
 from app.models.diagnoses import Diagnosis, DiagnosisInput
 from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
 from app.models.measured import ImportBatch, MeasuredRecording, RawFile, SavedMapping
+from app.models.operation import WorkerMetrics
 from app.models.runs import EMULATED, LONGEST_VALUE, Annotation, Rig, Run, RunPlan, RunStation, RunValue, RunView, ValuePath
 from app.models.sweeps import Sweep, SweepPart, SweepShard
 
@@ -35,4 +36,5 @@ __all__ = [
     "SweepPart",
     "SweepShard",
     "ValuePath",
+    "WorkerMetrics",
 ]

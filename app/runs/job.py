@@ -10,6 +10,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import aliased
 
+from app import metrics
 from app.config import Settings
 from app.jobs.kind import Ending, Kind
 from app.jobs.service import NOBODY
@@ -68,6 +69,9 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         summary = _finite(result.summary)
         job.trip, job.client = summary["trip"], summary.get("client")
         job.timing = summary.get("timing")
+        if job.timing:
+            metrics.ENGINE_STEPS.inc(job.timing.get("steps", 0))
+            metrics.MISSED_DEADLINES.inc(job.timing.get("missed", 0))
         job.elapsed_s, job.simulated_s = summary["elapsed_s"], summary["simulated_s"]
         for one in (*of(FloorMeasure), *of(RunMeasure)):
             setattr(job, one.key, summary.get(one.key))  # a worker of an earlier version sends no later measures

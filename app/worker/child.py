@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
 
+from app import logs
 from app.jobs.order import Order
 
 
@@ -118,6 +119,7 @@ class Line:
 def serve(pipe: Connection, module: str, niceness: int) -> None:
     """Execute orders with `module` (`Kind.process`) until the worker ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C also reaches the worker, which ends this process
+    logs.inherit()
     line = Line(pipe)
     os.nice(niceness)
     executing = importlib.import_module(module)
@@ -132,7 +134,8 @@ def serve(pipe: Connection, module: str, niceness: int) -> None:
 
 def _outcome(executing: Any, order: Order, line: Line) -> Done | Failed:
     try:
-        return Done(executing.execute(order, line))
+        with logs.about(run=order.job_id):
+            return Done(executing.execute(order, line))
     except ConnectionError:
         raise
     except Refused as refused:

@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Callable
 
+from app import logs
 from app.config import Settings
 from app.worker.peers import unique
 
@@ -65,5 +66,7 @@ class EmbeddedWorker:
             "RTHS_SWEEP_PROCESSES": str(settings.sweep_processes),
             "RTHS_RIG_HOST": settings.rig_host,
             "RTHS_WORKER_TOKEN": settings.worker_token,
+            logs.FORMAT_KEY: settings.log_format,
+            logs.LEVEL_KEY: settings.log_level,
         }
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)

@@ -12,6 +12,7 @@ from typing import Any
 
 from sqlalchemy.orm import Session, sessionmaker
 
+from app import logs
 from app.config import Settings
 from app.db import unit_of_work
 from app.jobs.kind import Kind
@@ -150,7 +151,8 @@ class Executor:
             self.running[order.job_id] = running
         try:
             try:
-                outcome = process.execute(order, running.take)
+                with logs.about(run=order.job_id):
+                    outcome = process.execute(order, running.take)
             finally:
                 patiently(lambda: self._keep(running))
             self._end(kind, order, outcome)

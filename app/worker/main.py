@@ -20,12 +20,14 @@ from typing import Any
 
 from dbos import DBOS
 
+from app import logs
 from app.audit.log import Acting, acts
 from app.config import Settings, from_environment
 from app.db import DATABASE_SILENT, check_schema, connect, sessions
 from app.jobs.kind import Kind
 from app.jobs.queue import APPLICATION, VERSION
 from app.jobs.service import MOST_ATTEMPTS
+from app.monitoring import reporting, statements
 from app.worker.executor import Executor
 from app.worker.kinds import KINDS
 from app.worker.link import Link
@@ -53,7 +55,7 @@ def main(arguments: list[str] | None = None) -> None:
     settings = from_environment(
         data=given.data, database_url=given.database_url, worker_concurrency=given.worker_concurrency
     ).prepared()
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s worker %(levelname)s %(message)s")
+    logs.configure(settings.log_format, settings.log_level, worker=given.name)
     if given.with_parent:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C also reaches the parent, which ends this process
         threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -71,6 +73,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     check_schema(settings.url)
     os.environ.update(ONE_THREAD)  # read where the processes of jobs load numpy
     engine = connect(settings.url)
+    statements.watch(engine)
     maker = sessions(engine)
     acts(maker, Acting(worker, "worker"))
     link = Link(f"{web}/api/v1/worker", settings.worker_token)
@@ -86,7 +89,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
             "system_database_engine": engine,
             "executor_id": worker,
             "application_version": VERSION,
-            "log_level": "WARNING",
+            "log_level": settings.log_level.upper(),
             "run_migrations": False,
         }
     )
@@ -98,6 +101,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
             polling_interval_sec=kind.polling_s,
             on_conflict="always_update",
         )
+    reporting.start(maker, worker)
     try:
         _watch(executor, peers)
     finally:

@@ -1,0 +1,1 @@
+"""Monitoring: whether the service is ready, and metrics for Prometheus."""
