@@ -4,30 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum, IntEnum, StrEnum
+from enum import Enum
 from typing import Annotated, Any, Literal, TypeVar
 
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
+from app.roles import ROLE_OF, SCOPE_OF, Role, Scope
+
+__all__ = [
+    "ANYONE",
+    "LOCAL",
+    "PERSON",
+    "ROLE_OF",
+    "SCOPE_OF",
+    "WORKER",
+    "Access",
+    "Open",
+    "Role",
+    "Scope",
+    "SignedIn",
+    "Who",
+    "allowed",
+    "declared",
+    "person",
+]
+
 DECLARED = "__access__"
 PERSON = "rths.person"  # key of an ASGI scope: the SignedIn that the gate has let through
 
 Declared = TypeVar("Declared", bound=Callable[..., Any])
-
-
-class Role(IntEnum):
-    """What an account may do. Each role may do all that a lower role may.
-
-    A viewer reads everything, aborts tests and changes the own account. An operator submits tests of the library and drives
-    the queue. An engineer also writes plans, submits sweeps, imports recordings and asks for diagnoses. An administrator also
-    manages accounts, rigs, the laboratory and webhooks.
-    """
-
-    VIEWER = 1
-    OPERATOR = 2
-    ENGINEER = 3
-    ADMINISTRATOR = 4
 
 
 class Open(Enum):
@@ -40,37 +46,27 @@ class Open(Enum):
 ANYONE, WORKER = Open.ANYONE, Open.WORKER
 
 
-class Scope(StrEnum):
-    """What an API token may do. Scopes do not include each other, and never exceed the role of the account."""
-
-    READ = "read"
-    OPERATE = "operate"
-    SUBMIT = "submit"
-    ADMINISTER = "administer"
-
-
-SCOPE_OF = {
-    Role.VIEWER: Scope.READ,
-    Role.OPERATOR: Scope.OPERATE,
-    Role.ENGINEER: Scope.SUBMIT,
-    Role.ADMINISTRATOR: Scope.ADMINISTER,
-}
-ROLE_OF = {scope: role for role, scope in SCOPE_OF.items()}
-
-
 @dataclass(frozen=True, slots=True)
 class Access:
-    """The declaration of an address: a role or `Open`, and the scope that an API token needs."""
+    """The declaration of an address: a role or `Open`, and the scopes of which an API token needs one.
+
+    `remembered` lets in who was verified in the last hours, while the database does not answer.
+    """
 
     who: Role | Open
-    scope: Scope | None
+    scopes: frozenset[Scope]
+    remembered: bool = False
 
 
-def allowed(who: Role | Open, scope: Scope | None = None) -> Callable[[Declared], Declared]:
-    """Declare who may use an endpoint, a websocket or a mounted application; `scope` is by default the scope of the role."""
+def allowed(who: Role | Open, *scopes: Scope, tokens: bool = True, remembered: bool = False) -> Callable[[Declared], Declared]:
+    """Declare who may use an endpoint, a websocket or a mounted application.
+
+    `scopes` is by default the scope of the role; without `tokens` a person must sign in in a browser.
+    """
+    needed = frozenset(scopes) or frozenset({SCOPE_OF[who]} if isinstance(who, Role) else ())
 
     def declare(endpoint: Declared) -> Declared:
-        setattr(endpoint, DECLARED, Access(who, scope or (SCOPE_OF[who] if isinstance(who, Role) else None)))
+        setattr(endpoint, DECLARED, Access(who, needed if tokens else frozenset(), remembered))
         return endpoint
 
     return declare
@@ -86,12 +82,20 @@ def declared(endpoint: Any) -> Access | None:
 class SignedIn:
     """The person behind a request: name and role of the account, and how the person signed in.
 
-    `how` is local (without an account, on this computer), session (in a browser) or token (a program).
+    `how` is local (without an account, on this computer), session (in a browser) or token (a program); `credential_id` names
+    the session or the token, and only a token has `scopes`.
     """
 
     name: str
     role: Role
     how: Literal["local", "session", "token"]
+    account_id: str = ""
+    credential_id: str = ""
+    scopes: frozenset[Scope] | None = None
+
+    def may(self, access: Access) -> bool:
+        """Whether the scopes of an API token allow an address. Other people have no scopes."""
+        return self.scopes is None or bool(self.scopes & access.scopes)
 
     def named(self, typed: str) -> str:
         """The name to store with what this person does: of the account, or as typed where there are no accounts."""

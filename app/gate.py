@@ -7,14 +7,17 @@ from typing import Any
 from urllib.parse import quote
 
 from fastapi.routing import iter_route_contexts
+from sqlalchemy.exc import SQLAlchemyError
 from starlette._utils import get_route_path
 from starlette.applications import Starlette
 from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Match, compile_path
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Send
+from starlette.types import Scope as Connection
 
-from app.access import LOCAL, PERSON, Access, Open, Role, SignedIn, declared
+from app.access import LOCAL, PERSON, Access, Open, Role, Scope, SignedIn, declared
 from app.config import LOOPBACK, Settings
 from app.problems import problem
 
@@ -22,7 +25,7 @@ KEPT = 4096  # addresses whose declaration is remembered
 NOT_ALLOWED = 4403
 FORWARDED = ("forwarded", "x-forwarded-for", "x-real-ip")
 SIGN_IN = "Sign in at /sign-in, or send an API token in the header `Authorization: Bearer TOKEN`: docs/accounts.md."
-UNKNOWN = Access(Role.VIEWER, None)  # an address that leads nowhere: only who is signed in learns that
+UNKNOWN = Access(Role.VIEWER, frozenset(Scope))  # an address that leads nowhere: only who is signed in learns that
 
 
 class Gate:
@@ -36,7 +39,7 @@ class Gate:
         self._places: list[Place] = []
         self._known: dict[tuple[str, str, str], tuple[Match, Access | None]] = {}
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def __call__(self, scope: Connection, receive: Receive, send: Send) -> None:
         if scope["type"] not in {"http", "websocket"}:
             await self.app(scope, receive, send)
             return
@@ -51,7 +54,7 @@ class Gate:
         else:
             await _close(access, receive, send)
 
-    def _access(self, scope: Scope) -> tuple[Match, Access | None]:
+    def _access(self, scope: Connection) -> tuple[Match, Access | None]:
         """Whether the address leads to a route, and the declaration of that route."""
         key = (scope["type"], scope.get("method", ""), get_route_path(scope))
         found = self._known.get(key)
@@ -76,24 +79,34 @@ class Gate:
             return Match.PARTIAL, UNKNOWN
         return Match.NONE, UNKNOWN
 
-    async def _refusal(self, scope: Scope, access: Access | None) -> Response | None:
+    async def _refusal(self, scope: Connection, access: Access | None) -> Response | None:
         if access is None:
             return problem(403, f"Nobody may use {scope['path']}: the program does not declare who may.")
         if access.who is Open.ANYONE:
             return None
         if access.who is Open.WORKER:
             return None if self._is_worker(Headers(scope=scope)) else problem(403, "This address needs the token of workers.")
-        person = self._person(scope)
+        try:
+            person = await self._person(scope, access.remembered)
+        except SQLAlchemyError:
+            return _silent()
         if person is None:
             return _sign_in(scope)
         scope[PERSON] = person
         if person.role < access.who:
             needed = f"It needs the role {access.who.name.lower()}; {person.name} is {person.role.name.lower()}."
             return problem(403, f"{needed} An administrator changes roles on the page Settings.")
-        return None
+        return None if person.may(access) else problem(403, _beyond(access))
 
-    def _person(self, scope: Scope) -> SignedIn | None:
-        return LOCAL if self.settings.local_sign_in and _on_this_computer(scope) else None
+    async def _person(self, scope: Connection, remembered: bool) -> SignedIn | None:
+        """The person behind a request: of an API token where there is one, else of the cookie, else of this computer."""
+        connection, state = HTTPConnection(scope), scope["app"].state
+        if "authorization" in connection.headers:
+            found: SignedIn | None = await state.credentials.person("token", _bearer(connection.headers), remembered)
+            return found
+        key = connection.cookies.get(cookie_name(self.settings))
+        person: SignedIn | None = await state.credentials.person("session", key, remembered) if key else None
+        return person or (LOCAL if self.settings.local_sign_in and _on_this_computer(scope) else None)
 
     def _is_worker(self, headers: Headers) -> bool:
         return hmac.compare_digest(_bearer(headers).encode(), self.settings.worker_token.encode())
@@ -121,7 +134,12 @@ def places(app: Starlette) -> list[Place]:
     return [Place(context) for context in iter_route_contexts(app.routes)]
 
 
-def _on_this_computer(scope: Scope) -> bool:
+def cookie_name(settings: Settings) -> str:
+    """The name of the cookie of a session, which differs between ports: browsers send cookies to every port of a host."""
+    return f"rths-session-{settings.port}"
+
+
+def _on_this_computer(scope: Connection) -> bool:
     """Whether a request comes from this computer, and not through a proxy on it."""
     address, headers = (scope.get("client") or ("", 0))[0], Headers(scope=scope)
     return address in LOOPBACK and not any(name in headers for name in FORWARDED)
@@ -132,7 +150,7 @@ def _bearer(headers: Headers) -> str:
     return token if kind.lower() == "bearer" else ""
 
 
-def _sign_in(scope: Scope) -> Response:
+def _sign_in(scope: Connection) -> Response:
     """The answer to a request without credentials: a page leads to the sign-in page and back, anything else gets 401."""
     headers = Headers(scope=scope)
     page = "text/html" in headers.get("accept", "") and not scope["path"].startswith("/api/")
@@ -142,6 +160,19 @@ def _sign_in(scope: Scope) -> Response:
         return RedirectResponse(f"/sign-in?to={quote(back, safe='')}", 303)
     answer = problem(401, SIGN_IN)
     answer.headers["WWW-Authenticate"] = "Bearer"
+    return answer
+
+
+def _beyond(access: Access) -> str:
+    """Why an API token does not suffice."""
+    if not access.scopes:
+        return "An API token is not enough for this address: sign in in a browser."
+    return f"The API token does not have the scope {' or '.join(sorted(access.scopes))}, which this address needs."
+
+
+def _silent() -> Response:
+    answer = problem(503, "The database did not answer, so that the sign-in could not be checked. Try again in a moment.")
+    answer.headers["Retry-After"] = "5"
     return answer
 
 

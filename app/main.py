@@ -16,6 +16,11 @@ from starlette.routing import Route
 
 from app import db, headers, openapi, pages, problems
 from app.access import ANYONE, Role, allowed
+from app.accounts import refusals
+from app.accounts.admin_endpoints import router as accounts
+from app.accounts.credentials import Credentials
+from app.accounts.endpoints import router as own_account
+from app.accounts.throttle import Throttle
 from app.annotations.endpoints import router as run_annotations
 from app.audit.log import SERVICE
 from app.audit.recorder import Recorder, Waiting
@@ -105,7 +110,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.hub = Hub()
     app.state.calculations = Calculations()
     app.state.writing = asyncio.Semaphore(WRITERS)
+    app.state.throttle = Throttle()
     problems.install(app)
+    refusals.install(app)
     openapi.install(app)
     answers.install(app)
     for router in (
@@ -135,6 +142,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         health,
         monitoring,
         glossary,
+        own_account,
+        accounts,
         live,
         watching,
     ):
@@ -179,6 +188,8 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     statements.watch(engine)
     app.state.sessions = db.sessions(engine)
     app.state.monitor = Monitor(Collected(settings, app.state.sessions, app.state.hub, KINDS))
+    app.state.credentials = Credentials(app.state.sessions)
+    app.state.credentials.start()
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(app.state.queue.purge)
     await asyncio.to_thread(_purge, app)
@@ -199,6 +210,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.audit.put(Waiting(SERVICE, "service.stopped"))
         await asyncio.to_thread(app.state.audit.stop)
         app.state.monitor.close()
+        await asyncio.to_thread(app.state.credentials.close)
         app.state.queue.close()
         engine.dispose()
 

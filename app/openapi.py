@@ -114,9 +114,7 @@ def _refer(inside: Any) -> None:
 def _statuses(method: str, path: str, operation: dict[str, Any]) -> Iterator[int]:
     """The problems that follow from what a route takes."""
     if path not in PROBES:
-        yield 421
-    if method != "get":
-        yield 403
+        yield from (401, 403, 421, 503)
     if "{" in path:
         yield 404
     if "requestBody" in operation:

@@ -58,6 +58,9 @@ def plan() -> dict[str, Any]:
 
 DRAFT = {"name": "Brace B", "duration": "40 s", "stations": "not yet"}
 
+PHRASE = "three bolts hold the brace"
+LINK = "gO8Xy2rT0V5mXh3oJYk1c7uQfZ6sLw9bN4eR_aKpDtE"
+
 # what a field of an answer shows; other fields are shown by the smallest value that their schema takes
 FIELDS: dict[str, Any] = {
     "id": RUN,
@@ -88,6 +91,13 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "PATCH /api/v1/runs/{run_id}": lambda: {"name": "Brace, second calibration", "tags": ["calibration"], "notes": "New oil."},
     "POST /api/v1/runs/bulk": lambda: {"action": "tag", "runs": [RUN], "tags": ["calibration"]},
     "POST /api/v1/runs/views": lambda: {"name": "Calibrations", "query": "where=tag%3Dcalibration", "by": "Ana Ruiz"},
+    "POST /api/v1/sign-in": lambda: {"name": "Ana Ruiz", "password": PHRASE},
+    "POST /api/v1/sign-in/link": lambda: {"key": LINK, "password": PHRASE, "name": "Ana Ruiz"},
+    "POST /api/v1/sign-in/link/read": lambda: {"key": LINK},
+    "POST /api/v1/account/password": lambda: {"present": PHRASE, "password": "seven newtons on a spring"},
+    "POST /api/v1/account/tokens": lambda: {"name": "nightly sweep", "scopes": ["read", "submit"], "days": 30},
+    "POST /api/v1/accounts": lambda: {"name": "Ana Ruiz", "role": "engineer"},
+    "PATCH /api/v1/accounts/{account_id}": lambda: {"role": "operator"},
     "POST /api/v1/abort": lambda: BY,
     "POST /api/v1/queue/hold": lambda: BY | {"reason": "oil leak"},
     "POST /api/v1/queue/release": lambda: BY,

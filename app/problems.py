@@ -32,6 +32,7 @@ TITLES = {
     415: "Unsupported media type",
     421: "Misdirected request",
     422: "Unprocessable content",
+    429: "Too many requests",
     500: "Internal server error",
     503: "Service unavailable",
 }  # HTTP's own phrases: the type of a problem is about:blank

@@ -10,9 +10,12 @@ from pathlib import Path
 from typing import TypeAlias
 
 from app.logs import FORMATS, LEVELS
+from app.roles import Role, Scope
 from rths_engine.foundation.errors import RthsError
 
 DONE, FAILED, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
+ROLES = [role.name.lower() for role in Role]
+SCOPES = [scope.value for scope in Scope]
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 
@@ -250,6 +253,7 @@ def parser() -> argparse.ArgumentParser:
     _data(migrate)
     _library(commands)
     _audit(commands)
+    _accounts(commands)
     _data(_command(commands, "motions", "app.cli.plans:motions", "list the ground-motion records"))
     _command(commands, "version", "app.cli.plans:version", "print the version")
     return top
@@ -302,6 +306,42 @@ def _audit(commands: Commands) -> None:
     export = _command(actions, "export", "app.cli.audit:export", "write every entry as a line of JSON")
     export.add_argument("--out", type=Path, metavar="FILE.jsonl", help="file to write (default: standard output)")
     for command in (check, head, export):
+        _data(command)
+
+
+def _accounts(commands: Commands) -> None:
+    """`rths account` and `rths token`."""
+    top = commands.add_parser("account", help="add, list and change the accounts of a control room")
+    actions = top.add_subparsers(dest="action", metavar="ACTION", required=True)
+    at = "app.cli.accounts:"
+    link = _command(actions, "link", f"{at}link", "print the one-time link to make the first administrator", recorded=True)
+    add = _command(actions, "add", f"{at}add", "add an account, and print the link to choose its password", recorded=True)
+    listed = _command(actions, "list", f"{at}listed", "list the accounts with role and state")
+    role = _command(actions, "role", f"{at}role", "give an account another role", recorded=True)
+    disable = _command(
+        actions, "disable", f"{at}disable", "end what an account has open, and refuse its sign-in", recorded=True
+    )
+    password = _command(actions, "password-link", f"{at}password_link", "print a link to choose a new password", recorded=True)
+    for command in (add, role, disable, password):
+        command.add_argument("name", metavar="NAME", help="name of the account")
+    add.add_argument("--role", choices=ROLES, default="viewer", help="what the account may do (default %(default)s)")
+    role.add_argument("role", choices=ROLES, help="what the account may do from now on")
+    disable.add_argument("--undo", action="store_true", help="enable the account again")
+    for command in (link, add, password):
+        command.add_argument("--url", metavar="URL", help="address of the control room for the link (default: this computer)")
+
+    top = commands.add_parser("token", help="add, list and revoke the API tokens of an account")
+    actions = top.add_subparsers(dest="action", metavar="ACTION", required=True)
+    new = _command(actions, "add", f"{at}token_add", "make an API token of an account", recorded=True)
+    tokens = _command(actions, "list", f"{at}token_list", "list the API tokens of an account")
+    revoke = _command(actions, "revoke", f"{at}token_revoke", "end an API token", recorded=True)
+    for command in (new, tokens, revoke):
+        command.add_argument("account", metavar="ACCOUNT", help="name of the account")
+    new.add_argument("name", metavar="NAME", help="what the token is for")
+    new.add_argument("--scope", action="append", choices=SCOPES, help="what the token may do; can be repeated (default read)")
+    new.add_argument("--days", type=int, choices=range(1, 367), default=90, metavar="N", help="days that it holds (default 90)")
+    revoke.add_argument("token", metavar="ID", help="id of the token, as `rths token list` prints it")
+    for command in (link, add, listed, role, disable, password, new, tokens, revoke):
         _data(command)
 
 

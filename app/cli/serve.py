@@ -13,9 +13,11 @@ import uvicorn
 from fastapi import FastAPI
 
 from app import logs
+from app.accounts.service import AccountService
 from app.cli.main import DONE, FAILED
 from app.cli.settings import stored
 from app.config import LOOPBACK, Settings
+from app.db import unit_of_work
 from app.demonstration import queue_demonstration
 from app.main import create_app
 from rths_engine.foundation.errors import Issue, RthsError
@@ -63,7 +65,20 @@ class Server(uvicorn.Server):
         print(f"\nRTHS control room: {address(self.settings)}")
         if self.settings.local_sign_in:
             print("Everyone on this computer is signed in as administrator. For accounts, start it without --local.")
+        else:
+            print(_first(self.app, self.settings), end="")
         print(f"Data folder: {self.settings.data.resolve()}\nPress Ctrl-C to stop the control room.", flush=True)
+
+
+def _first(app: FastAPI, settings: Settings) -> str:
+    """How to make the first administrator, until there is an account."""
+    with unit_of_work(app.state.sessions) as session:
+        accounts = AccountService(session)
+        if accounts.any():
+            return ""
+        path, expires_at = accounts.link()
+    link = f"{address(settings).rstrip('/')}{path}"
+    return f"First administrator: {link}\nThe link works once, until {expires_at:%Y-%m-%d %H:%M} UTC.\n"
 
 
 def listen(settings: Settings) -> socket.socket:

@@ -25,7 +25,7 @@ UNKNOWN_RUN, UNREADABLE = 4404, 4409
 
 
 @router.websocket("/api/v1/runs/{run_id}/live")
-@allowed(Role.VIEWER)
+@allowed(Role.VIEWER, remembered=True)
 async def watch(socket: WebSocket, run_id: str) -> None:
     """Send a run to a viewer: schema, buckets from number `from` on, live frames, and the end; see docs/architecture.md."""
     await socket.accept()

@@ -2,6 +2,7 @@
 
 from app.audit.tables import AuditEntry, AuditHead
 from app.events.tables import Event
+from app.models.accounts import Account, AccountLink, AccountSession, ApiToken
 from app.models.diagnoses import Diagnosis, DiagnosisInput
 from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
 from app.models.measured import ImportBatch, MeasuredRecording, RawFile, SavedMapping
@@ -12,7 +13,11 @@ from app.models.sweeps import Sweep, SweepPart, SweepShard
 __all__ = [
     "EMULATED",
     "LONGEST_VALUE",
+    "Account",
+    "AccountLink",
+    "AccountSession",
     "Annotation",
+    "ApiToken",
     "AuditEntry",
     "AuditHead",
     "Diagnosis",

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 
-from app.access import Role, allowed
+from app.access import Role, Scope, allowed
 from app.openapi import told
 from app.queue.dependency import Queued
 from app.queue.schemas import MOST_RUNS, Cancelled, CancelledOut, HoldIn, Move, NewPriority, QueueOut
@@ -66,7 +66,7 @@ def release(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> Queue
 
 
 @router.post("/abort")
-@allowed(Role.VIEWER)
+@allowed(Role.VIEWER, *Scope, remembered=True)
 def abort(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> dict[str, Any]:
     """Hold the queue and stop every running test. This is not the laboratory's emergency stop."""
     return {"held": True, "stopping": [run.id for run in queued.abort(person.by)]}

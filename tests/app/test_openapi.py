@@ -130,7 +130,7 @@ def test_the_examples_are_requests_that_are_taken(earlier: TestClient) -> None:
         method, path = route.split(" ")
         (content,) = operation(route)["requestBody"]["content"].items()
         media, given = content[0], content[1]["example"]
-        if "{" in path:
+        if "{" in path or path.startswith(("/api/v1/sign-in", "/api/v1/account/")):  # needs an account: test_accounts.py
             assert problems_of(given, content[1]["schema"]) == []
             continue
         text = given if isinstance(given, str) else json.dumps(given)

@@ -1,0 +1,1 @@
+"""Accounts: who may sign in, with which role, by which sessions and API tokens."""
