@@ -42,6 +42,7 @@ from app.laboratory.endpoints import router as laboratory
 from app.league.endpoints import router as league
 from app.library.draft_endpoints import router as drafts
 from app.library.endpoints import router as library
+from app.live.audience import Audience
 from app.live.endpoints import router as live
 from app.live.hub import Hub
 from app.live.watching import router as watching
@@ -111,6 +112,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.calculations = Calculations()
     app.state.writing = asyncio.Semaphore(WRITERS)
     app.state.throttle = Throttle()
+    app.state.audience = Audience(lambda: app.state.sessions, configured)
     problems.install(app)
     refusals.install(app)
     openapi.install(app)
@@ -213,6 +215,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.to_thread(app.state.credentials.close)
         app.state.queue.close()
         engine.dispose()
+        app.state.audience.close()
 
 
 def _purge(app: FastAPI) -> None:

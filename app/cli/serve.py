@@ -7,7 +7,7 @@ import fcntl
 import socket
 from argparse import Namespace
 from contextlib import nullcontext, suppress
-from typing import IO
+from typing import IO, Any
 
 import uvicorn
 from fastapi import FastAPI
@@ -48,12 +48,17 @@ def _serve(settings: Settings, demonstrate: bool) -> int:
     return DONE
 
 
+QUIET: dict[str, Any] = {"log_config": None, "access_log": False}
+LIVE: dict[str, Any] = {"ws_per_message_deflate": False}
+"""Options of websockets: live values compress badly, and compressing them for each viewer costs more than it saves."""
+
+
 class Server(uvicorn.Server):
     """The web server; when the service answers, it queues the demonstration if asked and prints the address."""
 
     def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
         # app/logs.py and app/observing.py write what these two would
-        super().__init__(uvicorn.Config(app, timeout_graceful_shutdown=GRACE_S, log_config=None, access_log=False))
+        super().__init__(uvicorn.Config(app, timeout_graceful_shutdown=GRACE_S, **QUIET, **LIVE))
         self.app, self.settings, self.demonstrate = app, settings, demonstrate
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:

@@ -16,6 +16,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.config import Settings
 from app.db import unit_of_work
 from app.jobs.service import JobService
+from app.live import watching
 from app.live.endpoints import FRAME_HEADER
 from app.live.frames import Decimator, bucket_size
 from app.live.messages import schema
@@ -175,6 +176,19 @@ def test_a_viewer_of_a_run_that_was_parked_is_told_of_its_end(told: Told) -> Non
         told.say({"type": "end"})
         messages, _ = take(socket)
     assert messages[-1]["run"]["state"] == "failed" and messages[-1]["run"]["reason"] == "Its worker died."
+
+
+def test_a_run_whose_worker_fell_silent_ends_for_its_viewers_and_takes_no_memory(
+    told: Told, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watching, "SILENT_S", 0.02)
+    told.start()
+    with told.viewer() as socket:
+        take(socket, len(told.show(300)))
+        told.park()
+        messages, _ = take(socket)
+    assert messages[-1]["run"]["state"] == "failed"
+    assert app_of(told.client).state.hub.runs == {}
 
 
 @pytest.mark.parametrize("harm", [lambda path: path.unlink(), lambda path: path.write_bytes(b"no HDF5")])
