@@ -1,33 +1,26 @@
-"""The disk guard: below a reserve of free space nothing large is accepted, so that the tests that run can still be stored."""
+"""The disk guard: below a reserve of free space nothing new is accepted, so that the tests that run can still be stored."""
 
 from __future__ import annotations
 
-import errno
+import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from app.config import MEGABYTE, Settings
+from app.full import FIX, DiskFull, is_full
 
 LEAST, SHARE, MOST = 2000 * MEGABYTE, 0.05, 20_000 * MEGABYTE
 SMALL = 0.25  # of a small disk, such as that of a test, at most this share is kept free
-NO_SPACE = {errno.ENOSPC, errno.EDQUOT}
-FIX = "Delete recordings, set a retention, or enlarge the disk"
-
-
-class DiskFull(Exception):
-    """Something is not stored, because the disk has too little space."""
 
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """Free and total space (bytes) of the disk that holds `folder`, and the part that the guard keeps free."""
+    """Free space (bytes) of the disk that holds the data folder, and the part that the guard keeps free."""
 
-    folder: Path
     free: int
-    total: int
     reserve: int
 
     @property
@@ -42,11 +35,11 @@ class Space:
 def space(settings: Settings) -> Space:
     """The space of the disk that holds the data folder."""
     usage = shutil.disk_usage(settings.data)
-    return Space(settings.data, usage.free, usage.total, reserve(settings, usage.total))
+    return Space(usage.free, reserve(settings, usage.total))
 
 
 def reserve(settings: Settings, total: int) -> int:
-    """The space (bytes) that is kept free: as configured, or 5 % of the disk, within bounds."""
+    """The space (bytes) that is kept free on a disk of `total` bytes: as configured, or 5 % of the disk, within bounds."""
     if settings.disk_reserve is not None:
         return settings.disk_reserve
     return int(min(max(LEAST, min(SHARE * total, MOST)), SMALL * total))
@@ -56,41 +49,32 @@ def require(settings: Settings, size: int = 0) -> None:
     """Raise DiskFull where less than the reserve would be free after `size` bytes more."""
     found = space(settings)
     if found.free - size < found.reserve:
-        asked = f" and this needs {shown(size)}" if size else ""
-        raise DiskFull(f"{found.sentence}{asked}. Nothing was stored, and what is stored stays readable. {FIX}.")
+        asked = f", and this request has {shown(size)}" if size > MEGABYTE else ""
+        raise DiskFull(f"{found.sentence}{asked}. Nothing was stored; what is stored stays readable. {FIX}.")
 
 
 @contextmanager
-def held(path: Path, size: int) -> Iterator[None]:
-    """Hold `size` bytes of the disk in a file beside `path` meanwhile. Raises DiskFull where they are not free."""
-    import os
+def held(path: Path, size: int) -> Iterator[Callable[[], None]]:
+    """Hold `size` bytes of the disk for the file `path`, in a file beside it, until the function that it gives is called.
 
+    Raises DiskFull where they are not free, and where the disk is full in spite of it.
+    """
     room = path.with_name(f"{path.name}.room")
+
+    def release() -> None:
+        room.unlink(missing_ok=True)
+
     try:
+        room.parent.mkdir(parents=True, exist_ok=True)
         with room.open("wb") as file:
-            if size:
-                os.posix_fallocate(file.fileno(), 0, size)
-        yield
+            os.posix_fallocate(file.fileno(), 0, max(size, 1))
+        yield release
     except OSError as error:
         if not is_full(error):
             raise
-        fix = f"{FIX}, then retry the test"
-        raise DiskFull(f"The disk has no room for the recording, {shown(size)} at most. {fix}.") from None
+        raise DiskFull(f"The disk has no room for the recording, {shown(size)} at most. {FIX}, then retry the test.") from None
     finally:
-        room.unlink(missing_ok=True)
-
-
-def is_full(error: BaseException | None) -> bool:
-    """Whether an error, or the error that caused it, says that the disk or the user's share of it is full."""
-    while error is not None:
-        if isinstance(error, OSError) and error.errno in NO_SPACE:
-            return True
-        if any(said in str(error) for said in ("No space left on device", "database or disk is full")):
-            return True  # h5py gives no number, and SQLite words
-        if getattr(getattr(error, "orig", error), "sqlstate", None) == "53100":
-            return True  # PostgreSQL
-        error = error.__cause__
-    return False
+        release()
 
 
 def shown(size: int) -> str:

@@ -31,6 +31,7 @@ from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
 from app.dependencies import WRITERS
 from app.diagnoses.endpoints import router as diagnoses
+from app.disk_guard import DiskGuard
 from app.gate import Gate
 from app.guard import Guard
 from app.head import Head
@@ -173,6 +174,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(settings_page)
     app.include_router(pages.router)
     _declare_description(app)
+    app.add_middleware(DiskGuard, settings=configured)
     app.add_middleware(Gate, settings=configured)
     app.add_middleware(Recording)
     app.add_middleware(Head)

@@ -115,6 +115,8 @@ def _statuses(method: str, path: str, operation: dict[str, Any]) -> Iterator[int
     """The problems that follow from what a route takes."""
     if path not in PROBES:
         yield from (401, 403, 421, 503)
+    if method != "get":
+        yield 507
     if "{" in path:
         yield 404
     if "requestBody" in operation:

@@ -16,6 +16,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
 from app import headers
+from app.full import FIX, DiskFull, is_full
 from rths_engine.foundation import location
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError, limited
 
@@ -35,6 +36,7 @@ TITLES = {
     429: "Too many requests",
     500: "Internal server error",
     503: "Service unavailable",
+    507: "Insufficient storage",
 }  # HTTP's own phrases: the type of a problem is about:blank
 FORMS = {"multipart/form-data", "application/x-www-form-urlencoded"}
 
@@ -67,8 +69,22 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(NotFound, lambda _, error: problem(404, str(error)))
     app.add_exception_handler(Conflict, lambda _, error: problem(409, str(error)))
     app.add_exception_handler(Unavailable, _unavailable)
+    app.add_exception_handler(DiskFull, lambda _, error: storage_full(str(error)))
+    app.add_exception_handler(OSError, _disk_error)
     for error in (OperationalError, InterfaceError, PoolTimeout):
         app.add_exception_handler(error, _database_error)
+
+
+def storage_full(detail: str) -> Response:
+    """The response 507 to a request for which the disk has no room."""
+    return problem(507, detail)
+
+
+def _disk_error(_: Request, error: Exception) -> Response:
+    if not is_full(error):
+        raise error
+    log.error("the disk is full: %s", error)
+    return storage_full(f"The disk of the service is full. Nothing was stored; what is stored stays readable. {FIX}.")
 
 
 def too_large(limit: int) -> Response:
@@ -129,6 +145,8 @@ def _http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     if error.status_code == 413:
         return too_large(request.app.state.settings.body_limit(request.url.path))
+    if is_full(error):  # a body that the disk for temporary files could not hold
+        return _disk_error(request, error)
     if error.status_code == 405:
         return _method_not_allowed(request)
     response = problem(error.status_code, _detail(request, error))
@@ -159,6 +177,8 @@ def _detail(request: Request, error: HTTPException) -> str:
 
 
 def _database_error(request: Request, error: Exception) -> Response:
+    if is_full(error):
+        return _disk_error(request, error)
     log.error("%s %s: the database did not answer: %s", request.method, request.url.path, error)
     response = problem(503, "The database did not answer; nothing was stored. Try again in a moment.")
     response.headers["Retry-After"] = "5"

@@ -15,6 +15,7 @@ from app import db, disk
 from app.config import Settings
 from app.db import alembic_config, unit_of_work
 from app.events.tables import Event
+from app.full import FIX
 from app.jobs.tables import WorkerHeartbeat
 from app.jobs.workers import WORKER_SILENCE, Workers
 from app.monitoring.schemas import Check, Readiness
@@ -116,5 +117,5 @@ def _of_disk(settings: Settings) -> Check:
         found = disk.space(settings)
     except OSError as error:
         return Check(name="disk", ok=False, reason=f"The data folder cannot be looked at: {error.strerror or error}.")
-    fix = f". New tests and uploads are refused. {disk.FIX}." if found.low else "."
+    fix = f". New tests and uploads are refused. {FIX}." if found.low else "."
     return Check(name="disk", ok=not found.low, reason=f"{found.sentence}{fix}")

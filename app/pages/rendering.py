@@ -11,7 +11,8 @@ from fastapi.responses import HTMLResponse
 from fastapi.templating import Jinja2Templates
 from jinja2 import Undefined
 
-from app import headers
+from app import disk, headers
+from app.full import FIX
 from app.models import Run
 from rths_engine.results.measure import Measure
 from rths_engine.results.measures import MEASURES
@@ -95,6 +96,12 @@ def belongs(path: str, entry: str) -> bool:
     return (entry != "/" and path.startswith(f"{entry}/")) or (path, entry) == ("/league", "/table4")
 
 
+def low_disk(request: Request) -> str:
+    """What every page says while the disk is below its reserve; empty otherwise."""
+    found = disk.space(request.app.state.settings)
+    return f"{found.sentence}. New tests and uploads are refused; everything else goes on. {FIX}." if found.low else ""
+
+
 templates = Jinja2Templates(directory=FRONTEND / "templates")
 templates.env.filters |= {
     "fixed": fixed,
@@ -106,7 +113,7 @@ templates.env.filters |= {
     "pace": pace,
     "measured": measured,
 }
-templates.env.globals |= {"listed_measures": listed_measures, "belongs": belongs}
+templates.env.globals |= {"listed_measures": listed_measures, "belongs": belongs, "low_disk": low_disk}
 
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:

@@ -7,6 +7,7 @@ from typing import Any
 
 from app.runs.order import WAITING, Outcome, RunOrder
 from app.worker.child import Line, Refused
+from app.worker.room import room_for
 from app.worker.viewers import Viewers
 
 PROGRESS_S = 0.1
@@ -29,15 +30,17 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     shown = Shown(run, order, line)
     session = Session(run, listener, shown)
     shown.session = session
-    session.serve()
-    if session.cancelled:
-        line.stopping()
-    if run.empty and not session.cancelled:
-        raise Refused(f"Nothing was recorded. {session.told()['ended']}")
-    shown.last()
-    status = "cancelled" if session.cancelled else "tripped" if run.trip else "completed"
-    result = run.result(status, shown.elapsed)
-    saved = save(order.recording, result)
+    with room_for(run, order.recording) as release:
+        session.serve()
+        if session.cancelled:
+            line.stopping()
+        if run.empty and not session.cancelled:
+            raise Refused(f"Nothing was recorded. {session.told()['ended']}")
+        shown.last()
+        status = "cancelled" if session.cancelled else "tripped" if run.trip else "completed"
+        result = run.result(status, shown.elapsed)
+        release()
+        saved = save(order.recording, result)
     return Outcome(result.summary(), saved.sha256, saved.size)
 
 

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from app.runs.order import Outcome, RunOrder
 from app.worker import client
 from app.worker.child import Line, Refused
+from app.worker.room import room_for
 from app.worker.viewers import Viewers
 
 CHUNK_S = 0.02  # wall time between two checks for a cancel
@@ -31,16 +32,19 @@ def execute(order: RunOrder, line: Line) -> Outcome:
 
     if order.plan.get("test") == "client":
         return client.execute(order, line)
-    with ExitStack() as rigs:
+    with ExitStack() as room, ExitStack() as rigs:
         try:
             run = rigs.enter_context(opened(read_model(order.plan), motions_of(order.settings), fmus_of(order.settings)))
         except RthsError as error:
             raise Refused(str(error)) from None
+        release = room.enter_context(room_for(run, order.recording))
         telling = _Telling(run, order.attempt, line)
         cancelled = telling.run_to_end()
-    status = "cancelled" if cancelled else "tripped" if run.trip else "completed"
-    result = run.result(status, telling.elapsed)
-    saved = save(order.recording, result)
+        rigs.close()
+        status = "cancelled" if cancelled else "tripped" if run.trip else "completed"
+        result = run.result(status, telling.elapsed)
+        release()
+        saved = save(order.recording, result)
     return Outcome(result.summary(), saved.sha256, saved.size)
 
 
