@@ -15,6 +15,8 @@ from fastapi.staticfiles import StaticFiles
 from starlette.routing import Route
 
 from app import db, headers, openapi, pages, problems
+from app.abort.desk import Desk
+from app.abort.endpoints import router as abort
 from app.access import ANYONE, Role, allowed
 from app.accounts import refusals
 from app.accounts.admin_endpoints import router as accounts
@@ -114,6 +116,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.writing = asyncio.Semaphore(WRITERS)
     app.state.throttle = Throttle()
     app.state.audience = Audience(lambda: app.state.sessions, configured)
+    app.state.desk = Desk(configured.url)
     problems.install(app)
     refusals.install(app)
     openapi.install(app)
@@ -126,6 +129,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         sweeps,
         sweep_analysis,
         queue,
+        abort,
         rigs,
         motions,
         plans,
@@ -200,6 +204,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.audit = Recorder(app.state.sessions)
     app.state.audit.start()
     app.state.audit.put(Waiting(SERVICE, "service.started", details={"version": __version__}))
+    app.state.desk.start()
     dispatcher = Dispatcher(app.state.sessions)
     dispatcher.start()
     worker = EmbeddedWorker(settings, partial(_worker_ended, app)) if settings.embedded_worker else None
@@ -215,6 +220,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.to_thread(app.state.audit.stop)
         app.state.monitor.close()
         await asyncio.to_thread(app.state.credentials.close)
+        await asyncio.to_thread(app.state.desk.stop)
         app.state.queue.close()
         engine.dispose()
         app.state.audience.close()

@@ -13,6 +13,7 @@ from pydantic_core import to_json
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
+from app.access import PERSON, SignedIn
 from app.calculations.bound import Bound
 from app.calculations.calculations import Calculations, ClientLeft
 
@@ -88,6 +89,9 @@ async def _of(
 
 
 def client_of(scope: Scope) -> str:
-    """Whose share of the places a request takes: that of its address."""
+    """Whose share of the places a request takes: that of its account, or of its address where there are no accounts."""
+    person: SignedIn | None = scope.get(PERSON)
+    if person is not None and person.how != "local":
+        return f"account {person.name}"
     address = scope.get("client")
     return address[0] if address else ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
 import os
 import signal
 import socket
@@ -125,7 +126,9 @@ class Processes:
 @cache
 def shared() -> Processes:
     """The processes of this process: applications share them, and they end with it."""
-    return Processes()
+    found = Processes()
+    atexit.register(found.close)
+    return found
 
 
 async def _received(line: socket.socket, size: int) -> bytes:

@@ -119,8 +119,10 @@ class JobService(Generic[Row, Result]):
             raise Conflict(f"The {self.kind.noun} has not ended: it is {job.state}. Cancel it first.")
         self.rows.remove(job)
 
-    def start(self, turn: str, worker: str) -> Taken[Row]:
+    def start(self, turn: str, worker: str, held: bool = False) -> Taken[Row]:
         """Start the job of a delivery of the durable queue, in one transaction. `turn` is the id that was delivered.
+
+        `held`: the worker holds all starts, because of an Abort that the database does not know yet.
 
         For an ordered kind this is the first queued job that may start now, otherwise the job with that id. A running job that
         this turn started before was left by a worker that died; it goes back to its place in the queue first.
@@ -130,7 +132,7 @@ class JobService(Generic[Row, Result]):
         left = self.rows.locked(job_id) if job_id else None
         if left is not None and (left.state.ended or not self._bears_attempt(left)):
             return Taken(left=left)
-        if queue is not None and queue.held:
+        if queue is not None and (queue.held or held):
             return Taken(left=left, waits=self.rows.any_in(State.QUEUED))
         job = self.rows.first(self.kind.may_start(), turn) if self.kind.ordered else left
         if job is None:
@@ -187,6 +189,12 @@ class JobService(Generic[Row, Result]):
         """Whether an attempt that runs should stop: someone cancelled it, or another worker took the job over meanwhile."""
         return self.rows.to_stop(job_id, attempt)
 
+    def asked_to_stop(self, job_id: str, attempt: int, by: str) -> None:
+        """Note who stopped an attempt, where the database does not know it yet."""
+        job = self._current(job_id, attempt)
+        if job is not None and not job.cancel_requested_by:
+            job.cancel_requested_by = named(by)
+
     def keep(self, job_id: str, attempt: int, parts: Sequence[Any]) -> None:
         """Store parts of the result of an attempt; nothing happens if the job has ended or was taken over."""
         job = self._current(job_id, attempt)
@@ -209,10 +217,15 @@ class JobService(Generic[Row, Result]):
         self._end(job, state, reason)
         return True
 
-    def fail(self, job_id: str, attempt: int, reason: str) -> None:
-        """End a job whose attempt failed, unless it has ended or was taken over."""
+    def fail(self, job_id: str, attempt: int, reason: str, stopped: bool = False) -> None:
+        """End a job whose attempt failed, unless it has ended or was taken over.
+
+        `stopped`: it had stopped because it was cancelled, and failed when its result was saved, as on a full disk.
+        """
         job = self._current(job_id, attempt)
-        if job is not None:
+        if job is not None and stopped and job.cancel_requested_by:
+            self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}. No result was stored: {reason}")
+        elif job is not None:
             self._end(job, State.FAILED, reason)
 
     def stop(self, job_id: str, attempt: int) -> None:

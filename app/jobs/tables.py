@@ -64,6 +64,19 @@ class QueueState(Base):
         return f"queue held by {self.held_by}{': ' if self.held_reason else ''}{self.held_reason}"
 
 
+class AbortPress(Base):
+    """One press of Abort: who and when, when it was recorded, and who released the queue after it."""
+
+    __tablename__ = "abort_press"
+
+    id: Mapped[str] = mapped_column(sa.String(36), primary_key=True)
+    pressed_by: Mapped[str] = mapped_column(sa.String(80))
+    pressed_at: Mapped[datetime]
+    recorded_at: Mapped[datetime]
+    released_at: Mapped[datetime | None]
+    released_by: Mapped[str | None] = mapped_column(sa.String(80))
+
+
 class WorkerHeartbeat(Base):
     """Time of the last heartbeat of a worker, and how many tests it executes at the same time."""
 

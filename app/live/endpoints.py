@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import struct
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
+from app.abort.links import WorkerLink, WorkerLinks
 from app.access import WORKER, allowed
 from app.live.hub import Hub
 
@@ -17,9 +19,12 @@ FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
 @router.websocket("/api/v1/worker")
 @allowed(WORKER)
 async def ingest(socket: WebSocket) -> None:
-    """Receive frames and messages from a worker, whose token the gate has checked."""
+    """Receive frames and messages from a worker, whose token the gate has checked, and tell it the latch of Abort."""
     await socket.accept()
     hub: Hub = socket.app.state.hub
+    links: WorkerLinks = socket.app.state.desk.links
+    link = WorkerLink(socket.send_text, socket.close)
+    telling = asyncio.create_task(links.keep(link))
     try:
         while True:
             message = await socket.receive()
@@ -30,6 +35,12 @@ async def ingest(socket: WebSocket) -> None:
                 hub.frame(run_id.decode(), attempt, message["bytes"][FRAME_HEADER.size :])
             else:
                 sent = json.loads(message["text"])
+                if "worker" in sent:
+                    links.take(link, sent)
+                    continue
                 hub.take(sent["run_id"], sent["attempt"], sent["message"])
     except WebSocketDisconnect:
         return
+    finally:
+        telling.cancel()
+        await asyncio.gather(telling, return_exceptions=True)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Body, Query
 
-from app.access import Role, Scope, allowed
+from app.access import Role, allowed
 from app.openapi import told
 from app.queue.dependency import Queued
 from app.queue.schemas import MOST_RUNS, Cancelled, CancelledOut, HoldIn, Move, NewPriority, QueueOut
@@ -63,10 +63,3 @@ def release(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> Queue
     """Release the queue after a hold or an abort, so that queued tests start."""
     queued.release(person.by)
     return queued.state()
-
-
-@router.post("/abort")
-@allowed(Role.VIEWER, *Scope, remembered=True)
-def abort(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> dict[str, Any]:
-    """Hold the queue and stop every running test. This is not the laboratory's emergency stop."""
-    return {"held": True, "stopping": [run.id for run in queued.abort(person.by)]}

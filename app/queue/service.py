@@ -6,8 +6,12 @@ from collections.abc import Sequence
 
 from sqlalchemy.orm import Session
 
+from app.db import afterwards
+from app.jobs.aborts import ABORTED, Aborts
 from app.jobs.hold import Hold
 from app.jobs.service import JobService, named
+from app.jobs.tables import QueueState
+from app.latch import Latch
 from app.models import Run
 from app.problems import Conflict
 from app.queue.outlook import outlook
@@ -18,19 +22,19 @@ from app.runs.job import RUNS
 from app.runs.order import Outcome
 from rths_engine.foundation.errors import Issue, RthsError
 
-ABORTED = "running tests aborted"
-
 
 class QueueService:
     """Rules of the queue of tests. No SQL, no HTTP."""
 
-    def __init__(self, session: Session):
+    def __init__(self, session: Session, latch: Latch | None = None):
         self.session, self.rows, self.hold = session, QueueRepository(session), Hold(session)
+        self.latch = latch or Latch()
+        self._released: list[str] = []
         self.jobs: JobService[Run, Outcome] = JobService(session, RUNS)
 
     def state(self, limit: int = 200) -> QueueOut:
         """The queue with its first `limit` waiting tests."""
-        return outlook(self.session, self.rows, self.hold.state, limit)
+        return outlook(self.session, self.rows, self._held(), limit)
 
     def move(self, asked: Move) -> None:
         """Move queued runs as a block, in the order given. Raises Conflict for a run that does not wait any more."""
@@ -79,12 +83,19 @@ class QueueService:
         self.hold.set(named(by), reason.strip())
 
     def release(self, by: str) -> None:
+        """Release the queue, and the latch of every service and worker once that is stored."""
+        self.hold.locked()
+        self._released = released = Aborts(self.session).release(self.latch.presses, by)
         self.hold.release(named(by))
+        afterwards(self.session, "after_commit", lambda: self.latch.merge([], released))
 
-    def abort(self, by: str) -> list[Run]:
-        """Hold the queue and stop every running test. A run that a worker is about to start stays in the queue."""
-        self.hold.set(named(by), ABORTED)
-        return self.jobs.cancel_running(by)
+    def _held(self) -> QueueState:
+        """The hold; that of a press of Abort which the database does not know yet too."""
+        stored, pressed = self.hold.state, [one for one in self.latch.presses if one.id not in self._released]
+        if stored.held or not pressed:
+            return stored
+        first = pressed[0]
+        return QueueState(id=1, held=True, held_by=named(first.by), held_at=first.time, held_reason=ABORTED)
 
     def _check_waiting(self, runs: Sequence[str], waiting: set[str]) -> None:
         for run in runs:

@@ -56,9 +56,10 @@ class Done:
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """The reason why a job failed."""
+    """The reason why a job failed. `stopped`: it had stopped because it was cancelled, and failed afterwards."""
 
     reason: str
+    stopped: bool = False
 
 
 class Refused(Exception):
@@ -73,6 +74,7 @@ class Line:
         self._orders: queue.SimpleQueue[Order] = queue.SimpleQueue()
         self._current: str | None = None
         self._cancelled = threading.Event()
+        self.stopped = False
         threading.Thread(target=self._listen, daemon=True, name="rths-line").start()
 
     def order(self) -> Order:
@@ -100,6 +102,7 @@ class Line:
 
     def stopping(self) -> None:
         """Answer a cancel: the job has stopped, and the process is saving its result."""
+        self.stopped = True
         self.send(Stopping())
 
     def _listen(self) -> None:
@@ -110,6 +113,7 @@ class Line:
                 os._exit(0)  # the worker has ended
             if isinstance(heard, Order):
                 self._cancelled.clear()
+                self.stopped = False
                 self._current = heard.job_id
                 self._orders.put(heard)
             elif heard == Cancel(self._current or ""):
@@ -141,4 +145,4 @@ def _outcome(executing: Any, order: Order, line: Line) -> Done | Failed:
     except Refused as refused:
         return Failed(str(refused))
     except Exception as error:
-        return Failed(f"{type(error).__name__}: {error}")
+        return Failed(f"{type(error).__name__}: {error}", line.stopped)

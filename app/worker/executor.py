@@ -18,10 +18,11 @@ from app.db import unit_of_work
 from app.jobs.kind import Kind
 from app.jobs.order import Order
 from app.jobs.service import JobService
+from app.latch import Latch
 from app.worker.child import Done, Failed, Part, Progress
-from app.worker.link import Link, Telling
+from app.worker.link import Links, Telling
 from app.worker.patience import patiently
-from app.worker.pool import JobProcess, Outcome, Pool, ProcessDied
+from app.worker.pool import JobProcess, Killed, Outcome, Pool, ProcessDied
 
 log = logging.getLogger("rths.worker")
 WAIT_POLL_S = 0.1
@@ -64,8 +65,17 @@ class Running:
 class Executor:
     """Executes jobs in processes. `running` maps the ids of running jobs to these jobs."""
 
-    def __init__(self, settings: Settings, maker: sessionmaker[Session], link: Link, name: str, kinds: Sequence[AnyKind]):
+    def __init__(
+        self,
+        settings: Settings,
+        maker: sessionmaker[Session],
+        link: Links,
+        name: str,
+        kinds: Sequence[AnyKind],
+        latch: Latch | None = None,
+    ):
         self.settings, self.maker, self.link, self.name = settings, maker, link, name
+        self.latch = latch or Latch()
         self.pools = {kind.name: Pool(kind, kind.at_a_time(settings)) for kind in kinds}
         self.running: dict[str, Running] = {}
         self._lock = threading.Lock()
@@ -84,6 +94,15 @@ class Executor:
             running = list(self.running.values())
         for one in running:
             self._look(one)
+
+    def stop_tests(self) -> list[str]:
+        """Stop the running jobs that wait while the queue is held; the ids of those that are still executed. No database."""
+        with self._lock:
+            running = [one for one in self.running.values() if one.kind.waits_while_held]
+        executed = [one for one in running if one.process.order is not None]
+        for one in executed:
+            one.process.cancel()
+        return [one.order.job_id for one in executed]
 
     def _keep(self, one: Running) -> None:
         """Store the parts that the process has sent, each once."""
@@ -127,14 +146,19 @@ class Executor:
         finally:
             pool.give(process)
 
+    def _aborted(self, kind: AnyKind) -> bool:
+        return kind.waits_while_held and self.latch.held
+
     def _may_start(self, kind: AnyKind) -> bool:
+        if self._aborted(kind):
+            return False
         with unit_of_work(self.maker) as session:
             return JobService(session, kind).may_start()
 
     def _start(self, kind: AnyKind, turn: str) -> tuple[Order | None, bool]:
         """The order of the job that starts in this turn, and whether the turn waits instead."""
         with unit_of_work(self.maker) as session:
-            taken = JobService(session, kind).start(turn, self.name)
+            taken = JobService(session, kind).start(turn, self.name, self._aborted(kind))
             for job in (taken.left, taken.started):
                 if job is not None:
                     kind.clear(job, self.settings)
@@ -152,7 +176,7 @@ class Executor:
         try:
             try:
                 with logs.about(run=order.job_id):
-                    outcome = process.execute(order, running.take)
+                    outcome = Killed() if self._aborted(kind) else process.execute(order, running.take)
             finally:
                 patiently(lambda: self._keep(running))
             self._end(kind, order, outcome)
@@ -174,11 +198,13 @@ class Executor:
     def _store(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
         with unit_of_work(self.maker) as session:
             jobs = JobService(session, kind)
+            if kind.waits_while_held and (by := self.latch.by) is not None:
+                jobs.asked_to_stop(order.job_id, order.attempt, by)
             if isinstance(outcome, Done):
                 if jobs.finish(order.job_id, order.attempt, outcome.result):
                     session.flush()
                     kind.place(order, self.settings)
             elif isinstance(outcome, Failed):
-                jobs.fail(order.job_id, order.attempt, outcome.reason)
+                jobs.fail(order.job_id, order.attempt, outcome.reason, outcome.stopped)
             else:
                 jobs.stop(order.job_id, order.attempt)

@@ -1,4 +1,8 @@
-"""The websocket from a worker to the web service, for frames and messages. Frames may be lost; the recording is complete."""
+"""The websockets from a worker to the web services: frames and messages go up, the latch of Abort both ways.
+
+Frames may be lost; the recording is complete. Each connection has a thread that sends and one that listens, so that a service
+that reads slowly does not delay Abort.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,7 @@ import json
 import logging
 import threading
 import time
+from contextlib import suppress
 from typing import Any
 
 from websockets.exceptions import ConnectionClosedError, WebSocketException
@@ -14,6 +19,7 @@ from websockets.sync.client import ClientConnection, connect
 from app.gate import NOT_ALLOWED
 from app.live.endpoints import FRAME_HEADER
 from app.live.frames import FrameStore
+from app.worker.stopping import Stopper
 
 log = logging.getLogger(__name__)
 SHORTEST_GAP_S = 0.02
@@ -40,9 +46,11 @@ class Telling:
         else:
             self.progress = message
 
-    def forget(self) -> None:
-        """Drop all frames and messages except the end: they are in the recording."""
-        self.schema = self.store = self.progress = None
+    def only_end(self) -> Telling:
+        """The end without frames and messages: they are in the recording."""
+        end = Telling(self.run_id, self.attempt)
+        end.ended = True
+        return end
 
 
 class _Cursor:
@@ -77,19 +85,24 @@ class _Cursor:
 
 
 class Link:
-    """The connection to the web service, in a thread. It reconnects after pauses and then sends everything again."""
+    """The connection to one web service. It reconnects after pauses and then sends everything again."""
 
-    def __init__(self, url: str, token: str):
-        self.url, self.token = url, token
+    def __init__(self, url: str, token: str, worker: str = "", stopper: Stopper | None = None):
+        self.url, self.token, self.worker, self.stopper = url, token, worker, stopper
         self._tellings: list[Telling] = []
         self._lock = threading.Lock()
+        self._due, self._changed = threading.Event(), threading.Event()
         threading.Thread(target=self._keep, daemon=True, name="rths-link").start()
 
-    def open(self, run_id: str, attempt: int) -> Telling:
-        telling = Telling(run_id, attempt)
+    def add(self, telling: Telling) -> None:
+        """Send the frames and messages of an execution."""
         with self._lock:
             self._tellings.append(telling)
-        return telling
+
+    def tell_latch(self) -> None:
+        """Say at once what this worker knows of Abort."""
+        self._changed.set()
+        self._due.set()
 
     def _keep(self) -> None:
         delay = BACK_OFF_S[0]
@@ -98,6 +111,8 @@ class Link:
             try:
                 headers = {"Authorization": f"Bearer {self.token}"}
                 with connect(self.url, additional_headers=headers, compression=None, max_size=None) as socket:
+                    listening = threading.Thread(target=self._listen, args=(socket,), daemon=True, name="rths-link-listens")
+                    listening.start()
                     self._tell(socket)
             except (OSError, WebSocketException) as error:
                 refused = isinstance(error, ConnectionClosedError) and error.rcvd is not None and error.rcvd.code == NOT_ALLOWED
@@ -109,15 +124,26 @@ class Link:
             delay = min(2 * delay, BACK_OFF_S[1])
 
     def _forget_ended(self) -> None:
-        """Free the memory of runs that have ended while there is no connection."""
+        """Free the memory of runs that have ended while there is no connection; their ends are told later."""
         with self._lock:
-            for telling in self._tellings:
-                if telling.ended:
-                    telling.forget()
+            self._tellings = [telling.only_end() if telling.ended else telling for telling in self._tellings]
+
+    def _listen(self, socket: ClientConnection) -> None:
+        """Take the latch whenever the service tells it."""
+        with suppress(WebSocketException, OSError):
+            for message in socket:
+                told = json.loads(message)
+                if self.stopper is not None and "latch" in told:
+                    self.stopper.latch.take(told["latch"])
+        self._due.set()
 
     def _tell(self, socket: ClientConnection) -> None:
         cursors: dict[int, _Cursor] = {}
+        self._changed.set()
         while True:
+            if self._changed.is_set() and self.stopper is not None:
+                self._changed.clear()
+                socket.send(json.dumps({"worker": self.worker, **self.stopper.as_dict()}))
             with self._lock:
                 tellings = list(self._tellings)
             for telling in tellings:
@@ -125,7 +151,27 @@ class Link:
                     del cursors[id(telling)]
                     with self._lock:
                         self._tellings.remove(telling)
-            try:
-                socket.recv(timeout=SHORTEST_GAP_S)
-            except TimeoutError:
-                continue
+            self._due.wait(SHORTEST_GAP_S)
+            self._due.clear()
+            if socket.close_code is not None:
+                raise socket.protocol.close_exc
+
+
+class Links:
+    """The connections to all web services: `web` are their addresses, separated by commas."""
+
+    def __init__(self, web: str, token: str, worker: str, stopper: Stopper):
+        addresses = [one.strip() for one in web.split(",") if one.strip()]
+        self._links = [Link(f"{one}/api/v1/worker", token, worker, stopper) for one in addresses]
+        stopper.tell = self._tell_latch
+
+    def open(self, run_id: str, attempt: int) -> Telling:
+        """Tell every service what happens in an execution."""
+        telling = Telling(run_id, attempt)
+        for link in self._links:
+            link.add(telling)
+        return telling
+
+    def _tell_latch(self) -> None:
+        for link in self._links:
+            link.tell_latch()

@@ -27,12 +27,14 @@ from app.db import DATABASE_SILENT, check_schema, connect, sessions
 from app.jobs.kind import Kind
 from app.jobs.queue import APPLICATION, VERSION
 from app.jobs.service import MOST_ATTEMPTS
+from app.latch import Latch
 from app.monitoring import reporting, statements
 from app.worker.executor import Executor
 from app.worker.kinds import KINDS
-from app.worker.link import Link
+from app.worker.link import Links
 from app.worker.patience import patiently
 from app.worker.peers import Peers, unique
+from app.worker.stopping import Stopper
 from rths_engine.foundation.errors import RthsError
 
 log = logging.getLogger("rths.worker")
@@ -46,7 +48,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="rths worker", description="Execute queued tests and diagnoses.")
     parser.add_argument("--data", type=Path, help="data folder (RTHS_DATA)")
     parser.add_argument("--database-url", help="database (RTHS_DATABASE_URL)")
-    parser.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the web service")
+    parser.add_argument("--web", default="ws://127.0.0.1:8000", help="addresses of the web services, separated by commas")
     parser.add_argument("--name", default=socket.gethostname(), help="name of this worker")
     parser.add_argument("--boot", help="word that tells this start of the worker apart from others of the same name")
     parser.add_argument("--workers", type=int, dest="worker_concurrency", help="tests at the same time (RTHS_WORKERS)")
@@ -76,8 +78,11 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     statements.watch(engine)
     maker = sessions(engine)
     acts(maker, Acting(worker, "worker"))
-    link = Link(f"{web}/api/v1/worker", settings.worker_token)
-    executor = Executor(settings, maker, link, worker, kinds)
+    latch = Latch()
+    stopper = Stopper(latch)
+    links = Links(web, settings.worker_token, worker, stopper)
+    executor = Executor(settings, maker, links, worker, kinds, latch)
+    stopper.start(executor.stop_tests)
     peers = Peers(maker, worker, settings.worker_concurrency)
     patiently(peers.beat)  # before the queue is served: whoever holds a turn without a heartbeat is dead
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
@@ -103,7 +108,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
         )
     reporting.start(maker, worker)
     try:
-        _watch(executor, peers)
+        _watch(executor, peers, stopper)
     finally:
         with suppress(Exception):
             peers.leave()
@@ -122,11 +127,12 @@ def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
         execute(turn)
 
 
-def _watch(executor: Executor, peers: Peers) -> None:
+def _watch(executor: Executor, peers: Peers, stopper: Stopper) -> None:
     """Store progress, pass on cancels, write this worker's heartbeat, and take over the jobs of workers that have died."""
     looked = 0.0
     while True:
         try:
+            stopper.look(executor.maker, [pool.kind for pool in executor.pools.values()])
             executor.look()
             if time.monotonic() - looked >= LOOK_S:
                 looked = time.monotonic()

@@ -54,7 +54,8 @@ def link(settings: Settings, port: int) -> Link:
 @pytest.fixture
 def tell(link: Link) -> tuple[Telling, Callable[[int], None]]:
     """What is told of a run, and how to tell more of it."""
-    telling = link.open(RUN, 1)
+    telling = Telling(RUN, 1)
+    link.add(telling)
     signals = np.random.default_rng(1).normal(size=(TOTAL, 2))
     decimator = Decimator(CHANNELS, 1, 1e-3)
     telling.take(schema(1, 1e-3, 1, TOTAL, decimator.channels))
@@ -117,7 +118,7 @@ def test_runs_that_end_while_the_web_is_away_take_no_memory(link: Link, tell: tu
     more(TOTAL)
     assert telling.store is not None
     telling.ended = True
-    until(lambda: telling.store, lambda store: store is None)
+    until(lambda: [one.store for one in link._tellings], lambda stores: stores == [None])
 
 
 def test_a_web_service_that_comes_back_is_told_of_ends_it_missed(

@@ -13,10 +13,12 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
 from app.config import Settings
+from app.jobs.aborts import Aborts
 from app.jobs.hold import Hold
 from app.jobs.repository import JobRepository
 from app.jobs.service import JobService
 from app.jobs.states import IllegalTransition, State
+from app.latch import Latch
 from app.models import Run
 from app.queue.service import QueueService
 from app.runs.job import RUNS
@@ -69,6 +71,11 @@ def service(session: Session, queue: Any = None) -> RunService:
 
 def queue(session: Session) -> QueueService:
     return QueueService(session)
+
+
+def abort(session: Session, by: str = "Bo") -> list[str]:
+    """Record a press of Abort."""
+    return Aborts(session).record(Latch().press(by), [RUNS])
 
 
 def jobs(session: Session) -> JobService[Run, Outcome]:
@@ -130,7 +137,7 @@ def test_a_run_cancelled_while_a_worker_takes_it_does_not_start(maker: sessionma
 def test_a_run_that_a_worker_takes_at_the_moment_of_an_abort_stays_queued(maker: sessionmaker[Session]) -> None:
     run_id = submitted(maker)
     with db.unit_of_work(maker) as session:
-        assert queue(session).abort("Bo") == []
+        assert abort(session) == []
         meanwhile = Meanwhile(maker, run_id)
     assert meanwhile.result() is None
     run = run_of(maker, run_id)
@@ -150,7 +157,7 @@ def test_a_cancel_sees_the_state_at_its_turn_not_the_one_it_read_before(maker: s
 def test_abort_asks_every_running_test_to_stop_and_leaves_waiting_ones(maker: sessionmaker[Session]) -> None:
     running, waiting = [started(maker), started(maker)], submitted(maker)
     with db.unit_of_work(maker) as session:
-        assert [run.id for run in queue(session).abort("Bo")] == running
+        assert abort(session) == running
     assert [run_of(maker, run_id).cancel_requested_by for run_id in [*running, waiting]] == ["Bo", "Bo", None]
     assert run_of(maker, waiting).state is State.QUEUED
 
@@ -162,14 +169,14 @@ def test_abort_holds_the_queue_even_when_a_test_ends_at_that_moment(
     with db.unit_of_work(maker) as session:
         jobs(session).fail(run_id, 1, "crashed")
         monkeypatch.setattr(JobRepository, "ids", lambda *_: [run_id])
-        assert queue(session).abort("Bo") == []
+        assert abort(session) == []
     with db.unit_of_work(maker) as session:
         assert Hold(session).held
     assert run_of(maker, run_id).reason == "crashed"
 
 
 def test_release_forgets_who_held_the_queue(maker: sessionmaker[Session]) -> None:
-    acts: tuple[Callable[[QueueService], object], ...] = (lambda one: one.abort(" "), lambda one: one.release("Ana"))
+    acts: tuple[Callable[[QueueService], object], ...] = (lambda one: abort(one.session, " "), lambda one: one.release("Ana"))
     for act in acts:
         with db.unit_of_work(maker) as session:
             act(queue(session))

@@ -6,7 +6,9 @@ import hashlib
 import json
 import os
 import signal
+import sqlite3
 import time
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +20,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
 from rths_engine.recordings.run_file import load
-from tests.browser.service import Service, running
+from tests.browser.service import DATABASE_URL, Service, running, until
 
 SLOW = {"kind": "real_time", "factor": 1.0}
 QUICK = {"kind": "real_time", "factor": 8.0}
@@ -145,6 +147,24 @@ def test_abort_holds_what_waits_and_release_lets_it_run(service: Service) -> Non
     assert service.get(f"/runs/{waiting}")["state"] == "queued"
     service.post("/queue/release", {})
     assert service.wait(waiting)["state"] == "completed"
+
+
+@pytest.mark.skipif(bool(DATABASE_URL), reason="the lock is that of SQLite")
+def test_abort_stops_a_test_while_another_connection_holds_the_lock_of_the_database(service: Service) -> None:
+    run = service.submit(pace=SLOW, duration=30.0)
+    service.wait(run, "running")
+    with closing(sqlite3.connect(service.data / "rths.sqlite", isolation_level=None, timeout=60)) as other:
+        other.execute("begin immediate")
+        answer = service.post("/abort", {"by": "Bo"})
+        assert (answer["held"], answer["recorded"]) == (True, False)
+        until(lambda: service.get("/abort"), lambda found: found["acknowledged"] and not found["running"])
+        other.rollback()
+    ended = service.wait(run)
+    assert ended["state"] == "cancelled" and ended["reason"].startswith("Stopped by Bo at ")
+    assert ended["recording"]["sha256"]
+    until(lambda: service.get("/abort")["recorded"], bool)
+    service.post("/queue/release", {})
+    assert not service.get("/abort")["held"]
 
 
 def test_the_order_of_the_queue_holds_while_two_run_and_their_worker_is_killed(service: Service) -> None:

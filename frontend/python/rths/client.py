@@ -177,6 +177,16 @@ class Client:
         """Cancel a queued or running job."""
         return type(job).of(self._json("POST", f"/{job.route}/{job.id}/cancel", json={"by": self.by}))
 
+    def abort(self) -> dict[str, Any]:
+        """Stop every running test and hold the queue; what the workers have acknowledged and whether the hold is recorded."""
+        found: dict[str, Any] = self._json("POST", "/abort", json={"by": self.by})
+        return found
+
+    def aborted(self) -> dict[str, Any]:
+        """What is known of Abort now, as `abort` returns it."""
+        found: dict[str, Any] = self._json("GET", "/abort")
+        return found
+
     def _json(self, method: str, path: str, **request: Any) -> Any:
         return self._answer(method, path, **request).json()
 

@@ -1,11 +1,14 @@
 // @ts-check
-// The bar on every page while a test runs. Abort asks for a second press, then stops all tests and holds the queue.
+// The bar on every page while a test runs, or while the service does not say whether one runs. Abort asks for a second press,
+// then stops all tests and holds the queue; the bar says which workers have acknowledged and whether the hold is recorded.
 import { api, explain } from "./api.js";
 import { byId, el, renew } from "./dom.js";
 import { person } from "./person.js";
 
 const PERIOD_MS = 1500;
 const CONFIRM_MS = 5000;
+const PATIENCE_MS = 4000;
+const FOLLOW_MS = 250;
 const bar = byId("abort");
 
 const names = el("span", { class: "running" });
@@ -19,6 +22,7 @@ const words = el(
 bar.append(names, words, note, button);
 
 let armed = 0;
+let following = false;
 
 function disarm() {
   clearTimeout(armed);
@@ -37,30 +41,52 @@ button.addEventListener("click", async () => {
   disarm();
   note.textContent = "Stopping …";
   try {
-    await api.post("/abort", { by: person() });
-    note.textContent = "Stopped. The queue is held: release it on the page Queue.";
+    await follow(await api.post("/abort", { by: person() }));
     document.dispatchEvent(new Event("aborted"));
   } catch (error) {
-    note.textContent = `Not stopped: ${explain(error)}`;
+    following = false;
+    note.textContent = `Not acknowledged: ${explain(error)} Press Abort again.`;
   }
 });
+
+/**
+ * Show what is known until every worker has acknowledged, no test runs, and the hold is recorded.
+ * @param {{held: boolean, acknowledged: boolean, recorded: boolean, running: string[], sentence: string}} known
+ */
+async function follow(known) {
+  following = true;
+  while (known.held) {
+    note.textContent = known.sentence;
+    if (known.acknowledged && known.recorded && !known.running.length) {
+      note.textContent = `${known.sentence} Release it on the page Queue.`;
+      return;
+    }
+    await new Promise((wake) => setTimeout(wake, FOLLOW_MS));
+    known = await api.get("/abort", AbortSignal.timeout(PATIENCE_MS));
+  }
+  following = false;
+  note.textContent = known.sentence;
+}
+
 button.addEventListener("blur", disarm);
 button.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => event.key === "Escape" && disarm());
 
 async function refresh() {
   try {
-    const { runs, total } = await api.get("/runs?state=running&limit=5");
+    const { runs, total } = await api.get("/runs?state=running&limit=5", AbortSignal.timeout(PATIENCE_MS));
     if (total) {
-      if (bar.hidden) note.textContent = "";
+      if (bar.hidden || !following) note.textContent = "";
       renew(names, "Running: ", ...runs.map(link).flatMap((/** @type {Node} */ a, /** @type {number} */ i) => (i ? [", ", a] : [a])));
       bar.hidden = false;
     } else {
-      bar.hidden = !note.textContent.startsWith("Stopped") || bar.hidden;
+      bar.hidden = !following || bar.hidden;
       if (!bar.hidden) names.textContent = "No test is running. ";
     }
     button.disabled = !total;
   } catch (error) {
-    note.textContent = bar.hidden ? "" : explain(error);
+    names.textContent = "Whether a test runs is not known. ";
+    if (!following) note.textContent = explain(error);
+    bar.hidden = button.disabled = false;
   }
   setTimeout(refresh, PERIOD_MS);
 }
