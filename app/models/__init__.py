@@ -7,12 +7,25 @@ from app.models.diagnoses import Diagnosis, DiagnosisInput
 from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
 from app.models.measured import ImportBatch, MeasuredRecording, RawFile, SavedMapping
 from app.models.operation import WorkerMetrics
-from app.models.runs import EMULATED, LONGEST_VALUE, Annotation, Rig, Run, RunPlan, RunStation, RunValue, RunView, ValuePath
+from app.models.runs import (
+    EMULATED,
+    LONGEST_VALUE,
+    SORTED,
+    Annotation,
+    Rig,
+    Run,
+    RunPlan,
+    RunStation,
+    RunValue,
+    RunView,
+    ValuePath,
+)
 from app.models.sweeps import Sweep, SweepPart, SweepShard
 
 __all__ = [
     "EMULATED",
     "LONGEST_VALUE",
+    "SORTED",
     "Account",
     "AccountLink",
     "AccountSession",

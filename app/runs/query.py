@@ -8,6 +8,7 @@ of all runs. The way to a page depends on how many runs the filter keeps:
 - Many, in the order of values: walk along the values of the column and keep the runs that the filter keeps, until the page is
   full. A walk that is not done after BUDGET values is given up for a scan.
 - Many, else: scan all runs, join the value to sort by, and sort. The time is bounded by the number of runs.
+- All runs of a shelf: walk along the index of the column, without a look at the runs themselves: `app/runs/pages.py`.
 """
 
 from __future__ import annotations
@@ -20,9 +21,11 @@ import sqlalchemy as sa
 from sqlalchemy.orm import Session, aliased
 
 from app.models import Run, RunValue, ValuePath
+from app.runs import pages
 from app.runs.columns import Column
 from app.runs.conditions import matches, missing, stored
 from app.runs.expressions import Condition
+from app.runs.pages import EMPTY, SCANNED, Order
 
 # chosen; docs/decisions/0046 has the measurements
 FEW = 5_000  # runs that a filter keeps and that are counted; a list says when there are more
@@ -30,14 +33,6 @@ BUDGET = 5_000  # values that a walk reads before it leaves the page to a scan
 NEGATED = ("!=", "!~")
 
 Sql = sa.ColumnElement[bool]
-
-
-@dataclass(frozen=True, slots=True)
-class Order:
-    """The order of a list. Runs without a value come last; runs with equal values are in the order of their numbers."""
-
-    column: Column
-    descending: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,21 +54,22 @@ class RunQuery:
         self.ids = path_ids(session, [column.key for column, _ in filters if not column.stored])
         conditions = [*where, *(_on_run(column, condition) for column, condition in filters if column.stored)]
         conditions += [self._on_value(column, condition) for column, condition in filters if not column.stored]
-        self.filters = filters
+        self.filters, self.shelf = filters, list(shelf)
         self.filtered, self.where = bool(conditions), [*shelf, *conditions]
 
     def page(self, order: Order, limit: int, offset: int = 0) -> Found:
         """A page of the runs that the filter keeps, and their number."""
         path = None if order.column.stored else path_ids(self.session, [order.column.key]).get(order.column.key)
+        if not self.filtered:
+            return Found(pages.page(self.session, self.shelf, order, path, limit, offset), self.count())
         kept = self._kept(order, path)
-        if self.filtered:
-            few = self._sorted(order, kept.limit(FEW + 1))
-            if len(few) <= FEW:
-                return Found(few[offset : offset + limit], len(few))
+        few = self._sorted(order, kept.limit(FEW + 1))
+        if len(few) <= FEW:
+            return Found(few[offset : offset + limit], len(few))
         numbers = self._walk(order, path, limit, offset) if path is not None and offset + limit <= BUDGET else []
         if len(numbers) < limit:
             numbers = self._sorted(order, kept, limit, offset)
-        return Found(numbers, FEW, exact=False) if self.filtered else Found(numbers, self.count())
+        return Found(numbers, FEW, exact=False)
 
     def count(self) -> int:
         """The number of all runs that the filter keeps."""
@@ -82,10 +78,10 @@ class RunQuery:
     def _kept(self, order: Order, path: int | None) -> sa.Select[Any]:
         """The runs that the filter keeps: their numbers, and the keys to sort by."""
         if order.column.stored:
-            return sa.select(Run.number, _sort_key(order.column).label("key")).where(*self.where)
+            return sa.select(Run.number, _sort_key(order.column).label("key")).where(SCANNED, *self.where)
         value = aliased(RunValue)
         at = (value.path_id == (path or 0)) & (value.run_number == Run.number)
-        return sa.select(Run.number, _key(value, order.column).label("key")).outerjoin(value, at).where(*self.where)
+        return sa.select(Run.number, _key(value, order.column).label("key")).outerjoin(value, at).where(SCANNED, *self.where)
 
     def _sorted(self, order: Order, kept: sa.Select[Any], limit: int | None = None, offset: int = 0) -> list[int]:
         within = kept.subquery()
@@ -156,7 +152,7 @@ def _key(value: Any, column: Column) -> Any:
 
 
 def _sort_key(column: Column) -> Any:
-    return sa.func.nullif(stored(column), "") if column.key in ("tags", "notes") else stored(column)
+    return sa.func.nullif(stored(column), "") if column.key in EMPTY else stored(column)
 
 
 def _by(order: Order, key: Any, number: Any) -> list[Any]:

@@ -15,7 +15,8 @@ from app.models import LibraryPlan, PlanVersion, Run, RunStation
 from app.runs import values
 from app.runs.columns import known
 from app.runs.conditions import contains
-from app.runs.query import Order, RunQuery
+from app.runs.pages import Order
+from app.runs.query import RunQuery
 from app.runs.shelves import Shelf, on_shelf, searched
 from rths_engine.planning.plan import MOST_STATIONS
 

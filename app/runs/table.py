@@ -10,7 +10,8 @@ from sqlalchemy.orm import Session
 
 from app.runs import expressions
 from app.runs.columns import DEFAULT, FACTS, Column, column, known
-from app.runs.query import Order, RunQuery
+from app.runs.pages import Order
+from app.runs.query import RunQuery
 from app.runs.shelves import Shelf
 from app.runs.table_rows import TableRows
 from app.runs.table_schemas import Cell, Choice, ColumnList, ColumnOut, RowOut, RunTable
