@@ -2,15 +2,15 @@
 
 Each holds the column, the number of the run, and what hides a run: docs/decisions/0073. They replace the indexes of one column.
 
-Revises: 0022
+Revises: 0023
 """
 
 from __future__ import annotations
 
 from alembic import op
 
-revision = "0023"
-down_revision = "0022"
+revision = "0024"
+down_revision = "0023"
 branch_labels = None
 depends_on = None
 
