@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Any, Literal, TypeVar
@@ -13,6 +14,7 @@ from starlette.requests import HTTPConnection
 from app.roles import ROLE_OF, SCOPE_OF, Role, Scope
 
 __all__ = [
+    "ACTING",
     "ANYONE",
     "LOCAL",
     "PERSON",
@@ -28,6 +30,7 @@ __all__ = [
     "allowed",
     "declared",
     "person",
+    "stored_name",
 ]
 
 DECLARED = "__access__"
@@ -102,7 +105,16 @@ class SignedIn:
         return typed if self.how == "local" else self.name
 
 
+ACTING: ContextVar[SignedIn | None] = ContextVar("acting", default=None)
+"""The person behind the request that is being answered, set by the gate."""
+
 LOCAL = SignedIn("local administrator", Role.ADMINISTRATOR, "local")
+
+
+def stored_name(typed: str) -> str:
+    """The name to store for the person behind the present request; the typed name outside of requests."""
+    acting = ACTING.get()
+    return acting.named(typed) if acting else typed
 
 
 def person(connection: HTTPConnection) -> SignedIn:

@@ -17,7 +17,7 @@ from starlette.routing import Match, compile_path
 from starlette.types import ASGIApp, Receive, Send
 from starlette.types import Scope as Connection
 
-from app.access import LOCAL, PERSON, Access, Open, Role, Scope, SignedIn, declared
+from app.access import ACTING, LOCAL, PERSON, Access, Open, Role, Scope, SignedIn, declared
 from app.config import LOOPBACK, Settings
 from app.problems import problem
 
@@ -43,6 +43,7 @@ class Gate:
         if scope["type"] not in {"http", "websocket"}:
             await self.app(scope, receive, send)
             return
+        ACTING.set(None)
         match, access = self._access(scope)
         refusal = await self._refusal(scope, access)
         if refusal is None and match is Match.NONE:
@@ -93,6 +94,7 @@ class Gate:
         if person is None:
             return _sign_in(scope)
         scope[PERSON] = person
+        ACTING.set(person)
         if person.role < access.who:
             needed = f"It needs the role {access.who.name.lower()}; {person.name} is {person.role.name.lower()}."
             return problem(403, f"{needed} An administrator changes roles on the page Settings.")

@@ -61,6 +61,7 @@ from app.notifications.dispatcher import Dispatcher
 from app.notifications.endpoints import router as notifications
 from app.notifications.webhook_endpoints import router as webhooks
 from app.observing import Observed
+from app.pages.accounts import router as accounts_page
 from app.pages.audit import router as audit_page
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
@@ -162,6 +163,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(measured, max_body_size=configured.measurements_limit)
     app.mount("/static", allowed(ANYONE)(StaticFiles(directory=STATIC)), name="static")
     app.add_api_route("/api/docs", _docs, include_in_schema=False, response_class=HTMLResponse)
+    app.include_router(accounts_page)
     app.include_router(stability_page)
     app.include_router(batches_page)
     app.include_router(recordings_page)

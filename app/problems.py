@@ -49,6 +49,10 @@ class Conflict(Exception):
     """A request does not fit the present state of what it names."""
 
 
+class Forbidden(Exception):
+    """The person behind a request may not do what the request asks for."""
+
+
 class Unavailable(Exception):
     """The service cannot answer a request in time; the same request may succeed later."""
 
@@ -68,6 +72,7 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(NotFound, lambda _, error: problem(404, str(error)))
     app.add_exception_handler(Conflict, lambda _, error: problem(409, str(error)))
+    app.add_exception_handler(Forbidden, lambda _, error: problem(403, str(error)))
     app.add_exception_handler(Unavailable, _unavailable)
     app.add_exception_handler(DiskFull, lambda _, error: storage_full(str(error)))
     app.add_exception_handler(OSError, _disk_error)

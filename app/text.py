@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, StringConstraints
+from pydantic import AfterValidator, Field, StringConstraints
 
+from app.access import stored_name
 from rths_engine.foundation.errors import Issue, PlanError
 
 _UNSTORABLE = re.compile("[\x00\ud800-\udfff]")
@@ -22,6 +23,8 @@ def storable(text: str) -> str:
 
 
 Storable = Annotated[str, AfterValidator(storable)]
+PersonName = Annotated[Storable, Field(max_length=80, validate_default=True), AfterValidator(stored_name)]
+"""The name of who makes a request: as typed, or the account's whatever was typed."""
 Named = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1), AfterValidator(storable)]
 """Text without the spaces around it, which is not blank."""
 

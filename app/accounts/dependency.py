@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import Depends, Request
 from fastapi.responses import Response
 
+from app.access import SignedIn
 from app.accounts.credentials import Credentials
 from app.accounts.service import AccountService
 from app.accounts.signing_in import SigningIn
@@ -49,7 +50,11 @@ class Browser:
             secure=self.request.url.scheme == "https",
         )
 
-    def signs_out(self, response: Response) -> None:
+    def ends_session(self, who: SignedIn, signing: SigningIn, response: Response) -> None:
+        """End the session of a person, in the database and in the browser."""
+        if who.how == "session":
+            signing.end(who.account_id, who.credential_id)
+            self.forgets(who.account_id, who.credential_id)
         response.delete_cookie(cookie_name(self.request.app.state.settings), httponly=True, samesite="lax")
 
     def forgets(self, account_id: str, credential_id: str | None = None) -> None:

@@ -43,10 +43,7 @@ def sign_in(asked: Annotated[SignIn, Body()], signing: Signing, browser: OneBrow
 @allowed(Role.VIEWER, tokens=False)
 def sign_out(who: Who, signing: Signing, browser: OneBrowser, response: Response) -> None:
     """End the session of this browser."""
-    if who.how == "session":
-        signing.end(who.account_id, who.credential_id)
-        browser.forgets(who.account_id, who.credential_id)
-    browser.signs_out(response)
+    browser.ends_session(who, signing, response)
 
 
 @router.post("/sign-in/link/read", responses=told(404))

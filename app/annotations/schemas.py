@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.text import Storable
+from app.text import PersonName, Storable
 
 LATEST = 1e9  # s; the service compares a time with the duration of the run
 Time = Annotated[float, Field(ge=0, le=LATEST, allow_inf_nan=False)]
@@ -26,7 +26,7 @@ class Written(BaseModel):
         None, description="number of a station; null for the whole test"
     )
     text: Storable = Field(min_length=1, max_length=2000)
-    by: Storable = Field("", max_length=80)
+    by: PersonName = ""
 
 
 class AnnotationOut(Written):

@@ -12,11 +12,10 @@ from app.dependencies import Configured
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.schemas import Asked, DiagnosisDetail, DiagnosisList, DiagnosisOut, Simulations
 from app.openapi import told
-from app.runs.schemas import Person, RunOut
+from app.runs.schemas import Asking, RunOut
 from rths_engine.diagnosis.schema import Pictures, Verdict
 
 router = APIRouter(prefix="/api/v1/diagnoses", tags=["diagnoses"])
-NOBODY = Person()
 
 
 @router.post("", status_code=201, responses=told(404, 409))
@@ -75,16 +74,14 @@ def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> Pictures:
 
 @router.post("/{diagnosis_id}/cancel", responses=told(409))
 @allowed(Role.ENGINEER)
-def cancel(diagnosis_id: str, diagnoses: Diagnoses, person: Annotated[Person, Body()] = NOBODY) -> DiagnosisOut:
+def cancel(diagnosis_id: str, diagnoses: Diagnoses, person: Asking) -> DiagnosisOut:
     """Cancel a queued or running diagnosis. Only the status *cancelled* remains."""
     return DiagnosisOut.model_validate(diagnoses.cancel(diagnosis_id, person.by))
 
 
 @router.post("/{diagnosis_id}/simulations", status_code=201, responses=told(409))
 @allowed(Role.ENGINEER)
-def simulate(
-    diagnosis_id: str, diagnoses: Diagnoses, configured: Configured, person: Annotated[Person, Body()] = NOBODY
-) -> Simulations:
+def simulate(diagnosis_id: str, diagnoses: Diagnoses, configured: Configured, person: Asking) -> Simulations:
     """Queue the plan and the extended plan as ordinary runs under the recorded excitation, for comparison with the recording.
 
     The recorded command, ground motion, floor forces and start replace those of the plan where they differ.

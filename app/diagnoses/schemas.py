@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.jobs.states import State
 from app.openapi import PlanData
 from app.runs.schemas import RunOut
-from app.text import Storable
+from app.text import PersonName, Storable
 from rths_engine.diagnosis.schema import Verdict
 
 MOST_HELD_OUT = 20
@@ -48,7 +48,7 @@ class Asked(BaseModel):
         0.01, gt=0, le=0.5, description="false-alarm rate: probability of a mismatch where the models of the plan are right"
     )
     name: Storable = Field("", max_length=200)
-    submitted_by: Storable = Field("", max_length=80)
+    submitted_by: PersonName = ""
 
 
 class InputOut(BaseModel):

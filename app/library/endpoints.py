@@ -29,11 +29,11 @@ from app.library.schemas import (
 )
 from app.openapi import file, told
 from app.plans.dependency import Plans
-from app.runs.schemas import Person
+from app.runs.schemas import Asking
+from app.text import PersonName
 
 router = APIRouter(prefix="/api/v1/library", tags=["library of plans"])
 YAML: dict[str, Any] = {"requestBody": {"required": True, "content": {"application/yaml": {"schema": {"type": "string"}}}}}
-NOBODY = Person()
 NumberOfVersion = Annotated[int, InPath(ge=1, le=10**6, description="number of the version, from 1")]
 
 
@@ -64,7 +64,7 @@ class Imported(BaseModel):
 
     name: Name | None = None
     comment: Comment = ""
-    saved_by: str = Field("", max_length=80)
+    saved_by: PersonName = ""
 
 
 @router.get("/plans")
@@ -142,7 +142,7 @@ def duplicate(plan_id: str, asked: Annotated[Copy, Body()], plans: KeptPlans) ->
 
 @router.post("/plans/{plan_id}/archive")
 @allowed(Role.ENGINEER)
-def archive(plan_id: str, plans: KeptPlans, person: Annotated[Person, Body()] = NOBODY) -> LibraryPlanDetail:
+def archive(plan_id: str, plans: KeptPlans, person: Asking) -> LibraryPlanDetail:
     """Archive a plan: it leaves the list, and all its versions stay stored."""
     return plans.archive(plan_id, person.by)
 

@@ -9,10 +9,10 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstra
 
 from app.jobs.states import State
 from app.openapi import Issue, PlanData
-from app.text import Storable, storable
+from app.text import PersonName, Storable, storable
 
 LONGEST_COMMENT, MOST_TAGS = 2000, 20
-By = Annotated[Storable, Field(max_length=80, description="the person who makes the request")]
+By = Annotated[PersonName, Field(description="the person who makes the request")]
 Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=200), AfterValidator(storable)]
 Tag = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=40), AfterValidator(storable)]
 Tags = Annotated[list[Tag], Field(max_length=MOST_TAGS)]

@@ -11,7 +11,7 @@ from app.access import Role, allowed
 from app.measured.dependency import Batches
 from app.measured.schemas import BatchList, BatchOut, BatchSummary
 from app.openapi import file
-from app.text import Storable
+from app.text import PersonName, Storable
 
 router = APIRouter(prefix="/api/v1/recordings/batches", tags=["recordings"])
 
@@ -22,7 +22,7 @@ def add(
     batches: Batches,
     files: Annotated[list[UploadFile], File()],
     mapping: Annotated[Storable, Form(description="YAML or JSON")],
-    imported_by: Annotated[Storable, Form(max_length=80)] = "",
+    imported_by: Annotated[PersonName, Form()] = "",
     trust_mapping: Annotated[bool, Form()] = False,
 ) -> BatchOut:
     """Import many files, or ZIP archives of files, by one mapping; the response is a table of what differs.

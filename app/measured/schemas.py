@@ -8,7 +8,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.contents import Stated
-from app.text import Named, Storable
+from app.text import Named, PersonName, Storable
 
 
 class Mapped(BaseModel):
@@ -31,7 +31,7 @@ class NewMapping(Mapped):
     """A mapping to save: a file that has the layout, the mapping, its name, and the person who saves it."""
 
     name: Named = Field(max_length=200)
-    saved_by: Storable = Field("", max_length=80)
+    saved_by: PersonName = ""
 
 
 class NewName(BaseModel):
@@ -46,7 +46,7 @@ class Import(Mapped):
     """An import: file, mapping, name of the recording, and the person who imports."""
 
     name: Storable = Field("", max_length=200)
-    imported_by: Storable = Field("", max_length=80)
+    imported_by: PersonName = ""
 
 
 class RecordingOut(BaseModel):

@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.events.tables import EventKind
-from app.text import Storable
+from app.text import PersonName, Storable
 
 DEFAULT_KINDS = [EventKind.COMPLETED, EventKind.TRIPPED, EventKind.FAILED]
 
@@ -44,7 +44,7 @@ class WebhookIn(BaseModel):
     url: Storable = Field(min_length=1, max_length=2000, description="address that begins with http:// or https://")
     kinds: list[EventKind] = Field(DEFAULT_KINDS, min_length=1, description="kinds of event that are sent")
     secret: Storable = Field("", max_length=200, description="key of the signature; empty: a secret is made")
-    by: Storable = Field("", max_length=80)
+    by: PersonName = ""
 
 
 class WebhookChange(BaseModel):

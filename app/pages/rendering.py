@@ -12,6 +12,7 @@ from fastapi.templating import Jinja2Templates
 from jinja2 import Undefined
 
 from app import disk, headers
+from app.access import PERSON
 from app.full import FIX
 from app.models import Run
 from rths_engine.results.measure import Measure
@@ -118,6 +119,7 @@ templates.env.globals |= {"listed_measures": listed_measures, "belongs": belongs
 
 def page(request: Request, template: str, status: int = 200, **context: Any) -> HTMLResponse:
     """A template as a response with the headers of every page."""
+    context.setdefault("who", request.scope.get(PERSON))
     return templates.TemplateResponse(request, template, context, status_code=status, headers=HEADERS)
 
 

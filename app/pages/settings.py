@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.responses import HTMLResponse
 
-from app.access import Role, allowed
+from app.access import Role, Who, allowed
 from app.events.tables import EventKind
 from app.laboratory.dependency import OneLaboratory
 from app.pages.errors import PageRoute
@@ -18,9 +18,16 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/settings")
 @allowed(Role.VIEWER)
-def settings(request: Request, laboratory: OneLaboratory) -> HTMLResponse:
+def settings(request: Request, who: Who, laboratory: OneLaboratory) -> HTMLResponse:
     """The settings of the laboratory."""
-    return page(request, "settings.html", laboratory=laboratory.shown(), event_kinds=list(EventKind))
+    return page(
+        request,
+        "settings.html",
+        laboratory=laboratory.shown(),
+        event_kinds=list(EventKind),
+        administers=who.role is Role.ADMINISTRATOR,
+        roles=[role.name.lower() for role in Role],
+    )
 
 
 @router.get("/runs/{run_id}/designsafe")

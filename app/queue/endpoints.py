@@ -10,10 +10,9 @@ from app.access import Role, allowed
 from app.openapi import told
 from app.queue.dependency import Queued
 from app.queue.schemas import MOST_RUNS, Cancelled, CancelledOut, HoldIn, Move, NewPriority, QueueOut
-from app.runs.schemas import Person
+from app.runs.schemas import Asking
 
 router = APIRouter(prefix="/api/v1", tags=["queue"])
-NOBODY = Person()
 
 
 @router.get("/queue")
@@ -59,7 +58,7 @@ def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
 
 @router.post("/queue/release")
 @allowed(Role.OPERATOR)
-def release(queued: Queued, person: Annotated[Person, Body()] = NOBODY) -> QueueOut:
+def release(queued: Queued, person: Asking) -> QueueOut:
     """Release the queue after a hold or an abort, so that queued tests start."""
     queued.release(person.by)
     return queued.state()

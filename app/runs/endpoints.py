@@ -9,19 +9,18 @@ from fastapi import APIRouter, Body, Query
 from fastapi.responses import FileResponse, PlainTextResponse, Response, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from app.access import Role, Scope, allowed
+from app.access import Role, Scope, Who, allowed
 from app.dependencies import Configured
 from app.jobs.states import State
 from app.openapi import file, told
 from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, measures_text, recording_path
 from app.runs.repository import Filter, Page
-from app.runs.schemas import Person, RunDetail, RunList, RunOut, Submission, Submitted
+from app.runs.schemas import Asking, RunDetail, RunList, RunOut, Submission, Submitted
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning import plan_yaml
 
 router = APIRouter(prefix="/api/v1", tags=["runs"])
-NOBODY = Person()
 
 
 class Wanted(BaseModel):
@@ -62,14 +61,19 @@ class Wanted(BaseModel):
 
 @router.post("/runs", status_code=201)
 @allowed(Role.OPERATOR, Scope.SUBMIT)
-def submit(body: Annotated[Submission, Body()], runs: Runs) -> Submitted:
-    """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued."""
+def submit(body: Annotated[Submission, Body()], runs: Runs, who: Who) -> Submitted:
+    """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued.
+
+    An operator queues plans of the library only: `library` names the version, and the plan is that version.
+    """
     if (body.plan is None) == (body.plans is None):
         raise PlanError(Issue("plan", "needs either one plan as 'plan' or a list of plans as 'plans'"))
     if body.plans is None:
         stored = runs.submit([body.plan], body.submitted_by, "", body.library, body.rig, body.priority)
     else:
         stored = runs.submit(body.plans, body.submitted_by, library=body.library, rig=body.rig, priority=body.priority)
+    if who.role < Role.ENGINEER:
+        runs.check_of_library(stored)
     return Submitted(runs=[RunOut.of(run) for run in stored])
 
 
@@ -90,21 +94,21 @@ def one(run_id: str, runs: Runs) -> RunDetail:
 
 @router.post("/runs/{run_id}/cancel", responses=told(409))
 @allowed(Role.OPERATOR)
-def cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+def cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
     """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored."""
     return RunOut.of(runs.cancel(run_id, person.by))
 
 
 @router.post("/runs/{run_id}/undo-cancel", responses=told(409))
 @allowed(Role.OPERATOR)
-def undo_cancel(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+def undo_cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
     """Undo the cancel of a queued test within 10 minutes: it is back at its place in the queue."""
     return RunOut.of(runs.undo_cancel(run_id, person.by))
 
 
 @router.post("/runs/{run_id}/retry", status_code=201, responses=told(409))
 @allowed(Role.OPERATOR)
-def retry(run_id: str, runs: Runs, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+def retry(run_id: str, runs: Runs, person: Asking) -> RunOut:
     """Queue the plan of a run that has ended again, on the same rig. The new run names the first one in `retry_of`."""
     return RunOut.of(runs.retry(run_id, person.by))
 

@@ -70,8 +70,12 @@ class RunRepository(JobRepository[Run]):
 
     def has_version(self, library_id: str, version: int) -> bool:
         """Whether the library has this version of a plan."""
-        query = sa.select(PlanVersion.number).join(LibraryPlan, LibraryPlan.number == PlanVersion.plan_number)
-        return self.session.scalar(query.where(LibraryPlan.id == library_id, PlanVersion.number == version)) is not None
+        return self.version_digest(library_id, version) is not None
+
+    def version_digest(self, library_id: str, version: int | None) -> str | None:
+        """The digest of a version of a plan in the library; None where there is none."""
+        query = sa.select(PlanVersion.digest).join(LibraryPlan, LibraryPlan.number == PlanVersion.plan_number)
+        return self.session.scalar(query.where(LibraryPlan.id == library_id, PlanVersion.number == version))
 
     @staticmethod
     def _conditions(wanted: Filter) -> Iterator[sa.ColumnElement[bool]]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from datetime import datetime
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
+from fastapi import Body
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from app.jobs.states import State
 from app.measures import fields
 from app.models import EMULATED, Run
 from app.openapi import PLAN, PlanData
-from app.text import Storable
+from app.text import PersonName, Storable
 from rths_engine.foundation.part import validated
 from rths_engine.planning.connections import sentences
 from rths_engine.planning.plan import Plan
@@ -34,7 +35,7 @@ class Submission(BaseModel):
 
     plan: PlanData | None = None
     plans: list[Annotated[Any, PLAN]] | None = Field(None, max_length=500)
-    submitted_by: Storable = Field("", max_length=80)
+    submitted_by: PersonName = ""
     library: FromLibrary | None = None
     rig: Storable = Field(EMULATED, max_length=36, description="id of the rig; by default the emulated laboratory")
     priority: int = Field(0, strict=True, ge=-1, le=2, description="2 urgent, 1 high, 0 normal, -1 low")
@@ -45,7 +46,11 @@ class Person(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    by: Storable = Field("", max_length=80)
+    by: PersonName = ""
+
+
+Asking = Annotated[Person, Body(default_factory=Person)]
+"""The person in the body of a request, which may be left out."""
 
 
 class _Named(BaseModel):

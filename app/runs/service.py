@@ -11,7 +11,7 @@ from app.checking import Checked, checked
 from app.jobs.service import JobService, Queue
 from app.jobs.states import State
 from app.models import EMULATED, Rig, Run
-from app.problems import Conflict
+from app.problems import Conflict, Forbidden
 from app.rigs.service import RigService
 from app.runs.job import RUNS
 from app.runs.order import Outcome
@@ -71,6 +71,16 @@ class RunService:
                 run.library_id, run.library_version = library.id, library.version
         self.jobs.submit(runs, submitted_by)
         return runs
+
+    def check_of_library(self, runs: Sequence[Run]) -> None:
+        """Raise Forbidden unless every run has the plan of the version in the library that it names."""
+        for run in runs:
+            kept = self.runs.version_digest(run.library_id, run.library_version) if run.library_id else None
+            if run.digest != kept:
+                raise Forbidden(
+                    "An operator queues plans of the library as they are. Choose a plan on the page Plans, "
+                    "or ask an engineer to queue this plan."
+                )
 
     def get(self, run_id: str) -> Run:
         """The run with this id. Raises NotFound."""

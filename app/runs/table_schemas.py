@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstra
 
 from app.jobs.states import State
 from app.runs.columns import Kind
-from app.text import Storable, storable
+from app.text import PersonName, storable
 
 MOST_TAGS, LONGEST_TAG, LONGEST_NOTES, MOST_SELECTED = 20, 40, 10_000, 500
 RESERVED = '|;"'  # they separate tags and conditions
@@ -125,7 +125,7 @@ class ViewIn(BaseModel):
 
     name: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80), AfterValidator(storable)]
     query: Annotated[str, StringConstraints(max_length=8000), AfterValidator(storable)]
-    by: Storable = Field("", max_length=80)
+    by: PersonName = ""
 
 
 class ViewOut(BaseModel):

@@ -9,7 +9,7 @@ from fastapi.responses import Response
 
 from app.access import Role, allowed
 from app.openapi import PlanData, told
-from app.runs.schemas import Person, RunOut
+from app.runs.schemas import Asking, RunOut
 from app.sweeps import exports
 from app.sweeps.dependency import Sweeps
 from app.sweeps.schemas import (
@@ -32,7 +32,6 @@ from rths_engine.sweeps.places import numbers
 from rths_engine.sweeps.table import POINT
 
 router = APIRouter(prefix="/api/v1/sweeps", tags=["sweeps"])
-NOBODY = Person()
 Status = Literal["completed", "tripped", "invalid", "failed"]
 FILES: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/csv": {"schema": {"type": "string"}}, exports.ARROW: {"schema": {}}}}
@@ -110,7 +109,7 @@ def results(
 
 @router.post("/{sweep_id}/cancel", responses=told(409))
 @allowed(Role.ENGINEER)
-def cancel(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NOBODY) -> SweepOut:
+def cancel(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
     """Cancel a sweep. It stops within a second; the points done are kept, and `resume` executes the others."""
     sweep = sweeps.cancel(sweep_id, person.by)
     return exports.out(sweep, sweeps.standing(sweep))
@@ -118,7 +117,7 @@ def cancel(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NO
 
 @router.post("/{sweep_id}/resume", responses=told(409))
 @allowed(Role.ENGINEER)
-def resume(sweep_id: str, sweeps: Sweeps, person: Annotated[Person, Body()] = NOBODY) -> SweepOut:
+def resume(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
     """Queue the points of a cancelled or failed sweep that have no result."""
     sweep = sweeps.resume(sweep_id, person.by)
     return exports.out(sweep, sweeps.standing(sweep))
@@ -148,6 +147,6 @@ def point(sweep_id: str, point: int, sweeps: Sweeps) -> PointOut:
 
 @router.post("/{sweep_id}/points/{point}/run", status_code=201)
 @allowed(Role.ENGINEER)
-def run(sweep_id: str, point: int, sweeps: Sweeps, person: Annotated[Person, Body()] = NOBODY) -> RunOut:
+def run(sweep_id: str, point: int, sweeps: Sweeps, person: Asking) -> RunOut:
     """Queue the plan of a point as an ordinary run, whose recording has the full histories."""
     return RunOut.of(sweeps.run_point(sweep_id, point, person.by))

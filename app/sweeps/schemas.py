@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.jobs.states import State
 from app.openapi import PlanData
-from app.text import Storable
+from app.text import PersonName
 
 SWEEP_SAID = "A sweep, `rths-sweep/1`: a plan (or the name of a template), the fields that vary, records and scales"
 SweepData = Annotated[dict[str, Any], Field(description=SWEEP_SAID)]  # read by the engine, whose errors name the field
@@ -21,7 +21,7 @@ class SweepSubmission(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     sweep: SweepData
-    submitted_by: Storable = Field("", max_length=80)
+    submitted_by: PersonName = ""
 
 
 class ColumnOut(BaseModel):

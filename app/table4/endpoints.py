@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import APIRouter, Body
+from fastapi import APIRouter
 
 from app.access import Role, allowed
-from app.runs.schemas import Person, RunOut, Submitted
+from app.runs.schemas import Asking, RunOut, Submitted
 from app.table4.dependency import Table4
 from app.table4.schemas import TableOut
 
 router = APIRouter(prefix="/api/v1/table4", tags=["runs"])
-NOBODY = Person()
 
 
 @router.get("")
@@ -24,6 +21,6 @@ def table(table4: Table4) -> TableOut:
 
 @router.post("", status_code=201)
 @allowed(Role.ENGINEER)
-def submit(table4: Table4, person: Annotated[Person, Body()] = NOBODY) -> Submitted:
+def submit(table4: Table4, person: Asking) -> Submitted:
     """Queue the twelve simulations of Table IV on the emulated laboratory, with the bundled record."""
     return Submitted(runs=[RunOut.of(run) for run in table4.submit(person.by)])

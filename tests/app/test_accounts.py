@@ -2,72 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import Any
 
 import pytest
 import sqlalchemy as sa
-from argon2 import PasswordHasher
 from fastapi.testclient import TestClient
 
 from app.access import Role
 from app.accounts import passwords
 from app.accounts.service import AccountService
-from app.accounts.throttle import Throttle
 from app.config import Settings
 from app.db import unit_of_work
 from app.main import create_app
 from app.models import AccountLink, AccountSession
 from tests.app.conftest import ADDRESS, HERE, app_of, plan
+from tests.app.people import COOKIE, PASSWORD, V1, Person, browser, lab, name_of, person, sign_in
 
-PASSWORD = "correct horse battery"
-COOKIE = "rths-session-8000"
-V1 = "/api/v1"
-
-Person = Callable[..., TestClient]
-
-
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    """A control room with accounts, and cheap hashes."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(passwords, "HASHER", PasswordHasher(time_cost=1, memory_cost=8, parallelism=1))
-        settings = Settings(data=tmp_path_factory.mktemp("accounts"), embedded_worker=False)
-        with TestClient(create_app(settings), ADDRESS, client=HERE, raise_server_exceptions=False) as one:
-            yield one
-
-
-@pytest.fixture
-def browser(lab: TestClient) -> Callable[..., TestClient]:
-    """A new browser, at an address of its own."""
-    app_of(lab).state.throttle = Throttle()
-    return lambda address="192.0.2.1": TestClient(app_of(lab), ADDRESS, client=(address, 1), raise_server_exceptions=False)
-
-
-@pytest.fixture
-def person(lab: TestClient, browser: Callable[..., TestClient], request: pytest.FixtureRequest) -> Person:
-    """A signed-in person with an account of this test."""
-
-    def made(role: Role, name: str = "") -> TestClient:
-        name = name or f"{role.name.title()} of {request.node.name[:50]}"
-        with unit_of_work(app_of(lab).state.sessions) as session:
-            AccountService(session).add(name, role, PASSWORD)
-        one = browser()
-        assert sign_in(one, name).status_code == 204
-        return one
-
-    return made
-
-
-def sign_in(client: TestClient, name: str, password: str = PASSWORD) -> Any:
-    return client.post(f"{V1}/sign-in", json={"name": name, "password": password})
-
-
-def name_of(client: TestClient) -> str:
-    found: str = client.get(f"{V1}/account").json()["name"]
-    return found
+__all__ = ["browser", "lab", "person"]  # fixtures
 
 
 def test_the_first_administrator_is_made_by_a_link_that_works_once(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ recording["x_meas.1"], recording.dataframe()
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -32,11 +33,17 @@ PAGE = 500  # runs of one request; the service allows no more
 
 
 class Client:
-    """A connection to the control room at `url`. Jobs are submitted by the person `by`, whose name is stored with them."""
+    """A connection to the control room at `url`.
 
-    def __init__(self, url: str = "http://127.0.0.1:8000", by: str = "", timeout_s: float = 60.0):
+    `token` is an API token, by default that of the environment variable RTHS_TOKEN; its account is stored with the jobs. A
+    control room without accounts needs no token, and stores the name `by`.
+    """
+
+    def __init__(self, url: str = "http://127.0.0.1:8000", by: str = "", timeout_s: float = 60.0, token: str | None = None):
         self.by = by
-        self._http = httpx.Client(base_url=url.rstrip("/") + "/api/v1", timeout=timeout_s)
+        token = os.environ.get("RTHS_TOKEN", "") if token is None else token
+        headers = {"Authorization": f"Bearer {token}"} if token else {}
+        self._http = httpx.Client(base_url=url.rstrip("/") + "/api/v1", timeout=timeout_s, headers=headers)
 
     def __enter__(self) -> Self:
         return self

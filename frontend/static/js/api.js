@@ -28,6 +28,8 @@ async function request(path, init) {
     throw new ApiError(0, "The service does not answer. Check that the service runs and that this computer is connected to it.");
   }
   if (response.ok) return response;
+  if (response.status === 401 && !location.pathname.startsWith("/sign-in"))
+    location.assign(`/sign-in?to=${encodeURIComponent(location.pathname + location.search)}`);
   const body = await response.json().catch(() => ({}));
   const errors = Array.isArray(body.errors) ? body.errors : [];
   throw new ApiError(response.status, body.detail || body.title || `The service answered with the HTTP status ${response.status}.`, errors);
@@ -46,6 +48,8 @@ export const api = {
   get: (path, signal) => loading(request(path, { signal }).then((answer) => answer.json())),
   /** @param {string} path @param {any} data @param {AbortSignal} [signal] @returns {Promise<any>} */
   post: async (path, data = {}, signal = undefined) => (await request(path, json(data, signal))).json(),
+  /** A change whose answer has no body. @param {string} path @param {any} data */
+  send: async (path, data) => void (await request(path, json(data))),
   /** @param {string} path @param {any} data @returns {Promise<any>} */
   patch: async (path, data) => (await request(path, { ...json(data), method: "PATCH" })).json(),
   /** With `keepalive`, which browsers allow up to 64 KiB, the request outlives the page. @param {string} path @param {any} data @returns {Promise<any>} */

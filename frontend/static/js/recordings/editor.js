@@ -4,7 +4,7 @@ import { el } from "../dom.js";
 import { contentsOf } from "../files/contents.js";
 import { labelled } from "../form/field.js";
 import { size } from "../format.js";
-import { person, remember } from "../person.js";
+import { account, person, remember } from "../person.js";
 import { ColumnRow, wrongItem } from "./column_row.js";
 import { lagsOf } from "./lags.js";
 import { factsLine, plotsOf } from "./plots.js";
@@ -71,7 +71,7 @@ export class Editor {
       this.general,
       this.verdict,
       this.lags,
-      el("div", { class: "starters sending" }, labelled("mapping.who", "Your name", this.who), el("button", { type: "submit" }, "Import the recording")),
+      el("div", { class: "starters sending" }, account() === null && labelled("mapping.who", "Your name", this.who), el("button", { type: "submit" }, "Import the recording")),
       savingOf(sent.sha256, () => this.#mapping(), () => this.who.value.trim(), () => this.saved()),
       el("h4", {}, "Signals"),
       el("p", { class: "muted hint" }, "The cursor stands on samples of the file. Drag over a plot to zoom, and double-click to reset. The slider below a plot takes the arrow keys, + and −."),

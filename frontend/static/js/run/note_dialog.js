@@ -1,4 +1,5 @@
 // @ts-check
+import { account } from "../person.js";
 import { el } from "../dom.js";
 
 /** @typedef {{from_s: number, to_s: number | null, station: number | null, text: string, by: string}} Given */
@@ -21,7 +22,7 @@ export class NoteDialog {
       el("h2", { id: "note-title" }, "Annotation"),
       el("div", { class: "note-fields" }, field("Time, s", this.from), field("To, s (for a span)", this.to), field("Concerns", this.station)),
       field("Note", this.text),
-      field("Your name", this.by),
+      account() === null && field("Your name", this.by),
       el("div", { class: "actions" }, el("button", { type: "submit" }, "Save the annotation"), cancel),
     );
     this.element = el("dialog", { class: "note-dialog", "aria-labelledby": "note-title" }, this.form);

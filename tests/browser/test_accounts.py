@@ -1,0 +1,98 @@
+"""Signing in by the keyboard, the first administrator, the own account and the accounts of others."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+
+import pytest
+import uvicorn
+from playwright.sync_api import Browser, Page, ViewportSize, expect
+
+from app.access import Role
+from app.accounts.service import AccountService
+from app.config import Settings
+from app.db import unit_of_work
+from app.main import create_app
+from tests.app.people import PASSWORD
+from tests.browser.conftest import visit
+from tests.browser.service import free_port, until
+from tests.browser.test_pages import expect_accessible
+
+NARROW: ViewportSize = {"width": 390, "height": 800}
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
+    """A control room with accounts and no worker: its address, and the path of the link of a new account."""
+    settings = Settings(data=tmp_path_factory.mktemp("accounts"), port=free_port(), embedded_worker=False)
+    app = create_app(settings)
+    server = uvicorn.Server(uvicorn.Config(app, port=settings.port, log_level="error", timeout_graceful_shutdown=1))
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    until(lambda: server.started, bool)
+    with unit_of_work(app.state.sessions) as session:
+        accounts = AccountService(session)
+        accounts.add("Ana Ruiz", Role.ADMINISTRATOR, PASSWORD)
+        path, _ = accounts.link(accounts.add("Ben Osei", Role.ENGINEER))
+    yield f"http://127.0.0.1:{settings.port}", path
+    server.should_exit = True
+    thread.join(30)
+
+
+@pytest.fixture
+def page(browser: Browser, lab: tuple[str, str]) -> Iterator[Page]:
+    with browser.new_context(base_url=lab[0], viewport=NARROW, color_scheme="dark", reduced_motion="reduce") as context:
+        yield context.new_page()
+
+
+def whole(page: Page) -> None:
+    """The page is accessible and does not scroll sideways."""
+    expect_accessible(page)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{page.url} scrolls sideways"
+
+
+def test_a_person_signs_in_by_the_keyboard_manages_the_account_and_signs_out(page: Page) -> None:
+    page.goto("/settings?from=mail")
+    expect(page.get_by_label("Name")).to_be_focused()
+    page.keyboard.type("ana ruiz")
+    page.keyboard.press("Tab")
+    page.keyboard.type("a wrong password\n")
+    expect(page.get_by_role("alert")).to_have_text("The name or the password is not correct.")
+    whole(page)
+    page.keyboard.type(f"{PASSWORD}\n")  # the wrong one is selected
+    page.wait_for_url("**/settings?from=mail")
+    page.locator("#account-name").fill("Carla Nunes")
+    page.get_by_role("button", name="Add the account").click()
+    expect(page.locator("#account-link")).to_contain_text("/sign-in/link#")
+    expect(page.locator("#account-rows")).to_contain_text("has no password yet")
+    whole(page)
+    visit(page, "/account")
+    page.locator("#token-name").fill("nightly sweep")
+    page.get_by_role("button", name="Make the token").click()
+    expect(page.locator("#token-made")).to_contain_text("rths_")
+    expect(page.locator("#token-rows")).to_contain_text("nightly sweep")
+    whole(page)
+    visit(page, "/new")
+    expect(page.locator("#who")).to_be_hidden()
+    page.locator(".person summary").press("Enter")
+    page.get_by_role("button", name="Sign out").press("Enter")
+    page.wait_for_url("**/sign-in")
+    page.goto("/account")
+    expect(page).to_have_url(f"{page.url.partition('/sign-in')[0]}/sign-in?to=%2Faccount")
+
+
+def test_a_link_chooses_the_password_and_signs_in_once(page: Page, lab: tuple[str, str]) -> None:
+    page.goto(lab[1])
+    expect(page.get_by_role("heading", name="Choose a password for Ben Osei")).to_be_visible()
+    assert "#" not in page.url  # nor in the history
+    whole(page)
+    page.locator("#password").fill(PASSWORD)
+    page.locator("#again").fill("another password")
+    page.get_by_role("button", name="Save the password").click()
+    expect(page.get_by_role("alert")).to_contain_text("The two passwords differ")
+    page.locator("#again").fill(PASSWORD)
+    page.get_by_role("button", name="Save the password").click()
+    expect(page.locator(".person summary")).to_have_text("Ben Osei")
+    page.goto(lab[1])
+    expect(page.get_by_role("alert")).to_contain_text("The link is not valid")
