@@ -62,6 +62,9 @@ class Settings:
     disk_reserve: int | None = None
     log_format: str = logs.TEXT
     log_level: str = "warning"
+    tls_certificate: Path | None = None
+    tls_key: Path | None = None
+    ca: Path | None = None
 
     @property
     def url(self) -> str:
@@ -103,16 +106,32 @@ class Settings:
 
 def from_environment(**given: Any) -> Settings:
     """Settings from the variables in VARIABLES; a value in `given` that is not None takes precedence. Raises RthsError."""
-    found = {name: _read(one.key, one.read) for name, one in VARIABLES.items() if os.environ.get(one.key)}
+    texts = {name: variable(one.key) for name, one in VARIABLES.items()}
+    found = {name: _read(VARIABLES[name], text) for name, text in texts.items() if text}
     return replace(Settings(), **{**found, **{name: value for name, value in given.items() if value is not None}})
 
 
-def _read(key: str, convert: Callable[[str], Any]) -> Any:
+def variable(key: str) -> str:
+    """The text of a variable, or what the file holds that KEY_FILE names: secrets stay out of the environment.
+
+    Raises RthsError for a file that cannot be read.
+    """
+    text, named = os.environ.get(key, ""), os.environ.get(f"{key}_FILE")
+    if text or not named:
+        return text
     try:
-        return convert(os.environ[key])
+        return Path(named).read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or "is not text"
+        raise RthsError(Issue(f"{key}_FILE", f"can't be read: {why}", named, "correct or unset the variable")) from None
+
+
+def _read(one: Variable, text: str) -> Any:
+    try:
+        return one.read(text)
     except ValueError as error:
         needs = str(error) if str(error).startswith("needs ") else "needs a whole number"
-        raise RthsError(Issue(key, needs, os.environ[key], "correct or unset the variable")) from None
+        raise RthsError(Issue(one.key, needs, text, "correct or unset the variable")) from None
 
 
 def _one_of(known: tuple[str, ...]) -> Callable[[str], str]:
@@ -169,6 +188,16 @@ VARIABLES: dict[str, Variable] = {
         default="the data folder",
     ),
     "store_endpoint": Variable("RTHS_STORE_ENDPOINT", str, "URL of an S3-compatible server", default="that of AWS"),
+    "tls_certificate": Variable(
+        "RTHS_TLS_CERTIFICATE", Path, "PEM file with the certificate of the service: it answers https", default="none"
+    ),
+    "tls_key": Variable("RTHS_TLS_KEY", Path, "PEM file with the key of the certificate", default="in the certificate's file"),
+    "ca": Variable(
+        "RTHS_CA",
+        Path,
+        "PEM file with the certificates that a worker trusts at wss:// addresses",
+        default="those of the system",
+    ),
     "store_cache": Variable(
         "RTHS_STORE_CACHE_MB", _megabytes, "local copies of files of an S3 store, in the data folder, MB", _in_megabytes
     ),

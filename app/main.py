@@ -43,6 +43,7 @@ from app.jobs import queue as durable
 from app.jobs.workers import Workers
 from app.laboratory.endpoints import router as laboratory
 from app.league.endpoints import router as league
+from app.leases import Once, alone
 from app.library.draft_endpoints import router as drafts
 from app.library.endpoints import router as library
 from app.live.audience import Audience
@@ -192,8 +193,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 @asynccontextmanager
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     settings: Settings = app.state.settings
-    await asyncio.to_thread(db.migrate, settings.url)
-    await asyncio.to_thread(durable.migrate, settings.url)
+    await asyncio.to_thread(_migrate, settings.url)
     engine = db.connect(settings.url)
     statements.watch(engine)
     app.state.sessions = db.sessions(engine)
@@ -201,7 +201,6 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.credentials = Credentials(app.state.sessions)
     app.state.credentials.start()
     app.state.queue = durable.DurableQueue(engine)
-    await asyncio.to_thread(app.state.queue.purge)
     await asyncio.to_thread(_purge, app)
     app.state.audit = Recorder(app.state.sessions)
     app.state.audit.start()
@@ -228,10 +227,21 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.audience.close()
 
 
+def _migrate(url: str) -> None:
+    """Bring the database and its queue to the newest schema; other web processes that start meanwhile wait."""
+    with alone(url):
+        db.migrate(url)
+        durable.migrate(url)
+
+
 def _purge(app: FastAPI) -> None:
-    """Remove the runs whose time to be restored is over."""
-    with db.unit_of_work(app.state.sessions) as session:
-        RunEditing(session).purge(store_of(app.state.settings))
+    """Remove old records of the queue, and the runs whose time to be restored is over; in one web process at a time."""
+    once = Once(app.state.sessions)
+    if once.held("purge"):
+        app.state.queue.purge()
+        with db.unit_of_work(app.state.sessions) as session:
+            RunEditing(session).purge(store_of(app.state.settings))
+        once.release("purge")
 
 
 def _declare_description(app: FastAPI) -> None:

@@ -232,6 +232,10 @@ def parser() -> argparse.ArgumentParser:
     _data(serve)
     serve.add_argument("--host", help="address to listen on (RTHS_HOST; default 127.0.0.1: this machine only)")
     serve.add_argument("--port", type=int, help="port to listen on (RTHS_PORT; default 8000)")
+    serve.add_argument(
+        "--tls-certificate", type=Path, metavar="PEM", help="certificate: answer https (RTHS_TLS_CERTIFICATE; default http)"
+    )
+    serve.add_argument("--tls-key", type=Path, metavar="PEM", help="key of the certificate (RTHS_TLS_KEY)")
     serve.add_argument("--demo", action="store_true", help="queue a demonstration test, unless one is queued or running")
     serve.add_argument(
         "--local", action="store_true", help="sign in everyone on this computer as administrator; only at a loopback address"
@@ -245,12 +249,14 @@ def parser() -> argparse.ArgumentParser:
     )
     _data(worker)
     worker.add_argument("--web", default="ws://127.0.0.1:8000", help="address of the control room (default %(default)s)")
+    worker.add_argument("--ca", type=Path, metavar="PEM", help="certificates to trust at wss:// addresses (RTHS_CA)")
     worker.add_argument("--name", help="name of this worker (default: the machine)")
     worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
     _logging(worker)
 
     migrate = _command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema", recorded=True)
     _data(migrate)
+    _migrate_store(commands)
     _library(commands)
     _audit(commands)
     _accounts(commands)
@@ -343,6 +349,16 @@ def _accounts(commands: Commands) -> None:
     revoke.add_argument("token", metavar="ID", help="id of the token, as `rths token list` prints it")
     for command in (link, add, listed, role, disable, password, new, tokens, revoke):
         _data(command)
+
+
+def _migrate_store(commands: Commands) -> None:
+    about = "move all rows and files to another database and store, and compare them; can be resumed: docs/scaled-mode.md"
+    moving = _command(commands, "migrate-store", "app.cli.migrate_store:migrate_store", about)
+    for word, name, what in (("from", "source", "that is moved"), ("to", "target", "to move to")):
+        moving.add_argument(f"--{word}", dest=name, type=Path, metavar="FOLDER", help=f"data folder {what} (SQLite and files)")
+        moving.add_argument(f"--{word}-database", metavar="URL", help=f"or the PostgreSQL database {what}")
+        moving.add_argument(f"--{word}-store", metavar="URL", help=f"with its store {what}: s3://bucket/prefix, file:///folder")
+    moving.add_argument("--accept-damaged", action="store_true", help="move files that are damaged or missing as they are")
 
 
 def _command(commands: Commands, name: str, function: str, about: str, recorded: bool = False) -> argparse.ArgumentParser:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import fcntl
 import socket
+import ssl
 from argparse import Namespace
 from contextlib import nullcontext, suppress
 from typing import IO, Any
@@ -20,6 +21,7 @@ from app.config import LOOPBACK, Settings
 from app.db import unit_of_work
 from app.demonstration import queue_demonstration
 from app.main import create_app
+from app.moving.places import using
 from rths_engine.foundation.errors import Issue, RthsError
 
 GRACE_S = 2
@@ -33,7 +35,8 @@ def serve(given: Namespace) -> int:
         fix = "leave out --local and give each person an account: docs/accounts.md"
         raise RthsError(Issue("host", "can be reached from other computers, where --local is not allowed", settings.host, fix))
     logs.configure(settings.log_format, settings.log_level)
-    with only_server(settings) if settings.embedded_worker else nullcontext():
+    check_certificate(settings)
+    with using(settings), only_server(settings) if settings.embedded_worker else nullcontext():
         return _serve(settings, given.demo)
 
 
@@ -58,7 +61,9 @@ class Server(uvicorn.Server):
 
     def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
         # app/logs.py and app/observing.py write what these two would
-        super().__init__(uvicorn.Config(app, timeout_graceful_shutdown=GRACE_S, **QUIET, **LIVE))
+        tls = {"ssl_certfile": settings.tls_certificate, "ssl_keyfile": settings.tls_key}
+        given: dict[str, Any] = {"timeout_graceful_shutdown": GRACE_S, **QUIET, **LIVE, **tls}
+        super().__init__(uvicorn.Config(app, **given))
         self.app, self.settings, self.demonstrate = app, settings, demonstrate
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
@@ -100,6 +105,21 @@ def listen(settings: Settings) -> socket.socket:
     return found
 
 
+def check_certificate(settings: Settings) -> None:
+    """Raise RthsError where the certificate and the key of the service cannot be used."""
+    if settings.tls_certificate is None:
+        if settings.tls_key is not None:
+            fix = "give the certificate with --tls-certificate"
+            raise RthsError(Issue("--tls-key", "is given without a certificate", str(settings.tls_key), fix))
+        return
+    try:
+        ssl.create_default_context(ssl.Purpose.CLIENT_AUTH).load_cert_chain(settings.tls_certificate, settings.tls_key)
+    except OSError as error:  # also SSLError
+        fix = "give the certificate and its key as PEM files"
+        problem = f"cannot be used: {error.strerror or error}"
+        raise RthsError(Issue("--tls-certificate", problem, str(settings.tls_certificate), fix)) from None
+
+
 def only_server(settings: Settings) -> IO[str]:
     """A file whose lock keeps a second control room from the same data folder. Raises RthsError when one runs already.
 
@@ -118,7 +138,8 @@ def only_server(settings: Settings) -> IO[str]:
 def address(settings: Settings) -> str:
     """The URL of the service for a browser on this machine."""
     host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
-    return f"http://[{host}]:{settings.port}/" if ":" in host else f"http://{host}:{settings.port}/"
+    scheme = "https" if settings.tls_certificate else "http"
+    return f"{scheme}://[{host}]:{settings.port}/" if ":" in host else f"{scheme}://{host}:{settings.port}/"
 
 
 def _unusable(settings: Settings, error: OSError) -> Issue:

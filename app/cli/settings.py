@@ -8,7 +8,7 @@ from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
-from app.config import Settings, from_environment
+from app.config import Settings, from_environment, variable
 from rths_engine.foundation.errors import Issue, RthsError
 
 PORTS = range(1, 65_536)
@@ -16,7 +16,8 @@ PORTS = range(1, 65_536)
 
 def settings(given: Namespace, **more: Any) -> Settings:
     """The settings of a command. Raises RthsError for values that are out of range."""
-    options = {name: getattr(given, name, None) for name in ("data", "host", "port", "log_format", "log_level")}
+    names = ("data", "host", "port", "log_format", "log_level", "tls_certificate", "tls_key")
+    options = {name: getattr(given, name, None) for name in names}
     found = from_environment(**options, worker_concurrency=getattr(given, "workers", None), **more)
     if found.port not in PORTS:
         raise RthsError(Issue("port", f"needs {PORTS[0]} to {PORTS[-1]}", found.port))
@@ -30,7 +31,7 @@ def stored(given: Namespace, **more: Any) -> Settings:
     found = settings(given, **more)
     try:
         found.prepared()
-        token = os.environ.get("RTHS_WORKER_TOKEN") or _kept_token(found.data / "worker-token")
+        token = variable("RTHS_WORKER_TOKEN") or _kept_token(found.data / "worker-token")
     except OSError as error:
         fix = "choose another folder with --data or RTHS_DATA"
         raise RthsError(Issue("data folder", f"can't be used: {error.strerror}", str(found.data), fix)) from None

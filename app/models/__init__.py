@@ -2,6 +2,7 @@
 
 from app.audit.tables import AuditEntry, AuditHead
 from app.events.tables import Event
+from app.leases import Lease
 from app.models.accounts import Account, AccountLink, AccountSession, ApiToken
 from app.models.diagnoses import Diagnosis, DiagnosisInput
 from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
@@ -37,6 +38,7 @@ __all__ = [
     "DiagnosisInput",
     "Event",
     "ImportBatch",
+    "Lease",
     "LibraryPlan",
     "MeasuredRecording",
     "PlanDraft",

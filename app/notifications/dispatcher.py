@@ -1,10 +1,11 @@
-"""Sends due deliveries in a thread of the web process, away from requests and from workers: no run waits for an address."""
+"""Sends due deliveries in a thread of one web process, away from requests and from workers: no run waits for an address."""
 
 from __future__ import annotations
 
 import logging
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from datetime import UTC, datetime
 
 from sqlalchemy.exc import SQLAlchemyError
@@ -12,6 +13,7 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app.db import unit_of_work
 from app.events.tables import WebhookDelivery
+from app.leases import Once
 from app.notifications.schemas import EventOut
 from app.notifications.sending import BACK_OFF, TEST, Parcel, Sent, send
 from app.notifications.webhook_rows import DELIVERED, FAILED, WAITING, WebhookRows
@@ -25,7 +27,7 @@ class Dispatcher:
     """Sends due deliveries, and again with growing pauses until the address accepts them or the attempts are used up."""
 
     def __init__(self, maker: sessionmaker[Session]):
-        self.maker = maker
+        self.maker, self.once = maker, Once(maker)
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._keep, daemon=True, name="rths-webhooks")
 
@@ -35,6 +37,8 @@ class Dispatcher:
     def stop(self) -> None:
         self._stopping.set()
         self._thread.join(10)
+        with suppress(SQLAlchemyError):
+            self.once.release("webhooks")
 
     def deliver(self) -> int:
         """Send what is due once; returns the number of deliveries sent."""
@@ -61,7 +65,8 @@ class Dispatcher:
     def _keep(self) -> None:
         while not self._stopping.wait(PERIOD_S):
             try:
-                self.deliver()
+                if self.once.held("webhooks"):
+                    self.deliver()
             except SQLAlchemyError as error:
                 log.warning("the database did not answer: %s", error)
 

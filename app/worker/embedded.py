@@ -54,8 +54,9 @@ class EmbeddedWorker:
     def _spawn(self, boot: str) -> subprocess.Popen[bytes]:
         settings = self.settings
         host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
+        scheme = "wss" if settings.tls_certificate else "ws"
         known = ["--name", NAME, "--boot", boot]
-        command = [sys.executable, "-m", "app.worker", "--with-parent", *known, "--web", f"ws://{host}:{settings.port}"]
+        command = [sys.executable, "-m", "app.worker", "--with-parent", *known, "--web", f"{scheme}://{host}:{settings.port}"]
         environment = {
             **os.environ,
             "RTHS_DATA": str(settings.data.resolve()),
@@ -68,5 +69,7 @@ class EmbeddedWorker:
             "RTHS_WORKER_TOKEN": settings.worker_token,
             logs.FORMAT_KEY: settings.log_format,
             logs.LEVEL_KEY: settings.log_level,
+            "RTHS_HOST": settings.host,
+            "RTHS_TLS_CERTIFICATE": str(settings.tls_certificate or ""),
         }
         return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment)

@@ -20,6 +20,7 @@ from app.gate import NOT_ALLOWED
 from app.live.endpoints import FRAME_HEADER
 from app.live.frames import FrameStore
 from app.worker.stopping import Stopper
+from app.worker.trust import context
 
 log = logging.getLogger(__name__)
 SHORTEST_GAP_S = 0.02
@@ -110,7 +111,9 @@ class Link:
             begun = time.monotonic()
             try:
                 headers = {"Authorization": f"Bearer {self.token}"}
-                with connect(self.url, additional_headers=headers, compression=None, max_size=None) as socket:
+                with connect(
+                    self.url, ssl=context(self.url), additional_headers=headers, compression=None, max_size=None
+                ) as socket:
                     listening = threading.Thread(target=self._listen, args=(socket,), daemon=True, name="rths-link-listens")
                     listening.start()
                     self._tell(socket)

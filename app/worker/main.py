@@ -35,6 +35,7 @@ from app.worker.link import Links
 from app.worker.patience import patiently
 from app.worker.peers import Peers, unique
 from app.worker.stopping import Stopper
+from app.worker.trust import context
 from rths_engine.foundation.errors import RthsError
 
 log = logging.getLogger("rths.worker")
@@ -73,6 +74,8 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     Raises RthsError where the schema of the database is not the one of this program.
     """
     check_schema(settings.url)
+    for address in web.split(","):
+        context(address)
     os.environ.update(ONE_THREAD)  # read where the processes of jobs load numpy
     engine = connect(settings.url)
     statements.watch(engine)
