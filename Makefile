@@ -5,7 +5,7 @@
 #
 # Options: RTHS_PORT=8001 is the port of `make run`, RTHS_DATA=FOLDER its data folder, PYTHON=... the Python to use.
 # PYTEST="tests/engine -k word" gives pytest arguments; coverage is then not measured.
-# OPENSEES="--only specimen-gap --keep kept" gives arguments of `make prove-opensees`.
+# OPENSEES="--only specimen-gap --keep kept" gives arguments of `make prove-opensees`, CHAOS="--seed 7 --store sqlite" those of `make chaos`.
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -15,11 +15,12 @@ VENDOR := frontend/static/vendor
 ENGINE := $(shell find rths_engine -name '*.py')
 PYTEST ?=
 OPENSEES ?=
+CHAOS ?=
 LOCK ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides check docs migration bench prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
+.PHONY: setup run test test-clone test-guides chaos check docs migration bench prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -48,6 +49,10 @@ prove: setup
 # Diagnose recordings that conceal material laws of OpenSees: docs/proof.md. Takes 5 to 10 minutes.
 prove-opensees: setup opensees
 	$(BIN)/python -m tests.opensees $(OPENSEES)
+
+# Kill, fill, cut and turn back everything under 200 tests and a sweep, on both stores: docs/chaos.md. Takes 20 to 60 minutes.
+chaos: setup postgres compiler
+	$(BIN)/python -m tests.chaos $(CHAOS)
 
 check: setup
 	$(BIN)/ruff check .

@@ -60,6 +60,8 @@ class Kind(ABC, Generic[Row, Given, Result]):
     """Whether jobs of this kind wait while the queue is held."""
     told: ClassVar[bool] = True
     """Whether the starts and ends of jobs are events for people; not for jobs that are only shares of a larger one."""
+    again: ClassVar[str] = "Submit it again to execute it."
+    """What a person does to execute a job again that is not repeated by itself."""
     watched_live: ClassVar[bool] = False
     """Whether the process sends frames and messages to viewers."""
 
@@ -70,6 +72,10 @@ class Kind(ABC, Generic[Row, Given, Result]):
     def title(self, job: Row) -> str:
         """The name that people gave a job; empty for a kind whose jobs have no names."""
         return ""
+
+    def queued_version(self, job: Row) -> str | None:
+        """The version of the program that a job was submitted to, where its kind keeps it."""
+        return getattr(job, "code_version", None)
 
     def not_repeated(self, job: Row) -> str | None:
         """Why a job is not started again after its worker or process died; None where it is."""

@@ -21,6 +21,7 @@ from app.jobs.kind import Kind, Result, Row
 from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.problems import Conflict, NotFound
+from rths_engine import __version__
 
 log = logging.getLogger("rths.jobs")
 MOST_ATTEMPTS = 3
@@ -140,10 +141,15 @@ class JobService(Generic[Row, Result]):
         self._move(job, State.RUNNING)
         job.attempt += 1
         job.worker, job.started_at, job.doing, job.share = worker, datetime.now(UTC), "", 0.0
+        job.started_version = __version__
         again = f", attempt {job.attempt}" if job.attempt > 1 else ""
         waited, kind = (job.started_at - job.submitted_at).total_seconds(), self.kind.name
         afterwards(self.session, "after_commit", lambda: metrics.WAIT_SECONDS.labels(kind).observe(waited))
-        self._tell(EventKind.STARTED, job, f"Started on worker {worker}{again}.")
+        queued = self.kind.queued_version(job) or __version__
+        other = (
+            "" if queued == __version__ else f" Version {queued} of the program queued it, version {__version__} executes it."
+        )
+        self._tell(EventKind.STARTED, job, f"Started on worker {worker}{again}.{other}")
         return Taken(started=job, left=left)
 
     def over(self, turn: str) -> bool:
@@ -164,7 +170,10 @@ class JobService(Generic[Row, Result]):
         return self.rows.of_turn(turn) if self.kind.ordered else turn
 
     def _bears_attempt(self, job: Row) -> bool:
-        """Move a running job of a dead worker to the queue, or end it: cancelled, not to be repeated, or without attempts."""
+        """Move a running job of a dead worker to the queue, or end it.
+
+        It ends where it is cancelled, not to be repeated, torn off by a change of the program, or without attempts.
+        """
         begun = job.state is State.RUNNING
         if begun:
             self._move(job, State.QUEUED)
@@ -176,6 +185,10 @@ class JobService(Generic[Row, Result]):
             self._end(job, State.CANCELLED, f"Cancelled by {job.cancel_requested_by}. {died}")
         elif begun and (reason := self.kind.not_repeated(job)):
             self._end(job, State.FAILED, f"The worker or the process of the {noun} died. {reason}")
+        elif begun and job.started_version != __version__:
+            old = f"version {job.started_version}" if job.started_version else "an earlier version"
+            torn = f"The {noun} was running in {old} of the program when its worker ended; this is version {__version__}"
+            self._end(job, State.FAILED, f"{torn}, so it is not started again by itself. {self.kind.again}")
         elif job.attempt >= MOST_ATTEMPTS:
             died = f"The worker or the process of the {noun} died {job.attempt} times"
             self._end(job, State.FAILED, f"{died}. There is no further attempt.")

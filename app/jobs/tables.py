@@ -14,7 +14,8 @@ from app.jobs.states import State
 class Job:
     """Columns of the table of a kind of job, as a mixin: `class Run(Job, Base)`. Times are UTC.
 
-    `attempt` counts the starts and `worker` names the worker of the last start. `doing` and `share` (0 to 1) are the progress
+    `attempt` counts the starts; `worker` names the worker of the last start, and `started_version` its version of the program
+    (null for a start by a version before there was this column). `doing` and `share` (0 to 1) are the progress
     of the running attempt. `reason` is the reason for the end of the job.
     """
 
@@ -28,6 +29,7 @@ class Job:
     cancel_requested_by: Mapped[str | None] = mapped_column(sa.String(80))
     attempt: Mapped[int] = mapped_column(default=0)
     worker: Mapped[str | None] = mapped_column(sa.String(80))
+    started_version: Mapped[str | None] = mapped_column(sa.String(40))
     doing: Mapped[str] = mapped_column(sa.String(200), default="")
     share: Mapped[float] = mapped_column(default=0.0)
     reason: Mapped[str | None] = mapped_column(sa.Text)

@@ -36,6 +36,7 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
     name, noun, table = "run", "test", Run
     queue, workflow = "tests", "run-test"
     process = "app.worker.engine"
+    again = "Retry it to execute it again."
     ordered = kept_warm = keeps_when_cancelled = waits_while_held = watched_live = True
 
     def at_a_time(self, settings: Settings) -> int:
@@ -51,13 +52,14 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return Run.rig_id.not_in(sa.select(Rig.id).where(Rig.tests_at_a_time <= running.scalar_subquery()))
 
     def not_repeated(self, job: Run) -> str | None:
-        """A test that drove an external rig, which now stands nobody knows how, or one whose client had connected."""
+        """A test that drove a rig, which now stands nobody knows how, or one whose client had connected."""
         plan = validated(Plan, job.plan)
         if plan.test == "client" and job.doing and not job.doing.startswith(WAITING):
             return "Its client had connected, so the test is not started again by itself. Retry it, then start the client."
         found = external(plan)
         if not found:
-            return None
+            physical = job.rig is not None and job.rig.kind == "physical"
+            return f"The test was on the rig {job.rig_name}. Inspect the rig, then retry." if physical else None
         named = ", ".join(connection.peer for connection in found.values())
         return f"The test drove an external rig ({named}), so it is not started again by itself. Inspect the rig, then retry."
 

@@ -112,7 +112,8 @@ class _Known(BaseModel):
     test: str
     state: State
     digest: str
-    code_version: str
+    code_version: str = Field(description="version of the program that the run was submitted to")
+    started_version: str | None = Field(description="version of the program of the last start; null before the first")
     seed: int
     template: str | None
     library_id: str | None

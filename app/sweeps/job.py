@@ -26,6 +26,7 @@ class ShardKind(Kind[SweepShard, ShardOrder, ShardEnd]):
     name, noun, table = "shard", "shard of the sweep", SweepShard
     queue, workflow = "sweeps", "run-shard"
     process = "app.worker.sweep"
+    again = "Resume the sweep to execute the points without results."
     niceness = 10
     kept_warm = keeps_when_cancelled = True
     started_early = told = False
@@ -34,6 +35,9 @@ class ShardKind(Kind[SweepShard, ShardOrder, ShardEnd]):
 
     def at_a_time(self, settings: Settings) -> int:
         return settings.sweep_processes
+
+    def queued_version(self, job: SweepShard) -> str:
+        return job.sweep.code_version
 
     def order(self, job: SweepShard, settings: Settings) -> ShardOrder:
         session, sweep = object_session(job), job.sweep

@@ -144,5 +144,8 @@ def _outcome(executing: Any, order: Order, line: Line) -> Done | Failed:
         raise
     except Refused as refused:
         return Failed(str(refused))
+    except OSError as error:
+        why = os.strerror(error.errno) if error.errno else str(error)
+        return Failed(f"A file could not be read or written: {why}.")
     except Exception as error:
         return Failed(f"{type(error).__name__}: {error}", line.stopped)

@@ -99,9 +99,9 @@ class Executor:
         """Stop the running jobs that wait while the queue is held; the ids of those that are still executed. No database."""
         with self._lock:
             running = [one for one in self.running.values() if one.kind.waits_while_held]
-        executed = [one for one in running if one.process.order is not None]
+        executed = [one for one in running if one.process.order is one.order]
         for one in executed:
-            one.process.cancel()
+            one.process.cancel(one.order)
         return [one.order.job_id for one in executed]
 
     def _keep(self, one: Running) -> None:
@@ -125,7 +125,7 @@ class Executor:
                 jobs.progress(order.job_id, order.attempt, news.doing, news.share)
             stop = jobs.to_stop(order.job_id, order.attempt)
         if stop:
-            one.process.cancel()
+            one.process.cancel(order)
 
     def _attempt(self, kind: AnyKind, turn: str) -> None:
         with unit_of_work(self.maker) as session:
@@ -189,13 +189,14 @@ class Executor:
 
     def _end(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
         """Store the outcome of an attempt, rows and files together. While the database is away, the result waits here."""
+        placed: list[Order] = []  # not empty once the files are in place: a commit that failed after it is done again alone
         try:
-            patiently(lambda: self._store(kind, order, outcome))
+            patiently(lambda: self._store(kind, order, outcome, placed))
         except OSError as error:
             failed = Failed(f"The result of the {kind.noun} was not stored: {error.strerror or error}.")
-            patiently(lambda: self._store(kind, order, failed))
+            patiently(lambda: self._store(kind, order, failed, placed))
 
-    def _store(self, kind: AnyKind, order: Order, outcome: Outcome) -> None:
+    def _store(self, kind: AnyKind, order: Order, outcome: Outcome, placed: list[Order]) -> None:
         with unit_of_work(self.maker) as session:
             jobs = JobService(session, kind)
             if kind.waits_while_held and (by := self.latch.by) is not None:
@@ -203,7 +204,9 @@ class Executor:
             if isinstance(outcome, Done):
                 if jobs.finish(order.job_id, order.attempt, outcome.result):
                     session.flush()
-                    kind.place(order, self.settings)
+                    if not placed:
+                        kind.place(order, self.settings)
+                        placed.append(order)
             elif isinstance(outcome, Failed):
                 jobs.fail(order.job_id, order.attempt, outcome.reason, outcome.stopped)
             else:

@@ -141,7 +141,7 @@ def _watch(executor: Executor, peers: Peers, stopper: Stopper) -> None:
                 looked = time.monotonic()
                 peers.look()
         except DATABASE_SILENT as error:
-            log.warning("the database did not answer: %s", error)
+            log.warning("the database did not answer: %s", error.__cause__ or error)
         time.sleep(WATCH_S)
 
 

@@ -22,6 +22,6 @@ def patiently(action: Callable[[], Answer]) -> Answer:
             return action()
         except DATABASE_SILENT as error:
             pause = PAUSES_S[min(tried, len(PAUSES_S) - 1)]
-            log.warning("the database did not answer, next try in %g s: %s", pause, error)
+            log.warning("the database did not answer, next try in %g s: %s", pause, error.__cause__ or error)
             time.sleep(pause)
             tried += 1

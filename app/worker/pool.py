@@ -69,15 +69,14 @@ class JobProcess:
             while not self._ready:
                 self._ready = isinstance(self._pipe.recv(), Ready)
 
-    def cancel(self) -> None:
-        """Stop the job, once.
+    def cancel(self, order: Order) -> None:
+        """Stop the job of an order, once; nothing happens where the process executes another one by now.
 
         A kind with `keeps_when_cancelled` stores its samples: the process is asked to stop, and killed if it does not answer
         within CANCEL_PATIENCE_S. The process of any other kind is killed at once.
         """
         with self._sending:
-            order = self.order
-            if order is None or order is self._asked:
+            if self.order is not order or order is self._asked:
                 return
             self._asked = order
             if not self._kind.keeps_when_cancelled:

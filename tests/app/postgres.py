@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import pwd
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from tests.browser.service import free_port
@@ -26,30 +27,60 @@ def missing() -> str | None:
     return None if os.geteuid() or _owner() else f"PostgreSQL does not run as root, and there is no user '{OWNER}'"
 
 
+class Server:
+    """A server with an empty database, which is removed with it. It can be killed and started again."""
+
+    def __init__(self) -> None:
+        programs, self._owner = _programs(), _owner()
+        assert programs is not None
+        owner = self._owner
+        self._user = {"user": owner, "group": pwd.getpwnam(owner).pw_gid, "extra_groups": []} if owner else {}
+        self._folder = Path(tempfile.mkdtemp(prefix="rths-postgres-"))
+        if owner:
+            shutil.chown(self._folder, owner)
+        data, name = self._folder / "data", owner or pwd.getpwuid(os.geteuid()).pw_name
+        initdb = [programs / "initdb", "-D", data, "-A", "trust", "--no-sync", "-E", "UTF8", "--locale", "C"]
+        subprocess.run(initdb, check=True, capture_output=True, cwd=self._folder, **self._user)  # type: ignore[call-overload]
+        self.port = free_port()
+        options = ["-D", data, "-p", str(self.port), "-h", "127.0.0.1", "-k", self._folder]
+        self._command = [programs / "postgres", *options, "-c", "fsync=off", "-c", "max_connections=200"]
+        self.url = f"postgresql://{name}@127.0.0.1:{self.port}/postgres"
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Start the server and wait until it answers."""
+        self._process = subprocess.Popen(  # type: ignore[call-overload]
+            self._command, stderr=subprocess.DEVNULL, cwd=self._folder, **self._user
+        )
+        _wait(self._process, self.port)
+
+    def kill(self) -> None:
+        """Kill the server with all its processes at once, as a machine that loses its power."""
+        assert self._process is not None
+        main = self._process.pid
+        children = [int(child) for one in Path(f"/proc/{main}/task").glob("*/children") for child in one.read_text().split()]
+        for pid in (main, *children):
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        self._process.wait(20)
+
+    def remove(self) -> None:
+        """Stop the server and remove its data."""
+        if self._process is not None and self._process.poll() is None:
+            self._process.terminate()
+            self._process.wait(20)
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+
 @contextmanager
 def server() -> Iterator[str]:
     """The URL of an empty database, which is removed with its server."""
-    programs, owner = _programs(), _owner()
-    assert programs is not None
-    user = {"user": owner, "group": pwd.getpwnam(owner).pw_gid, "extra_groups": []} if owner else {}
-    folder = Path(tempfile.mkdtemp(prefix="rths-postgres-"))
+    one = Server()
     try:
-        if owner:
-            shutil.chown(folder, owner)
-        data, name = folder / "data", owner or pwd.getpwuid(os.geteuid()).pw_name
-        initdb = [programs / "initdb", "-D", data, "-A", "trust", "--no-sync", "-E", "UTF8", "--locale", "C"]
-        subprocess.run(initdb, check=True, capture_output=True, cwd=folder, **user)  # type: ignore[call-overload]
-        port = free_port()
-        options = ["-D", data, "-p", str(port), "-h", "127.0.0.1", "-k", folder, "-c", "fsync=off", "-c", "max_connections=200"]
-        process = subprocess.Popen([programs / "postgres", *options], stderr=subprocess.DEVNULL, cwd=folder, **user)  # type: ignore[call-overload]
-        try:
-            _wait(process, port)
-            yield f"postgresql://{name}@127.0.0.1:{port}/postgres"
-        finally:
-            process.terminate()
-            process.wait(20)
+        one.start()
+        yield one.url
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        one.remove()
 
 
 def _owner() -> str | None:

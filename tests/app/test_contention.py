@@ -15,9 +15,10 @@ from fastapi.testclient import TestClient
 from pydantic import BaseModel
 
 from app import db, dependencies
+from app.access import Role, allowed
 from app.config import Settings
 from app.main import create_app
-from tests.app.conftest import ADDRESS, app_of, plan
+from tests.app.conftest import ADDRESS, HERE, app_of, plan
 
 RUNS = "/api/v1/runs"
 MANY = 50
@@ -54,13 +55,14 @@ def test_a_request_that_writes_ends_while_all_others_wait_for_its_lock(settings:
     threads = 3
 
     @router.post("/slow")
+    @allowed(Role.VIEWER)
     def slow(session: dependencies.OneSession) -> Answer:
         session.execute(sa.text("update queue_state set held = held"))
         return Answer(number=1)
 
     app.include_router(router)
     app.state.writing._value = threads - 1
-    with TestClient(app, ADDRESS, raise_server_exceptions=False) as client:
+    with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as client:
         assert client.portal is not None
         client.portal.call(_limit_threads, threads)
         answers = at_once(12, lambda _: client.post("/slow"))
@@ -82,8 +84,11 @@ def test_a_service_that_stays_busy_says_when_to_try_again(client: TestClient, mo
 def test_a_pool_without_a_free_connection_is_no_server_error(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
     engine = app_of(client).state.sessions.kw["bind"]
     monkeypatch.setattr(engine.pool, "_timeout", 0.01)
-    held = [engine.connect() for _ in range(db.CONNECTIONS - engine.pool.checkedout())]
+    held: list[sa.Connection] = []
     try:
+        with pytest.raises(sa.exc.TimeoutError):
+            while len(held) <= db.CONNECTIONS:
+                held.append(engine.connect())
         answer = client.get(RUNS)
     finally:
         for one in held:

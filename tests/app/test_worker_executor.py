@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+import sqlalchemy as sa
 from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
@@ -139,6 +140,29 @@ def test_a_recording_goes_to_its_place_and_viewers_are_told_of_the_end(bench: Be
     assert run.state is State.COMPLETED and run.recording_sha256 == "0" * 64
     assert bench.files == [f"{run.id}.h5"]
     assert bench.told.ended == [(run.id, 1)]
+
+
+def test_a_commit_that_fails_after_the_recording_is_in_place_is_done_again_alone(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And the test is not repeated: a database that is away for a while costs no test."""
+    real, failures = JobService.finish, iter([True, True])
+
+    class Away(Exception): ...
+
+    def finish(self: JobService[Any, Any], job_id: str, attempt: int, result: Any) -> bool:
+        stored = real(self, job_id, attempt, result)
+        if next(failures, False):
+            sa.event.listen(self.session, "before_commit", lambda _: _away(), once=True)
+        return stored
+
+    def _away() -> None:
+        raise sa.exc.OperationalError("commit", {}, Away("the database is away"))
+
+    monkeypatch.setattr(JobService, "finish", finish)
+    run = bench.execute(recorded)
+    assert (run.state, run.attempt) == (State.COMPLETED, 1)
+    assert bench.files == [f"{run.id}.h5"]
 
 
 def test_a_recording_that_cannot_be_put_in_its_place_is_a_failed_run_that_says_why(bench: Bench) -> None:

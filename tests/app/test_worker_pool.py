@@ -59,9 +59,16 @@ def test_an_engine_that_is_taken_is_compiled_and_executes_at_once(engine: JobPro
 
 
 def test_an_engine_asked_to_stop_saves_what_it_recorded(engine: JobProcess, job: RunOrder) -> None:
-    done = engine.execute(job, lambda told: engine.cancel())
+    done = engine.execute(job, lambda told: engine.cancel(job))
     assert isinstance(done, Done) and done.result.summary["status"] == "cancelled"
     assert job.recording.exists()
+
+
+def test_a_late_cancel_does_not_reach_the_next_test_of_the_process(engine: JobProcess, job: RunOrder) -> None:
+    """The worker looks at a test that has just ended, while its process already executes another one."""
+    earlier = replace(job, job_id="earlier")
+    done = engine.execute(replace(job, plan=plan(duration=1.0)), lambda told: engine.cancel(earlier))
+    assert isinstance(done, Done) and done.result.summary["status"] == "completed"
 
 
 def test_an_engine_that_does_not_answer_is_ended(engine: JobProcess, job: RunOrder, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -69,7 +76,7 @@ def test_an_engine_that_does_not_answer_is_ended(engine: JobProcess, job: RunOrd
 
     def freeze(told: Any) -> None:
         os.kill(engine._process.pid or 0, signal.SIGSTOP)
-        engine.cancel()
+        engine.cancel(job)
 
     failed = engine.execute(job, freeze)
     assert isinstance(failed, Failed) and "did not stop within 0.2 s" in failed.reason

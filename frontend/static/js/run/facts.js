@@ -26,7 +26,7 @@ export function facts(run, measures) {
     ["Seed", run.seed],
     ["Attempt", run.attempt > 1 ? `${run.attempt} (the worker or the engine stopped during the previous attempt)` : null],
     ["Plan digest", run.digest],
-    ["Code version", run.code_version],
+    ["Code version", version(run)],
     ...of(measures, "floor", run.test).map((one) => ofFloors(run, one)),
     ...of(measures, "run", run.test).map((one) => ofTest(run, one)),
     ["Recording", run.recording && `${size(run.recording.size)}, SHA-256 ${run.recording.sha256}`],
@@ -34,6 +34,11 @@ export function facts(run, measures) {
   return rows
     .filter(([, value]) => value != null && value !== "" && value !== "–")
     .flatMap(([term, value]) => [el("dt", {}, term), value instanceof Node ? el("dd", {}, value) : el("dd", { title: value }, String(value))]);
+}
+
+/** The version of the program that executed a run, and the one that queued it where that is another. @param {any} run */
+function version({ code_version, started_version }) {
+  return !started_version || started_version === code_version ? code_version : `${started_version} (queued by version ${code_version})`;
 }
 
 /** A measure of the floors that no table shows. @param {any} run @param {Measure} measure @returns {[string, string | null]} */
