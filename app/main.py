@@ -24,6 +24,7 @@ from app.accounts.credentials import Credentials
 from app.accounts.endpoints import router as own_account
 from app.accounts.throttle import Throttle
 from app.annotations.endpoints import router as run_annotations
+from app.approvals.endpoints import router as approvals
 from app.audit.log import SERVICE
 from app.audit.recorder import Recorder, Waiting
 from app.audit.requests import Recording
@@ -31,6 +32,7 @@ from app.auditing.endpoints import router as auditing
 from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
+from app.control.endpoints import router as control
 from app.dependencies import WRITERS
 from app.diagnoses.endpoints import router as diagnoses
 from app.disk_guard import DiskGuard
@@ -133,6 +135,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         queue,
         abort,
         rigs,
+        control,
+        approvals,
         motions,
         plans,
         preflight,

@@ -8,6 +8,7 @@ PREFIX = "/api/v1/"
 SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 CALCULATIONS = frozenset(
     {
+        "/api/v1/control/{rig_id}/renew",  # every minute by an open page; it gives the control to nobody
         "/api/v1/motions/contents",
         "/api/v1/motions/preview",
         "/api/v1/plans/check",
@@ -24,7 +25,7 @@ CALCULATIONS = frozenset(
         "/api/v1/sweeps/preview",
     }
 )
-"""Addresses whose POST requests calculate an answer and change nothing. A new address is recorded until it stands here."""
+"""Addresses whose POST requests change nothing that matters later. A new address is recorded until it stands here."""
 
 
 def changes(method: str, route: Any) -> bool:

@@ -22,6 +22,8 @@ class EventKind(StrEnum):
     REQUEUED = "requeued"
     HELD = "held"
     RELEASED = "released"
+    TO_APPROVE = "to approve"
+    APPROVED = "approved"
 
 
 class Event(Base):

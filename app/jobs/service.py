@@ -55,14 +55,37 @@ class JobService(Generic[Row, Result]):
         self.rows: JobRepository[Row] = JobRepository(session, table)
         self.session, self.kind, self.queue = session, kind, queue
 
-    def submit(self, jobs: Sequence[Row], by: str) -> None:
-        """Store and queue jobs, all in the transaction of the session."""
+    def submit(self, jobs: Sequence[Row], by: str, first: State = State.QUEUED) -> None:
+        """Store and queue jobs, all in the transaction of the session; those that are TO_APPROVE first are only stored."""
         for job in jobs:
-            job.id, job.state, job.attempt = str(uuid.uuid4()), State.QUEUED, 0
+            job.id, job.state, job.attempt = str(uuid.uuid4()), first, 0
             job.submitted_by, job.submitted_at = named(by), datetime.now(UTC)
         self.rows.add(jobs)
+        if first is State.TO_APPROVE:
+            for job in jobs:
+                self._tell(EventKind.TO_APPROVE, job, f"{job.submitted_by} submitted it. Another person approves it.")
+            return
         assert self.queue is not None
         self.queue.enqueue(self.session, self.kind, [job.id for job in jobs])
+
+    def approve(self, job_id: str, by: str) -> Row:
+        """Queue a job that was to be approved. Raises IllegalTransition for any other job."""
+        job = self.locked(job_id)
+        if job.state is not State.TO_APPROVE:
+            raise states.IllegalTransition(self.kind.noun, job.state, State.QUEUED)
+        self._move(job, State.QUEUED)
+        self._tell(EventKind.APPROVED, job, f"{named(by)} approved it.")
+        assert self.queue is not None
+        self.queue.enqueue(self.session, self.kind, [job.id])
+        return job
+
+    def reject(self, job_id: str, by: str, reason: str) -> Row:
+        """End a job that was to be approved. Raises IllegalTransition for any other job."""
+        job = self.locked(job_id)
+        if job.state is not State.TO_APPROVE:
+            raise states.IllegalTransition(self.kind.noun, job.state, State.CANCELLED)
+        self._end(job, State.CANCELLED, f"Rejected by {named(by)}: {reason}")
+        return job
 
     def get(self, job_id: str) -> Row:
         """The job with this id. Raises NotFound."""
@@ -79,7 +102,7 @@ class JobService(Generic[Row, Result]):
         """Cancel a queued job now; ask the worker to stop a running job. Raises IllegalTransition for a job that has ended."""
         job = self.locked(job_id)
         states.check(job.state, State.CANCELLED, self.kind.noun)
-        if job.state is State.QUEUED:
+        if job.state is not State.RUNNING:
             self._end(job, State.CANCELLED, f"Cancelled by {named(by)} before it started.")
         else:
             job.cancel_requested_by = named(by)

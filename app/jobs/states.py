@@ -8,8 +8,9 @@ from app.problems import Conflict
 
 
 class State(StrEnum):
-    """State of a job."""
+    """State of a job. A job that is to be approved is not in the queue yet: nothing that starts queued jobs can start it."""
 
+    TO_APPROVE = "to approve"
     QUEUED = "queued"
     RUNNING = "running"
     COMPLETED = "completed"
@@ -19,7 +20,7 @@ class State(StrEnum):
 
     @property
     def ended(self) -> bool:
-        return self not in {State.QUEUED, State.RUNNING}
+        return self not in {State.TO_APPROVE, State.QUEUED, State.RUNNING}
 
     @staticmethod
     def values(kind: type[State]) -> list[str]:
@@ -28,6 +29,7 @@ class State(StrEnum):
 
 # running -> queued: the worker of the job has died; cancelled -> queued: the cancel of a job that had not started was undone
 TRANSITIONS: dict[State, frozenset[State]] = {
+    State.TO_APPROVE: frozenset({State.QUEUED, State.CANCELLED}),
     State.QUEUED: frozenset({State.RUNNING, State.CANCELLED, State.FAILED}),
     State.RUNNING: frozenset({State.QUEUED, State.COMPLETED, State.TRIPPED, State.CANCELLED, State.FAILED}),
     State.COMPLETED: frozenset(),

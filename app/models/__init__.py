@@ -4,6 +4,7 @@ from app.audit.tables import AuditEntry, AuditHead
 from app.events.tables import Event
 from app.leases import Lease
 from app.models.accounts import Account, AccountLink, AccountSession, ApiToken
+from app.models.control import Approval, RigControl, Rules
 from app.models.diagnoses import Diagnosis, DiagnosisInput
 from app.models.library import LibraryPlan, PlanDraft, PlanTag, PlanVersion
 from app.models.measured import ImportBatch, MeasuredRecording, RawFile, SavedMapping
@@ -32,6 +33,7 @@ __all__ = [
     "AccountSession",
     "Annotation",
     "ApiToken",
+    "Approval",
     "AuditEntry",
     "AuditHead",
     "Diagnosis",
@@ -46,6 +48,8 @@ __all__ = [
     "PlanVersion",
     "RawFile",
     "Rig",
+    "RigControl",
+    "Rules",
     "Run",
     "RunPlan",
     "RunStation",

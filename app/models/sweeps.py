@@ -29,6 +29,7 @@ class Sweep(Base):
     submitted_by: Mapped[str] = mapped_column(sa.String(80))
     submitted_at: Mapped[datetime] = mapped_column(index=True)
     cancelled_by: Mapped[str | None] = mapped_column(sa.String(80))
+    to_approve: Mapped[bool] = mapped_column(default=False, server_default=sa.false())
 
 
 class SweepShard(Job, Base):

@@ -21,7 +21,7 @@ class EventOut(BaseModel):
     number: int = Field(description="number of the event; later events have larger numbers")
     at: datetime = Field(description="time of the event, UTC")
     kind: EventKind
-    about: str = Field(description="what the event is about: `run`, `diagnosis` or `queue`")
+    about: str = Field(description="what the event is about: `run`, `sweep`, `diagnosis` or `queue`")
     about_id: str | None = Field(description="id of the run or the diagnosis")
     run_id: str | None = Field(description="id of the run, for an event about a run")
     name: str = Field(description="name of the run or the diagnosis; empty for an event of the queue")

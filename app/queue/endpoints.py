@@ -48,7 +48,7 @@ def cancel(asked: Annotated[Cancelled, Body()], queued: Queued) -> CancelledOut:
     return queued.cancel(asked.runs, asked.by)
 
 
-@router.post("/queue/hold")
+@router.post("/queue/hold", responses=told(409))
 @allowed(Role.OPERATOR)
 def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
     """Hold the queue: queued tests do not start, running tests go on. The reason is shown until the release."""
@@ -56,7 +56,7 @@ def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
     return queued.state()
 
 
-@router.post("/queue/release")
+@router.post("/queue/release", responses=told(409))
 @allowed(Role.OPERATOR)
 def release(queued: Queued, person: Asking) -> QueueOut:
     """Release the queue after a hold or an abort, so that queued tests start."""

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 
 from sqlalchemy.orm import Session
 
+from app.control.service import Control, NotDriving
 from app.db import afterwards
 from app.jobs.aborts import ABORTED, Aborts
 from app.jobs.hold import Hold
 from app.jobs.service import JobService, named
+from app.jobs.states import State
 from app.jobs.tables import QueueState
 from app.latch import Latch
 from app.models import Run
@@ -31,6 +33,7 @@ class QueueService:
         self.latch = latch or Latch()
         self._released: list[str] = []
         self.jobs: JobService[Run, Outcome] = JobService(session, RUNS)
+        self.control = Control(session)
 
     def state(self, limit: int = 200) -> QueueOut:
         """The queue with its first `limit` waiting tests."""
@@ -73,6 +76,12 @@ class QueueService:
                 refused.append(Refusal(id=run, reason=f"There is no run {run}."))
             elif job.state.ended:
                 refused.append(Refusal(id=run, reason=f"Run {job.number} has already ended: it is {job.state}."))
+            elif job.state is State.TO_APPROVE:
+                self.control.withdrawn(run, by)
+                self.jobs.cancel(run, by)
+                cancelled.append(run)
+            elif why := self._not_driving(job, by):
+                refused.append(Refusal(id=run, reason=why))
             else:
                 self.jobs.cancel(run, by)
                 cancelled.append(run)
@@ -80,10 +89,12 @@ class QueueService:
 
     def hold_it(self, by: str, reason: str) -> None:
         """Hold the queue: no queued test starts; running tests go on."""
+        self.control.check_hold(by)
         self.hold.set(named(by), reason.strip())
 
     def release(self, by: str) -> None:
         """Release the queue, and the latch of every service and worker once that is stored."""
+        self.control.check_release(by)
         self.hold.locked()
         self._released = released = Aborts(self.session).release(self.latch.presses, by)
         self.hold.release(named(by))
@@ -96,6 +107,14 @@ class QueueService:
             return stored
         first = pressed[0]
         return QueueState(id=1, held=True, held_by=named(first.by), held_at=first.time, held_reason=ABORTED)
+
+    def _not_driving(self, run: Run, by: str) -> str:
+        """Why a person may not cancel a run: somebody else drives its rig. Empty where the person may."""
+        try:
+            self.control.check([run.rig_id], by)
+        except NotDriving as error:
+            return f"Run {run.number}: {error}"
+        return ""
 
     def _check_waiting(self, runs: Sequence[str], waiting: set[str]) -> None:
         for run in runs:

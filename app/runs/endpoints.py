@@ -59,7 +59,7 @@ class Wanted(BaseModel):
         return Page(self.sort, self.order == "desc", self.limit, self.offset)
 
 
-@router.post("/runs", status_code=201)
+@router.post("/runs", status_code=201, responses=told(409))
 @allowed(Role.OPERATOR, Scope.SUBMIT)
 def submit(body: Annotated[Submission, Body()], runs: Runs, who: Who) -> Submitted:
     """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued.

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import sqlalchemy as sa
-from sqlalchemy.orm import aliased
+from sqlalchemy.orm import aliased, object_session
 
 from app import metrics
 from app.config import Settings
 from app.jobs.kind import Ending, Kind
 from app.jobs.service import NOBODY
 from app.jobs.states import State
-from app.models import Rig, Run, RunStation
+from app.models import Approval, Rig, Run, RunStation
 from app.runs import values
 from app.runs.order import WAITING, Outcome, RunOrder
 from app.store.filed import RECORDINGS, of_run
@@ -65,7 +65,7 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
 
     def order(self, job: Run, settings: Settings) -> RunOrder:
         recording = store_of(settings).scratch(RECORDINGS) / f".{job.id}.{job.attempt}.h5"
-        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings)
+        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings, _approved(job))
 
     def store(self, job: Run, result: Outcome) -> Ending:
         summary = _finite(result.summary)
@@ -106,6 +106,14 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
 
 
 RUNS = RunKind()
+
+
+def _approved(run: Run) -> str:
+    """The digest of the plan that a person approved; empty where none was needed."""
+    session = object_session(run)
+    assert session is not None
+    query = sa.select(Approval.digest).where(Approval.about_id == run.id, Approval.decision == "approved")
+    return session.scalar(query.order_by(Approval.number.desc()).limit(1)) or ""
 
 
 def _kept(recording: Path, target: Path) -> str:

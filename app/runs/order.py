@@ -22,6 +22,8 @@ class RunOrder(Order):
     plan: dict[str, Any]
     recording: Path
     settings: Settings
+    approved: str = ""
+    """Digest of the plan that was approved; empty where no approval was needed."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from typing import Any
 from sqlalchemy.orm import Session
 
 from app.checking import Checked, checked
+from app.control.service import Control
 from app.jobs.service import JobService, Queue
 from app.jobs.states import State
 from app.models import EMULATED, Rig, Run
@@ -30,7 +31,7 @@ class RunService:
     def __init__(self, session: Session, motions: MotionLibrary, queue: Queue | None = None):
         self.runs = RunRepository(session)
         self.jobs: JobService[Run, Outcome] = JobService(session, RUNS, queue)
-        self.rigs = RigService(session)
+        self.rigs, self.control = RigService(session), Control(session)
         self.session, self.motions = session, motions
 
     def submit(
@@ -55,6 +56,9 @@ class RunService:
             )
             raise PlanError(Issue("library", "is not a version of a plan in the library", given, fix))
         on = self.rigs.for_tests(rig)
+        to_approve = self.control.approvals
+        if not to_approve:
+            self.control.check([on.id], submitted_by)
         issues: list[Issue] = []
         runs: list[Run] = []
         for index, data in enumerate(plans):
@@ -69,7 +73,9 @@ class RunService:
         if library is not None:
             for run in runs:
                 run.library_id, run.library_version = library.id, library.version
-        self.jobs.submit(runs, submitted_by)
+        self.jobs.submit(runs, submitted_by, State.TO_APPROVE if to_approve else State.QUEUED)
+        for run in runs if to_approve else ():
+            self.control.ask_approval("run", run.id, run.digest, run.submitted_by)
         return runs
 
     def check_of_library(self, runs: Sequence[Run]) -> None:
@@ -94,6 +100,10 @@ class RunService:
 
     def cancel(self, run_id: str, by: str) -> Run:
         """Cancel a queued run now; ask the worker to stop a running run. Raises IllegalTransition for a run that has ended."""
+        if self.get(run_id).state is State.TO_APPROVE:
+            self.control.withdrawn(run_id, by)
+        else:
+            self.control.check_run(run_id, by)
         return self.jobs.cancel(run_id, by)
 
     def undo_cancel(self, run_id: str, by: str) -> Run:
@@ -105,6 +115,10 @@ class RunService:
         if run.deleted_at is not None or run.archived:
             shelf = "deleted" if run.deleted_at is not None else "archived"
             raise Conflict(f"Run {run.number} is {shelf}. Restore it first, then undo the cancel.")
+        self.control.check_run(run_id, by)
+        asked = self.control.approval(run_id)
+        if asked is not None and asked.decision != "approved":
+            raise Conflict(f"Run {run.number} was never approved. Retry it: the new run then waits for approval.")
         if run.state is State.CANCELLED:
             self.rigs.check(self.plan_of(run), self.rigs.for_tests(run.rig_id))
         return self.jobs.undo_cancel(run_id, by)

@@ -145,7 +145,7 @@ def point(sweep_id: str, point: int, sweeps: Sweeps) -> PointOut:
     )
 
 
-@router.post("/{sweep_id}/points/{point}/run", status_code=201)
+@router.post("/{sweep_id}/points/{point}/run", status_code=201, responses=told(409))
 @allowed(Role.ENGINEER)
 def run(sweep_id: str, point: int, sweeps: Sweeps, person: Asking) -> RunOut:
     """Queue the plan of a point as an ordinary run, whose recording has the full histories."""

@@ -14,6 +14,9 @@ from sqlalchemy.orm import Session
 
 from app.calculations.answer import Calculator
 from app.config import Settings
+from app.control.service import Control
+from app.events.log import EventLog
+from app.events.tables import EventKind
 from app.jobs.service import JobService, Queue, named
 from app.jobs.states import State
 from app.models import Run, Sweep, SweepPart, SweepShard
@@ -45,6 +48,7 @@ class SweepService:
     def __init__(
         self, session: Session, runs: RunService, settings: Settings, calculate: Calculator, queue: Queue | None = None
     ):
+        self.control, self.events = Control(session), EventLog(session)
         self.rows = SweepRepository(session)
         self.jobs: JobService[SweepShard, ShardEnd] = JobService(session, SHARDS, queue)
         self.runs, self.settings, self.calculate = runs, settings, calculate
@@ -74,8 +78,42 @@ class SweepService:
             submitted_at=datetime.now(UTC),
         )
         self.rows.add_sweep(sweep)
-        self._queue(sweep, [(0, design.count)], by)
+        self._queue_or_ask(sweep, [(0, design.count)], by)
         return sweep
+
+    def approve(self, sweep_id: str, by: str) -> Sweep:
+        """Queue a sweep that was to be approved. Raises Conflict for any other sweep."""
+        sweep = self._to_approve(sweep_id)
+        sweep.to_approve = False
+        self._tell(EventKind.APPROVED, sweep, f"{named(by)} approved it.")
+        self._queue(sweep, left([(0, sweep.points)], self.rows.spans(sweep.number, 0, sweep.points)), sweep.submitted_by)
+        return sweep
+
+    def reject(self, sweep_id: str, by: str, reason: str) -> Sweep:
+        """End a sweep that was to be approved. Raises Conflict for any other sweep."""
+        sweep = self._to_approve(sweep_id)
+        sweep.to_approve, sweep.cancelled_by = False, named(by)
+        self._tell(EventKind.CANCELLED, sweep, f"Rejected by {named(by)}: {reason}")
+        return sweep
+
+    def _to_approve(self, sweep_id: str) -> Sweep:
+        sweep = self.get(sweep_id)
+        self.rows.lock(sweep)
+        if not sweep.to_approve:
+            raise Conflict(f"Sweep {sweep.number} does not wait for approval: it is {state(sweep, self.standing(sweep))}.")
+        return sweep
+
+    def _queue_or_ask(self, sweep: Sweep, spans: Sequence[tuple[int, int]], by: str) -> None:
+        """Queue points of a sweep, or ask for approval first where the laboratory has this rule."""
+        if not self.control.approvals:
+            self._queue(sweep, spans, by)
+            return
+        sweep.to_approve = True
+        self.control.ask_approval("sweep", sweep.id, digest(sweep), named(by))
+        self._tell(EventKind.TO_APPROVE, sweep, f"{named(by)} submitted it. Another person approves it.")
+
+    def _tell(self, kind: EventKind, sweep: Sweep, sentence: str) -> None:
+        self.events.add(kind, f"Sweep {sweep.number}, {sweep.name}: {sentence}", "sweep", sweep.id, sweep.name)
 
     def preview(self, data: Any) -> PreviewOut:
         """What a sweep would do: its points, columns, stability and computing time. Raises PlanError or MotionError."""
@@ -140,7 +178,10 @@ class SweepService:
         sweep = self.get(sweep_id)
         self.rows.lock(sweep)
         ids = self.rows.unfinished(sweep)
-        if not ids:
+        if sweep.to_approve:
+            sweep.to_approve = False
+            self.control.withdrawn(sweep.id, by)
+        elif not ids:
             raise Conflict(f"The sweep has already ended: it is {state(sweep, self.standing(sweep))}.")
         sweep.cancelled_by = named(by)
         for shard in ids:
@@ -156,13 +197,13 @@ class SweepService:
         sweep = self.get(sweep_id)
         self.rows.lock(sweep)
         standing = self.standing(sweep)
-        if any(not one.ended for one in standing.states):
+        if sweep.to_approve or any(not one.ended for one in standing.states):
             raise Conflict(f"The sweep has not ended: it is {state(sweep, standing)}. Cancel it first.")
         spans = left([(0, sweep.points)], self.rows.spans(sweep.number, 0, sweep.points))
         if not spans:
             raise Conflict("All points of the sweep have results.")
         sweep.cancelled_by = None
-        self._queue(sweep, spans, by)
+        self._queue_or_ask(sweep, spans, by)
         return sweep
 
     def remove(self, sweep_id: str) -> None:
@@ -223,6 +264,8 @@ def _intact(sweep: Sweep, part: SweepPart) -> tuple[int, int, bytes, dict[str, A
 
 def state(sweep: Sweep, standing: Standing) -> State:
     """The state of a sweep, from its shards and its points."""
+    if sweep.to_approve:
+        return State.TO_APPROVE
     states = standing.states
     if State.RUNNING in states or (State.QUEUED in states and standing.done):
         return State.RUNNING
@@ -231,6 +274,11 @@ def state(sweep: Sweep, standing: Standing) -> State:
     if standing.done >= sweep.points:
         return State.COMPLETED
     return State.CANCELLED if sweep.cancelled_by else State.FAILED
+
+
+def digest(sweep: Sweep) -> str:
+    """SHA-256 of the definition of a sweep, its plan included."""
+    return sha256(json.dumps(sweep.definition, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
 
 def cost(design: Design) -> str:

@@ -30,6 +30,8 @@ def execute(order: RunOrder, line: Line) -> Outcome:
     from rths_engine.recordings.run_file import save
     from rths_engine.running.opening import opened
 
+    if order.approved:
+        _check_approved(order)
     if order.plan.get("test") == "client":
         return client.execute(order, line)
     with ExitStack() as room, ExitStack() as rigs:
@@ -46,6 +48,15 @@ def execute(order: RunOrder, line: Line) -> Outcome:
         release()
         saved = save(order.recording, result)
     return Outcome(result.summary(), saved.sha256, saved.size)
+
+
+def _check_approved(order: RunOrder) -> None:
+    """Raise Refused unless the plan is the one that was approved."""
+    from rths_engine.planning.reading import read_plan
+
+    digest = read_plan(order.plan).digest
+    if digest != order.approved:
+        raise Refused(f"The plan is not the one that was approved: its digest is {digest}, approved was {order.approved}.")
 
 
 class _Telling(Viewers):

@@ -198,9 +198,9 @@ def test_a_request_that_changes_something_is_recorded_in_its_transaction(client:
 
 
 def test_refused_requests_and_calculations_leave_no_change(client: TestClient) -> None:
-    client.post("/api/v1/runs", json={"plan": {**plan(), "dt": -1}})
+    client.post("/api/v1/runs", json={"plans": []})
     client.post("/api/v1/runs/nowhere/cancel")
-    client.post("/api/v1/plans/write", json=plan())
+    client.post("/api/v1/plans/write", json={})
     client.get("/api/v1/runs")
     assert [one["action"] for one in asked(client)] == ["service.started"]
 

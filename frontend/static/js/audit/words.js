@@ -4,14 +4,16 @@
 /** @typedef {{number: number, at: string, who: string, role: string, signed_in: string, action: string, about: string, run: {id: string, number: number, name: string} | null, details: Record<string, any>, previous: string, hash: string}} Entry */
 
 const LONGEST = 160;
+const MOST = 5; // rows that were added, in the line
+const UNTOLD = new Set(["by", "submitted_by", "bytes", "sha256", "fields"]);
 
 /** One line about an entry: the sentence of an event, or what the request gave. @param {Entry} entry */
 export function line({ details }) {
   if (details.sentence) return String(details.sentence);
-  const given = Object.entries(details.given ?? details.options ?? {}).filter(([name]) => name !== "by" && name !== "submitted_by");
-  const made = (details.made ?? []).length;
+  const given = Object.entries(details.given ?? {}).filter(([name]) => !UNTOLD.has(name));
+  const made = (details.made ?? []).map((/** @type {any} */ one) => `${one.is.split(":")[0].replaceAll("_", " ")} ${one.number ?? ""}`.trim());
   const parts = [
-    made && `${details.made_in_all} ${details.made_in_all === 1 ? "row" : "rows"} added`,
+    made.length && `added: ${made.slice(0, MOST).join(", ")}${details.made_in_all > MOST ? ` and ${details.made_in_all - MOST} more` : ""}`,
     ...given.map(([name, value]) => `${name}: ${text(value)}`),
   ];
   const said = parts.filter(Boolean).join(", ") || (details.method ? `${details.method} ${details.path}` : "No details");

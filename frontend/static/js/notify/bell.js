@@ -11,9 +11,9 @@ const PERIOD_MS = 3000;
 const SHOWN = 20;
 const MOST_TOASTS = 3; // more at once become one message
 const SEEN = "rths.events.seen";
-const KINDS = ["completed", "tripped", "failed", "cancelled", "requeued", "held", "released"];
+const KINDS = ["completed", "tripped", "failed", "cancelled", "requeued", "held", "released", "to approve", "approved"];
 const ENDS = new Set(["completed", "tripped", "failed"]);
-const QUERY = KINDS.map((kind) => `kind=${kind}`).join("&");
+const QUERY = KINDS.map((kind) => `kind=${encodeURIComponent(kind)}`).join("&");
 const bell = byId("bell");
 const panel = byId("bell-panel");
 const badge = el("span", { class: "unread", hidden: true });
@@ -30,7 +30,7 @@ export const tone = (kind) => (kind === "tripped" || kind === "failed" ? "bad" :
 /** @param {Told} event */
 function address({ about, about_id: id }) {
   if (about === "queue") return "/queue";
-  const pages = { run: "runs", diagnosis: "diagnoses" };
+  const pages = { run: "runs", sweep: "sweeps", diagnosis: "diagnoses" };
   return about in pages ? `/${/** @type {any} */ (pages)[about]}/${id}` : null;
 }
 

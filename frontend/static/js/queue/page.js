@@ -1,6 +1,7 @@
 // @ts-check
 // The page of the queue: it shows what the service says every 1.5 s, and at once after each change.
 import { api, explain } from "../api.js";
+import { controlLine } from "../control/line.js";
 import { byId, el, renew } from "../dom.js";
 import { person } from "../person.js";
 import { toast } from "../toast.js";
@@ -186,3 +187,4 @@ byId("undo-list").addEventListener("click", (/** @type {any} */ event) => {
   if (button) restore([button.dataset.undo]);
 });
 refresh();
+controlLine(byId("control"), (rig) => Boolean(rig.driver) || line.some((one) => one.rig_id === rig.rig_id) || rig.rig_id === "emulated");

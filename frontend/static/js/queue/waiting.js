@@ -3,7 +3,7 @@
 import { el } from "../dom.js";
 import { clock, paceWords, span } from "./words.js";
 
-/** @typedef {{id: string, number: number, name: string, position: number, priority: number, rig_name: string, submitted_by: string,
+/** @typedef {{id: string, number: number, name: string, position: number, priority: number, rig_id: string, rig_name: string, submitted_by: string,
  *   pace: number | null, waits: string, expected_s: number | null, expected_from: string, expected_start: string | null,
  *   expected_end: string | null, retry_of: string | null}} Waiting */
 /** @typedef {{up: (id: string) => void, down: (id: string) => void, top: (id: string) => void, cancel: (id: string) => void,

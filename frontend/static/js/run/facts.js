@@ -84,6 +84,7 @@ export function reason(run) {
 
 /** What stands in place of the test before its signals arrive. @param {any} run */
 export function awaited({ state, recording }) {
+  if (state === "to approve") return "The test waits until another person approves it on the page Queue.";
   if (state === "queued") return "The drawing, the gauges and the charts appear here when the test starts.";
   return ended(state) && !recording ? "This run has no recording, so there is nothing to draw. Edit the plan and run it again." : "Loading the signals of the test …";
 }

@@ -1,6 +1,7 @@
 // @ts-check
 import { api, explain } from "../api.js";
 import { cancelConfirmed } from "../confirm.js";
+import { controlLine } from "../control/line.js";
 import { byId, renew } from "../dom.js";
 import { person } from "../person.js";
 import { loading } from "../ready.js";
@@ -89,7 +90,7 @@ function showProgress(at) {
   const { simulated_s = 0 } = at;
   const duration_s = run.test === "client" ? null : (at.duration_s ?? 0);
   byId("clock").hidden = ended(at.state) && simulated_s === null;
-  const waits = at.state === "queued" ? "Waiting in the queue" : at.client?.state === "waiting" && !ended(at.state) ? "Waiting for client" : "";
+  const waits = at.state === "queued" ? "Waiting in the queue" : at.state === "to approve" ? "Waiting for approval" : at.client?.state === "waiting" && !ended(at.state) ? "Waiting for client" : "";
   byId("clock").textContent = waits || clock({ ...at, simulated_s, duration_s });
 }
 
@@ -181,10 +182,13 @@ const viewer = {
 /** @param {unknown} error */
 const complain = (error) => (byId("refusal").textContent = explain(error));
 
+/** @param {string} state */
+const waits = (state) => state === "queued" || state === "to approve";
+
 /** Poll the status of a queued run until the live feed reports it. */
 async function poll() {
-  if (run.state === "queued") await load().catch(complain);
-  if (run.state === "queued") setTimeout(poll, POLL_MS);
+  if (waits(run.state)) await load().catch(complain);
+  if (waits(run.state)) setTimeout(poll, POLL_MS);
 }
 
 document.addEventListener("themechange", () => shown?.view.redraw());
@@ -202,6 +206,7 @@ try {
     void loading(seen.promise);
   }
   poll();
+  if (!ended(run.state)) controlLine(byId("control"), (rig) => rig.rig_id === run.rig_id);
 } catch (error) {
   complain(error);
 }

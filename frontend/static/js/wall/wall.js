@@ -1,5 +1,6 @@
 // @ts-check
 import { api } from "../api.js";
+import { controlLine } from "../control/line.js";
 import { byId, el, renew } from "../dom.js";
 import { ended } from "../run/facts.js";
 import { Display } from "./display.js";
@@ -71,3 +72,4 @@ document.addEventListener("visibilitychange", stayAwake);
 stayAwake();
 tick();
 look();
+controlLine(byId("control"), (rig) => Boolean(rig.driver), { controls: false });

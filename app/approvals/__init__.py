@@ -1,0 +1,1 @@
+"""Approvals: runs and sweeps that another person approves or rejects before they queue."""

@@ -1,0 +1,79 @@
+"""REST endpoints of the control of rigs and of the rules of the laboratory."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Query
+
+from app.access import Role, Who, allowed
+from app.control.dependency import Controlled
+from app.control.schemas import ControlList, ControlOut, Driver, HandOver, RulesIn, TakeOver
+from app.openapi import told
+from app.text import Storable
+
+router = APIRouter(prefix="/api/v1", tags=["control"])
+NOBODY = Driver()
+
+
+@router.get("/rules")
+@allowed(Role.VIEWER)
+def rules(control: Controlled) -> RulesIn:
+    """The rules of the laboratory: all are off at first."""
+    return control.rules()
+
+
+@router.put("/rules")
+@allowed(Role.ADMINISTRATOR)
+def save_rules(control: Controlled, given: Annotated[RulesIn, Body()]) -> RulesIn:
+    """Set the rules of the laboratory."""
+    return control.save_rules(given)
+
+
+@router.get("/control")
+@allowed(Role.VIEWER)
+def shown(control: Controlled, who: Who, by: Annotated[Storable, Query(max_length=80)] = "") -> ControlList:
+    """Who drives each rig. `by` is the name of the reader where there are no accounts."""
+    return control.shown(who.named(by), who.role is Role.ADMINISTRATOR)
+
+
+@router.post("/control/{rig_id}/take", responses=told(409))
+@allowed(Role.OPERATOR)
+def take(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
+    """Take the control of a rig that nobody drives. It ends 10 minutes after its last renewal."""
+    return control.take(rig_id, who.named(person.by))
+
+
+@router.post("/control/{rig_id}/renew", responses=told(409))
+@allowed(Role.OPERATOR)
+def renew(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
+    """Keep the control for a further 10 minutes. An open page of the driver does so every minute."""
+    return control.renew(rig_id, who.named(person.by))
+
+
+@router.post("/control/{rig_id}/release", responses=told(409))
+@allowed(Role.OPERATOR)
+def release(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
+    """Give the control back, so that nobody drives the rig."""
+    return control.release(rig_id, who.named(person.by))
+
+
+@router.post("/control/{rig_id}/request", responses=told(409))
+@allowed(Role.OPERATOR)
+def request(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
+    """Ask who drives a rig for its control. The pages of the driver show who asks."""
+    return control.ask(rig_id, who.named(person.by))
+
+
+@router.post("/control/{rig_id}/hand-over", responses=told(409))
+@allowed(Role.OPERATOR)
+def hand_over(rig_id: str, control: Controlled, who: Who, given: Annotated[HandOver, Body()]) -> ControlOut:
+    """Give the control of a rig to another person."""
+    return control.hand_over(rig_id, who.named(given.by), given.to)
+
+
+@router.post("/control/{rig_id}/take-over")
+@allowed(Role.ADMINISTRATOR)
+def take_over(rig_id: str, control: Controlled, who: Who, given: Annotated[TakeOver, Body()]) -> ControlOut:
+    """Take the control of a rig from the person who has it, with a reason, which the audit log keeps."""
+    return control.take_over(rig_id, who.named(given.by))

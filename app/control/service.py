@@ -1,0 +1,192 @@
+"""Rules of the control of rigs: one person drives a rig. No SQL, no HTTP.
+
+The rule is off until the laboratory switches it on. Then only the driver of a rig submits to it, cancels and retries its tests.
+The queue is one for all rigs: the driver of any rig concerned holds it, because a hold only stops; the driver of all rigs whose
+tests would start releases it. Abort needs no control, ever.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from datetime import datetime, timedelta
+
+from sqlalchemy.orm import Session
+
+from app.control.repository import ControlRepository
+from app.control.schemas import ControlList, ControlOut, RulesIn
+from app.jobs.states import State
+from app.models import Approval, RigControl
+from app.problems import Conflict, NotFound
+from rths_engine.foundation.errors import Issue, RthsError
+
+EXPIRES = timedelta(minutes=10)  # after the last renewal; an open page of the driver renews every minute
+
+
+class NotDriving(Conflict):
+    """A change that needs the control of a rig which the person does not have."""
+
+
+class Control:
+    """Who drives which rig."""
+
+    def __init__(self, session: Session):
+        self.rows = ControlRepository(session)
+
+    def rules(self) -> RulesIn:
+        return RulesIn.model_validate(self.rows.rules)
+
+    def save_rules(self, given: RulesIn) -> RulesIn:
+        for name, value in given.model_dump().items():
+            setattr(self.rows.rules, name, value)
+        return self.rules()
+
+    def shown(self, by: str, may_take_over: bool) -> ControlList:
+        """Who drives each rig, as the person `by` sees it."""
+        controls, now = self.rows.controls(), self.rows.now()
+        rigs = [_out(rig.id, rig.name, _valid(controls.get(rig.id), now), by) for rig in self.rows.rigs()]
+        return ControlList(one_driver=self.rows.rules.one_driver, may_take_over=may_take_over, rigs=rigs)
+
+    def take(self, rig_id: str, by: str) -> ControlOut:
+        """Take the control of a rig that nobody else drives. Raises NotDriving."""
+        name, held = self._locked(rig_id)
+        if held and held.driver != _person(by):
+            raise NotDriving(_refusal(rig_id, name, held))
+        return self._give(rig_id, name, by, held)
+
+    def renew(self, rig_id: str, by: str) -> ControlOut:
+        """Keep the control for a further time. Raises NotDriving for a person who does not drive the rig."""
+        name, held = self._driven(rig_id, by)
+        held.until = self.rows.now() + EXPIRES
+        return _out(rig_id, name, held, by)
+
+    def release(self, rig_id: str, by: str) -> ControlOut:
+        """Give the control back: nobody drives the rig. Raises NotDriving."""
+        name, held = self._driven(rig_id, by)
+        held.driver, held.until, held.asked_by = "", self.rows.now(), ""
+        return _out(rig_id, name, None, by)
+
+    def ask(self, rig_id: str, by: str) -> ControlOut:
+        """Ask who drives a rig for its control: the pages of the driver show it. Raises Conflict where nobody drives it."""
+        name, held = self._locked(rig_id)
+        if held is None:
+            raise Conflict(f"Nobody drives {name}. Take its control instead.")
+        if held.driver == _person(by):
+            raise Conflict(f"You drive {name} already.")
+        held.asked_by = _person(by)
+        return _out(rig_id, name, held, by)
+
+    def hand_over(self, rig_id: str, by: str, to: str) -> ControlOut:
+        """Give the control to another person. Raises NotDriving."""
+        name, held = self._driven(rig_id, by)
+        return self._give(rig_id, name, to, held, by)
+
+    def take_over(self, rig_id: str, by: str) -> ControlOut:
+        """Take the control from whoever has it. The caller has checked that the person is an administrator."""
+        name, held = self._locked(rig_id)
+        return self._give(rig_id, name, by, held)
+
+    @property
+    def approvals(self) -> bool:
+        """Whether submissions wait until another person approves them."""
+        return self.rows.rules.approvals
+
+    def ask_approval(self, about: str, about_id: str, digest: str, by: str) -> None:
+        """Ask for the approval of a run or a sweep."""
+        at = self.rows.now()
+        self.rows.ask(Approval(about=about, about_id=about_id, digest=digest, asked_by=by.strip(), asked_at=at))
+
+    def approval(self, about_id: str) -> Approval | None:
+        """The latest approval of a run or a sweep; None where none was asked for."""
+        return self.rows.approval(about_id)
+
+    def withdrawn(self, about_id: str, by: str) -> None:
+        """Close an approval that waits, because its run or sweep was cancelled."""
+        asked = self.approval(about_id)
+        if asked is not None and asked.decision is None:
+            asked.decision, asked.decided_by, asked.decided_at = "withdrawn", by.strip(), self.rows.now()
+
+    def check(self, rigs: Iterable[str], by: str) -> None:
+        """Raise NotDriving unless the person drives all these rigs, or the laboratory has no such rule."""
+        for rig_id in dict.fromkeys(rigs) if self.rows.rules.one_driver else ():
+            held = _valid(self.rows.get(rig_id), self.rows.now())
+            if held is None or held.driver != by.strip():
+                raise NotDriving(_refusal(rig_id, self.rows.named(rig_id) or rig_id, held))
+
+    def check_run(self, run_id: str, by: str) -> None:
+        """Raise NotDriving unless the person may drive the rig of a run."""
+        rig_id = self.rows.rig_of(run_id)
+        if rig_id is not None:
+            self.check([rig_id], by)
+
+    def check_hold(self, by: str) -> None:
+        """Raise NotDriving unless the person drives one of the rigs that have tests or a driver."""
+        if not self.rows.rules.one_driver:
+            return
+        now = self.rows.now()
+        driven = {rig: one for rig, one in self.rows.controls().items() if _valid(one, now)}
+        concerned = [*driven, *self.rows.with_tests(State.QUEUED, State.RUNNING)]
+        if concerned and not any(one.driver == by.strip() for one in driven.values()):
+            self.check(concerned[:1], by)
+
+    def check_release(self, by: str) -> None:
+        """Raise NotDriving unless the person drives every rig whose tests wait."""
+        self.check(self.rows.with_tests(State.QUEUED), by)
+
+    def _locked(self, rig_id: str) -> tuple[str, RigControl | None]:
+        """The name of a rig and its control if it is valid, locked. Raises NotFound."""
+        name = self.rows.named(rig_id)
+        if name is None:
+            raise NotFound(f"There is no rig {rig_id}.")
+        return name, _valid(self.rows.locked(rig_id), self.rows.now())
+
+    def _driven(self, rig_id: str, by: str) -> tuple[str, RigControl]:
+        name, held = self._locked(rig_id)
+        if held is None or held.driver != _person(by):
+            raise NotDriving(_refusal(rig_id, name, held))
+        return name, held
+
+    def _give(self, rig_id: str, name: str, to: str, held: RigControl | None, seen_by: str | None = None) -> ControlOut:
+        now = self.rows.now()
+        row = held or self.rows.get(rig_id)
+        if row is None:
+            row = RigControl(rig_id=rig_id)
+            self.rows.add(row)
+        if held is None or held.driver != _person(to):
+            row.since = now
+        row.driver, row.until, row.asked_by = _person(to), now + EXPIRES, ""
+        return _out(rig_id, name, row, to if seen_by is None else seen_by)
+
+
+def _valid(control: RigControl | None, now: datetime) -> RigControl | None:
+    return control if control is not None and control.driver and control.until > now else None
+
+
+def _person(by: str) -> str:
+    if not by.strip():
+        raise RthsError(Issue("by", "is blank", by, "give the name of the person who drives: at the top of the page New test"))
+    return by.strip()
+
+
+def _out(rig_id: str, name: str, held: RigControl | None, by: str) -> ControlOut:
+    return ControlOut(
+        rig_id=rig_id,
+        rig_name=name,
+        driver=held.driver if held else None,
+        since=held.since if held else None,
+        until=held.until if held else None,
+        asked_by=(held.asked_by or None) if held else None,
+        yours=held is not None and held.driver == by.strip(),
+        sentence=_sentence(name, held),
+    )
+
+
+def _sentence(name: str, held: RigControl | None) -> str:
+    return f"{held.driver} drives {name}." if held else f"Nobody drives {name}."
+
+
+def _refusal(rig_id: str, name: str, held: RigControl | None) -> str:
+    where = f"on the page Queue, or by POST /api/v1/control/{rig_id}"
+    if held is None:
+        return f"Nobody drives {name}, and one person must. Take its control {where}/take, then try again."
+    until = f"{held.until:%H:%M} UTC"
+    return f"{held.driver} drives {name} until {until} or longer. Ask {held.driver} for the control {where}/request."
