@@ -15,6 +15,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -92,15 +93,15 @@ def laboratory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Laboratory]
                 httpx.Client(base_url=url, timeout=60, verify=ssl.create_default_context(cafile=certificate) if more else True)
             )
         for number in range(2):
-            until(lambda number=number: answers(one, number), bool, PATIENCE_S)
+            until(partial(answers, one, number), bool, PATIENCE_S)
         for name in ("first", "second"):
             web = ["--web", ",".join(one.addresses), "--ca", str(certificate)]
             process = one.start("worker", "--name", name, "--workers", "1", "--data", str(folder / name), *web)
             one.workers[name] = process
             stack.callback(ended, process)
         yield one
-        for web in one.webs:
-            web.close()
+        for client in one.webs:
+            client.close()
 
 
 def answers(laboratory: Laboratory, number: int) -> bool:
@@ -118,7 +119,6 @@ def ended(process: subprocess.Popen[bytes]) -> None:
 @contextmanager
 def s3() -> Iterator[str]:
     """The address of an S3 server on this computer, with an empty bucket."""
-    import boto3
     from moto.server import ThreadedMotoServer
 
     port = free_port()
@@ -126,7 +126,6 @@ def s3() -> Iterator[str]:
     server.start()
     try:
         bucket(f"http://127.0.0.1:{port}").create_bucket(Bucket=BUCKET)
-        assert boto3
         yield f"http://127.0.0.1:{port}"
     finally:
         server.stop()
