@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import Literal
 
-from fastapi import APIRouter, Request, Response
+import anyio
+import anyio.to_thread
+from fastapi import APIRouter, FastAPI, Request, Response
 from pydantic import BaseModel
 from sqlalchemy.exc import SQLAlchemyError
 
@@ -14,6 +17,8 @@ from app.jobs.workers import Workers
 from rths_engine import __version__
 
 router = APIRouter(tags=["health"])
+OWN = anyio.CapacityLimiter(4)  # threads that no other request uses
+PATIENCE_S = 3.0  # for the database
 
 
 class Health(BaseModel):
@@ -26,14 +31,20 @@ class Health(BaseModel):
 
 @router.get("/healthz", responses={503: {"model": Health, "description": "The database or every worker is silent"}})
 @allowed(ANYONE)
-def health(request: Request, response: Response) -> Health:
+async def health(request: Request, response: Response) -> Health:
     """Report the health of the service: 200 while the database answers and a worker is alive, else 503."""
     try:
-        with unit_of_work(request.app.state.sessions) as session:
-            workers = Workers(session)
-            beating = workers.alive(workers.last_beat())
-    except SQLAlchemyError:
+        async with asyncio.timeout(PATIENCE_S):
+            beating = await anyio.to_thread.run_sync(_beating, request.app, limiter=OWN, abandon_on_cancel=True)
+    except (SQLAlchemyError, TimeoutError):
         response.status_code = 503
         return Health(database="silent", worker="unknown", version=__version__)
     response.status_code = 200 if beating else 503
     return Health(database="ok", worker="alive" if beating else "silent", version=__version__)
+
+
+def _beating(app: FastAPI) -> bool:
+    """Whether a worker is alive."""
+    with unit_of_work(app.state.sessions) as session:
+        workers = Workers(session)
+        return workers.alive(workers.last_beat())

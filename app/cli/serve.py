@@ -6,6 +6,7 @@ import errno
 import fcntl
 import socket
 import ssl
+import sys
 from argparse import Namespace
 from contextlib import nullcontext, suppress
 from typing import IO, Any
@@ -15,6 +16,7 @@ from fastapi import FastAPI
 
 from app import logs
 from app.accounts.service import AccountService
+from app.cli.connections import Bounded, allow_files
 from app.cli.main import DONE, FAILED
 from app.cli.settings import stored
 from app.config import LOOPBACK, Settings
@@ -25,6 +27,7 @@ from app.moving.places import using
 from rths_engine.foundation.errors import Issue, RthsError
 
 GRACE_S = 2
+SWITCH_S = 0.001  # after which a thread of a request leaves the interpreter to the event loop: Abort waits for it
 LOCK = "control-room.lock"
 
 
@@ -42,6 +45,8 @@ def serve(given: Namespace) -> int:
 
 def _serve(settings: Settings, demonstrate: bool) -> int:
     listening = listen(settings)
+    allow_files()
+    sys.setswitchinterval(SWITCH_S)
     server = Server(create_app(settings), settings, demonstrate)
     with suppress(KeyboardInterrupt):
         server.run(sockets=[listening])
@@ -62,7 +67,7 @@ class Server(uvicorn.Server):
     def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
         # app/logs.py and app/observing.py write what these two would
         tls = {"ssl_certfile": settings.tls_certificate, "ssl_keyfile": settings.tls_key}
-        given: dict[str, Any] = {"timeout_graceful_shutdown": GRACE_S, **QUIET, **LIVE, **tls}
+        given: dict[str, Any] = {"timeout_graceful_shutdown": GRACE_S, "http": Bounded, **QUIET, **LIVE, **tls}
         super().__init__(uvicorn.Config(app, **given))
         self.app, self.settings, self.demonstrate = app, settings, demonstrate
 

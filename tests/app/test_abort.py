@@ -191,6 +191,7 @@ def test_abort_answers_while_every_thread_and_every_place_of_a_calculation_is_ta
             taken.acquire(timeout=60)
         assert client.post("/api/v1/abort", json={"by": "Bo"}).json()["held"]
         assert client.get("/api/v1/abort").json()["by"] == "Bo"
+        assert client.get("/healthz").json()["database"] == "ok"
     finally:
         let_go.set()
         filled.result(60)
