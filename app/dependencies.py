@@ -20,6 +20,7 @@ from rths_engine.parts.ground_motions import MotionLibrary
 
 READING = frozenset({"GET", "HEAD", "OPTIONS"})
 WRITERS = 32  # requests that may write at the same time; the threads of requests are 40
+READERS = 8  # requests that may read rows at the same time: each thread more delays the event loop, and with it Abort
 PATIENCE_S = 60.0
 
 
@@ -30,19 +31,18 @@ def settings(request: Request) -> Settings:
 
 
 async def writing(request: Request) -> AsyncIterator[None]:
-    """A place among the requests that may write at the same time. Raises Unavailable when none is free for PATIENCE_S.
+    """A place among the requests that may read or write at the same time. Raises Unavailable when none is free for PATIENCE_S.
 
     Requests wait here without a thread. The request that has the lock of the database needs a thread to end; if all threads
     waited for that lock, it would never be given back.
     """
-    if request.method in READING:
-        yield
-        return
-    places: asyncio.Semaphore = request.app.state.writing
+    reads = request.method in READING
+    places: asyncio.Semaphore = request.app.state.reading if reads else request.app.state.writing
     try:
         await asyncio.wait_for(places.acquire(), PATIENCE_S)
     except TimeoutError:
-        raise Unavailable("Too many requests write at the same time. Try again in a moment.") from None
+        what = "read" if reads else "write"
+        raise Unavailable(f"Too many requests {what} at the same time. Try again in a moment.") from None
     try:
         yield
     finally:

@@ -33,7 +33,7 @@ from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
 from app.control.endpoints import router as control
-from app.dependencies import WRITERS
+from app.dependencies import READERS, WRITERS
 from app.diagnoses.endpoints import router as diagnoses
 from app.disk_guard import DiskGuard
 from app.gate import Gate
@@ -118,6 +118,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.hub = Hub()
     app.state.calculations = Calculations()
     app.state.writing = asyncio.Semaphore(WRITERS)
+    app.state.reading = asyncio.Semaphore(READERS)
     app.state.throttle = Throttle()
     app.state.audience = Audience(lambda: app.state.sessions, configured)
     app.state.desk = Desk(configured.url)
