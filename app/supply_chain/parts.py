@@ -23,7 +23,7 @@ PROJECT = "rths-control-room"
 PRODUCT, TESTS = "product", "tests"
 """Uses of a part. A part of an optional extra has the name of the extra."""
 OURSELVES = (PROJECT, "pip")  # pip comes with Python
-EXTRAS = ("formats", "epics", "fmi")
+EXTRAS = ("formats", "epics", "fmi", "s3")
 UNKNOWN = "unknown"
 SPDX = {  # how packages write their licence where they do not write an SPDX expression
     "MIT License": "MIT",
