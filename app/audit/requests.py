@@ -104,6 +104,8 @@ def _tried(scope: Scope, status: int) -> bool:
 def _entry(scope: Scope, route: BaseRoute | None, **more: Any) -> tuple[Acting, str, str, dict[str, Any]]:
     """Who, action, about and details of a request."""
     kept: dict[str, Any] = scope["state"].get(GIVEN) or {}
+    if "status" in more and PERSON not in scope:
+        kept = {}  # what a stranger types as a name may be a password
     details = {"method": scope.get("method", "websocket"), "path": scope["path"], "address": _address(scope), **more}
     if kept:
         details["given"] = kept
@@ -115,7 +117,7 @@ def _acting(scope: Scope, kept: dict[str, Any], made: list[dict[str, Any]]) -> A
     """Who made a request: the account, or without accounts the name that the request gives."""
     found: SignedIn | None = scope.get(PERSON)
     if found is None:
-        return Acting("", "", "not signed in")
+        return Acting(str(kept.get("name", "")), "", "not signed in")  # signs in now
     names = [given.name_in(kept), *(str(one["submitted_by"]) for one in made if "submitted_by" in one), found.name]
     typed = next(name for name in names if name)
     return Acting(found.named(typed), found.role.name.lower(), found.how)

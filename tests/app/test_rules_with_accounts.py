@@ -1,0 +1,59 @@
+"""Audit log, control of rigs and approvals with accounts: the account counts, whatever a request says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sqlalchemy as sa
+from fastapi.testclient import TestClient
+
+from app.access import Role
+from app.audit.tables import AuditEntry
+from app.models import EMULATED
+from tests.app.conftest import app_of, plan
+from tests.app.people import PASSWORD, V1, Person, browser, lab, person, sign_in
+
+__all__ = ["browser", "lab", "person"]
+CONTROL = f"{V1}/control/{EMULATED}"
+
+
+def entries(client: TestClient) -> list[AuditEntry]:
+    app_of(client).state.audit.waiting.join()
+    with app_of(client).state.sessions() as session:
+        return list(session.scalars(sa.select(AuditEntry).order_by(AuditEntry.number)))
+
+
+def test_signing_in_is_recorded_with_the_account_and_a_refusal_without_what_was_typed(
+    lab: TestClient, person: Person, browser: Callable[..., TestClient]
+) -> None:
+    person(Role.VIEWER, "Vera")
+    assert sign_in(browser(), "typed by mistake").status_code == 401
+    found = entries(lab)
+    signed_in = [one for one in found if one.action == "sign_in"]
+    refused = [one for one in found if one.action == "refused.sign_in"]
+    assert "Vera" in {one.who for one in signed_in} and len(refused) == 1
+    assert not [one for one in found if PASSWORD in one.details or "typed by mistake" in one.details + one.who]
+
+
+def test_only_engineers_and_administrators_read_the_log(person: Person) -> None:
+    answers = [person(role).get(f"{V1}/audit").status_code for role in Role]
+    assert answers == [403, 403, 200, 200]
+
+
+def test_the_account_drives_and_approves_whatever_name_a_request_gives(lab: TestClient, person: Person) -> None:
+    head, driver, other = person(Role.ADMINISTRATOR, "Head"), person(Role.ENGINEER, "Dora"), person(Role.ENGINEER, "Otto")
+    assert other.put(f"{V1}/rules", json={"one_driver": True}).status_code == 403
+    assert head.put(f"{V1}/rules", json={"one_driver": True}).status_code == 200
+    assert driver.post(f"{CONTROL}/take", json={"by": "Otto"}).json()["driver"] == "Dora"
+    run = {"plan": plan(), "submitted_by": "Dora"}
+    assert other.post(f"{V1}/runs", json=run).status_code == 409
+    assert other.post(f"{CONTROL}/take-over", json={"reason": "now"}).status_code == 403
+    assert driver.post(f"{V1}/runs", json=run).status_code == 201
+    assert head.put(f"{V1}/rules", json={"approvals": True, "approvers": ["Otto"]}).status_code == 200
+    waits = driver.post(f"{V1}/runs", json={**run, "submitted_by": "Otto"}).json()["runs"][0]
+    assert (waits["state"], waits["submitted_by"]) == ("to approve", "Dora")
+    decision = {"digest": waits["digest"], "by": "Otto"}
+    assert driver.post(f"{V1}/approvals/{waits['id']}/approve", json=decision).status_code == 403
+    assert other.post(f"{V1}/approvals/{waits['id']}/approve", json=decision).json()["decided_by"] == "Otto"
+    last = entries(lab)[-1]
+    assert (last.who, last.role, last.signed_in, last.action) == ("Otto", "engineer", "session", "approvals.approve")
