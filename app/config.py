@@ -14,6 +14,7 @@ from rths_engine.foundation.errors import Issue, RthsError
 
 MEGABYTE = 1_000_000
 PROBES = frozenset({"/healthz", "/readyz"})  # answered under any host name: monitors use the machine's address
+FORMS = frozenset({"multipart/form-data", "application/x-www-form-urlencoded"})
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
@@ -51,6 +52,7 @@ class Settings:
     worker_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     upload_limit: int = 20 * MEGABYTE
     measurements_limit: int = 1100 * MEGABYTE
+    json_limit: int = 8 * MEGABYTE
     rig_host: str = "127.0.0.1"
     local_sign_in: bool = False
     laboratory: str = ""
@@ -88,8 +90,10 @@ class Settings:
         """FMUs that plans may name: machine code, put here by whoever operates the service, never uploaded."""
         return self.data / "fmus"
 
-    def body_limit(self, path: str) -> int:
-        """Largest body (bytes) of a request to an address: files of measurements have a limit of their own."""
+    def body_limit(self, path: str, content_type: str) -> int:
+        """Largest body (bytes) of a request: forms hold files, and files of measurements have a limit of their own."""
+        if not is_form(content_type):
+            return min(self.json_limit, self.upload_limit)
         return self.measurements_limit if path.startswith("/api/v1/recordings") else self.upload_limit
 
     @property
@@ -102,6 +106,11 @@ class Settings:
         for folder in (self.data, self.recordings, self.motions, self.measured, self.fmus):
             folder.mkdir(parents=True, exist_ok=True)
         return self
+
+
+def is_form(content_type: str) -> bool:
+    """Whether a body is a form, which can hold files."""
+    return content_type.partition(";")[0].strip().lower() in FORMS
 
 
 def from_environment(**given: Any) -> Settings:
@@ -173,6 +182,7 @@ VARIABLES: dict[str, Variable] = {
     "measurements_limit": Variable(
         "RTHS_MEASUREMENTS_LIMIT_MB", _megabytes, "largest file of measurements accepted, MB", _in_megabytes
     ),
+    "json_limit": Variable("RTHS_JSON_LIMIT_MB", _megabytes, "largest request without a file accepted, MB", _in_megabytes),
     "rig_host": Variable(
         "RTHS_RIG_HOST", str, "address at which the rig of a test with a client listens; whoever reaches it moves the rig"
     ),

@@ -25,8 +25,8 @@ class Guard:
 
     The host of a request must be in `Settings.known_hosts`: otherwise a page of another site could read this service under a
     foreign name that resolves to this machine. Programs send no Origin; the Origin of a browser must equal the host of the
-    request. A websocket without Origin is a program, such as a worker that connects by an address, and may use any host. The
-    framework counts bodies that declare no length (`max_body_size`).
+    request. A websocket without Origin is a program, such as a worker that connects by an address, and may use any host.
+    `Bodies` and the framework count bodies that declare no length.
     """
 
     def __init__(self, app: ASGIApp, settings: Settings):
@@ -54,7 +54,7 @@ class Guard:
             return None
         if not _own(given):
             return problem(403, ELSEWHERE)
-        limit = self.limit(scope["path"])
+        limit = self.limit(scope["path"], given.get("content-type", ""))
         return too_large(limit) if _declared(given) > limit else None
 
     def _at_home(self, scope: Scope, given: Headers) -> bool:

@@ -29,6 +29,7 @@ from app.audit.log import SERVICE
 from app.audit.recorder import Recorder, Waiting
 from app.audit.requests import Recording
 from app.auditing.endpoints import router as auditing
+from app.bodies import Bodies
 from app.calculations.calculations import Calculations
 from app.compare.endpoints import router as compare
 from app.config import Settings, from_environment
@@ -186,6 +187,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(settings_page)
     app.include_router(pages.router)
     _declare_description(app)
+    app.add_middleware(Bodies, settings=configured)
     app.add_middleware(DiskGuard, settings=configured)
     app.add_middleware(Gate, settings=configured)
     app.add_middleware(Recording)

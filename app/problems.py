@@ -16,9 +16,10 @@ from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
 from app import headers
+from app.config import is_form
 from app.full import FIX, DiskFull, is_full
 from rths_engine.foundation import location
-from rths_engine.foundation.errors import Issue, RecordingError, RthsError, limited
+from rths_engine.foundation.errors import Issue, RecordingError, RthsError, cut, limited
 
 log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"
@@ -38,7 +39,7 @@ TITLES = {
     503: "Service unavailable",
     507: "Insufficient storage",
 }  # HTTP's own phrases: the type of a problem is about:blank
-FORMS = {"multipart/form-data", "application/x-www-form-urlencoded"}
+LONGEST_DETAIL = 4000  # characters; `errors` lists what is cut
 
 
 class NotFound(Exception):
@@ -60,8 +61,15 @@ class Unavailable(Exception):
 def problem(status: int, detail: str, errors: list[dict[str, Any]] | None = None) -> Response:
     """A response in problem+json (RFC 9457)."""
     title = TITLES.get(status, "Error")
-    body = {"type": "about:blank", "title": title, "status": status, "detail": detail, "errors": errors or []}
-    return Response(json.dumps(body), status, dict(headers.EVERY), MEDIA_TYPE)  # ASCII: holds any text
+    body = {
+        "type": "about:blank",
+        "title": title,
+        "status": status,
+        "detail": cut(detail, LONGEST_DETAIL),
+        "errors": errors or [],
+    }
+    written = json.dumps(body, ensure_ascii=False).encode("utf-8", "backslashreplace")  # half a surrogate pair as \\udXXX
+    return Response(written, status, dict(headers.EVERY), MEDIA_TYPE)
 
 
 def install(app: FastAPI) -> None:
@@ -94,7 +102,7 @@ def _disk_error(_: Request, error: Exception) -> Response:
 
 def too_large(limit: int) -> Response:
     """The response 413 to a request larger than `limit` bytes."""
-    fix = "Send a smaller file, or raise the limit in the settings of the service."
+    fix = "Send less (a plan can name an uploaded record), or raise the limit in the settings of the service."
     return problem(413, f"The request is larger than the limit of {limit / 1e6:g} MB. {fix}")
 
 
@@ -142,14 +150,15 @@ def _expected_kind(request: Request, body: Any) -> str | None:
     """
     if isinstance(body, bytes) and body:
         return "application/json"
-    form = request.headers.get("content-type", "").partition(";")[0] in FORMS
+    form = is_form(request.headers.get("content-type", ""))
     return "multipart/form-data" if isinstance(body, FormData) and not form else None
 
 
 def _http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     if error.status_code == 413:
-        return too_large(request.app.state.settings.body_limit(request.url.path))
+        kind = request.headers.get("content-type", "")
+        return too_large(request.app.state.settings.body_limit(request.url.path, kind))
     if is_full(error):  # a body that the disk for temporary files could not hold
         return _disk_error(request, error)
     if error.status_code == 405:

@@ -7,7 +7,9 @@ from dataclasses import asdict, dataclass, field, replace
 from itertools import islice
 from typing import Any
 
-MOST_ISSUES = 100  # listed of one input; chosen; see docs/decisions/0023
+# chosen; see docs/decisions/0023
+MOST_ISSUES = 100  # listed of one input
+LONGEST = {"where": 200, "problem": 600, "value": 80, "fix": 600}  # characters of an issue's parts: inputs can hold long names
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,13 +36,17 @@ class Issue:
     lines: tuple[Line, ...] = field(default=(), compare=False)
 
     def __str__(self) -> str:
-        given = "" if self.value is None else f" = {_short(self.value)}"
-        fix = f" ({self.fix})" if self.fix else ""
-        return f"{self.where}{given}: {self.problem}{fix}" if self.where else f"{self.problem}{fix}"
+        where, problem, value, fix = self._parts().values()
+        told = f"{problem} ({fix})" if fix else problem
+        given = "" if value is None else f" = {value}"
+        return f"{where}{given}: {told}" if where else str(told)
 
     def as_dict(self) -> dict[str, Any]:
-        found = {**asdict(self), "value": None if self.value is None else _short(self.value)}
-        return found if self.lines else {name: value for name, value in found.items() if name != "lines"}
+        return self._parts() | ({"lines": [asdict(line) for line in self.lines]} if self.lines else {})
+
+    def _parts(self) -> dict[str, str | None]:
+        """Where, problem, value and fix as texts of bounded length."""
+        return {name: _short(getattr(self, name), longest) for name, longest in LONGEST.items()}
 
 
 class RthsError(Exception):
@@ -49,7 +55,7 @@ class RthsError(Exception):
     def __init__(self, issues: Issue | str | Iterable[Issue]):
         if isinstance(issues, str):
             issues = Issue("", issues)
-        self.issues: tuple[Issue, ...] = (issues,) if isinstance(issues, Issue) else tuple(issues)
+        self.issues: tuple[Issue, ...] = (issues,) if isinstance(issues, Issue) else _bounded(issues)
         super().__init__("\n".join(str(issue) for issue in self.issues))
 
 
@@ -58,6 +64,13 @@ def limited(issues: Iterable[Issue], count: int) -> Iterator[Issue]:
     yield from islice(issues, MOST_ISSUES)
     if count > MOST_ISSUES:
         yield Issue("", f"has {count - MOST_ISSUES} more errors that are not listed", fix="mend the listed ones first")
+
+
+def _bounded(issues: Iterable[Issue]) -> tuple[Issue, ...]:
+    """All issues, or the first MOST_ISSUES and one that says that there are more; the others are never made."""
+    found = tuple(islice(issues, MOST_ISSUES + 2))
+    more = Issue("", "has more errors that are not listed", fix="mend the listed ones first")
+    return found if len(found) < MOST_ISSUES + 2 else (*found[:MOST_ISSUES], more)
 
 
 def renamed(error: RthsError, names: Mapping[str, str]) -> RthsError:
@@ -95,6 +108,18 @@ class MeasuredError(RthsError):
     """A file of measurements, or its mapping, that cannot be imported."""
 
 
-def _short(value: Any, limit: int = 80) -> str:
-    text = value if isinstance(value, str) else repr(value)
-    return text if len(text) <= limit else text[: limit - 1] + "…"
+def cut(text: str, longest: int) -> str:
+    """A text of at most `longest` characters."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def _short(value: Any, longest: int) -> str | None:
+    """A part of an issue as text."""
+    if value is None:
+        return None
+    if isinstance(value, list | tuple):
+        value = value[:longest]  # what comes later is cut
+    try:
+        return cut(value if isinstance(value, str) else repr(value), longest)
+    except (ValueError, RecursionError):  # a whole number of thousands of digits, or deep nesting
+        return "too long to be shown"

@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from rths_engine.foundation import location, units
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, PlanError, RthsError, limited
+from rths_engine.foundation.errors import MOST_ISSUES, Issue, PlanError, RthsError, limited
 
 # chosen; see docs/decisions/0023
 LONGEST_TEXT = 80  # characters of an invalid text that an error repeats
@@ -123,8 +123,17 @@ def _in_si(value: Any, unit: str) -> Any:
         except RthsError as error:
             return _Unread(value, error.issues[0].problem)
     if isinstance(value, list | tuple):
-        return [_in_si(item, unit) for item in value]
+        return _list_in_si(value, unit)
     return value
+
+
+def _list_in_si(items: list[Any] | tuple[Any, ...], unit: str) -> list[Any]:
+    """The items in SI. After MOST_ISSUES texts that are no quantity, the rest stays as it is: no more are listed."""
+    read, unread = [], 0
+    for item in items:
+        read.append(item if unread > MOST_ISSUES else _in_si(item, unit))
+        unread += isinstance(read[-1], _Unread)
+    return read
 
 
 def _issue(detail: Any, model: type[BaseModel]) -> Issue:

@@ -93,7 +93,7 @@ def test_warnings_are_told_and_kept(folder: Path, capsys: pytest.CaptureFixture[
         (["sine.csv", "--guess", "--out", "rec.h5"], "needs either --guess"),
         (["sine.csv", "--map", "none.yaml", "--out", "rec.h5"], "--map = none.yaml: cannot be read"),
         (["sine.csv", "--map", "sine.csv", "--out", "rec.h5"], "mapping"),
-        (["sine.csv", "--map", "broken.yaml", "--out", "rec.h5"], "line 1: the text is not valid YAML"),
+        (["sine.csv", "--map", "broken.yaml", "--out", "rec.h5"], "line 2: the text is not valid YAML"),
         (["sine.csv", "--map", "map.yaml", "--out", "missing/rec.h5"], "there is no folder missing"),
         (["sine.csv", "--map", "map.yaml", "--out", "sine.csv"], "is the file of measurements itself"),
         (["backwards.csv", "--map", "map.yaml", "--out", "rec.h5"], "time does not increase at sample 11"),

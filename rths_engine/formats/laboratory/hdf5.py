@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 
 from rths_engine.formats import tree
+from rths_engine.formats.expansion import Expansion
 from rths_engine.formats.format import Format
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import MOST_COLUMNS, Table, refuse_many
@@ -37,7 +38,11 @@ def read(source: Source) -> Table:
     raw = source.bytes()
     try:
         with h5py.File(io.BytesIO(raw), "r") as file:
-            nodes = _run(file) if str(file.attrs.get("schema")).startswith(_RUN) else _group(file, tree.DEEPEST)
+            nodes = (
+                _run(file, Expansion(len(raw)))
+                if str(file.attrs.get("schema")).startswith(_RUN)
+                else _group(file, tree.DEEPEST, Expansion(len(raw)))
+            )
             return tree.table(nodes, "HDF5")
     except FileError:
         raise
@@ -46,20 +51,22 @@ def read(source: Source) -> Table:
         raise FileError(Issue("file", problem, fix="write the file again, or export it as CSV")) from None
 
 
-def _group(group: h5py.Group, depth: int) -> dict[str, Any]:
+def _group(group: h5py.Group, depth: int, expansion: Expansion) -> dict[str, Any]:
     found = _attributes(group)
     for name in group:
         if not isinstance(group.get(name, getlink=True), h5py.HardLink):
             continue
+        expansion.node()
         item = group[name]
         if isinstance(item, h5py.Group) and depth > 0:
-            found[name] = _group(item, depth - 1)
+            found[name] = _group(item, depth - 1, expansion)
         elif isinstance(item, h5py.Dataset) and not item.is_virtual and not item.external:
-            _add(found, name, item)
+            _add(found, name, item, expansion)
     return found
 
 
-def _add(found: dict[str, Any], name: str, item: h5py.Dataset) -> None:
+def _add(found: dict[str, Any], name: str, item: h5py.Dataset, expansion: Expansion) -> None:
+    expansion.add(item.nbytes if item.shape is not None else 0)
     if item.dtype.kind in "fiub" and item.shape is not None:
         refuse_many(item.size)
         about = _attributes(item)
@@ -86,10 +93,11 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, str | int | float | np.number) else None
 
 
-def _run(file: h5py.File) -> dict[str, Any]:
+def _run(file: h5py.File, expansion: Expansion) -> dict[str, Any]:
     """Channels of the recording of a run. Its first row is at the end of the first substep."""
     signals, dt = file["signals"], float(file.attrs["dt"])
     refuse_many(signals.size)
+    expansion.add(signals.nbytes)
     values = signals[()]
     channels = json.loads(file.attrs["channels"])
     return {one["key"]: {"data": values[:, k], "dt": f"{dt!r} s", "units": one["unit"]} for k, one in enumerate(channels)}

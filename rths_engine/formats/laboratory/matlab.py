@@ -14,6 +14,7 @@ import scipy.io
 from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
 from rths_engine.formats import damage, tree
+from rths_engine.formats.expansion import Expansion
 from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import matlab_objects
 from rths_engine.formats.laboratory.matlab_elements import elements
@@ -22,6 +23,7 @@ from rths_engine.formats.table import Table, distinct, refuse_many
 from rths_engine.foundation.errors import FileError, Issue
 
 _HEAD = b"MATLAB 5.0 MAT-file"
+_LEAST = 1  # by definition of the format: bytes of the shortest number, as `whosmat` does not give the stored length
 
 
 def looks_like(source: Source) -> bool:
@@ -39,19 +41,20 @@ def _table(raw: bytes) -> Table:
     variables: dict[str, Any] = {}
     objects: dict[str, str] = {}
     notes: list[str] = []
+    expansion = Expansion(len(raw))
     if raw.startswith(_HEAD):
         for one in elements(raw):
             if one.of_class:
                 objects[one.name] = one.of_class
                 continue
             try:
-                variables |= _loaded(one.file)
+                variables |= _loaded(one.file, expansion)
             except FileError:
                 raise
             except Exception as error:
                 notes.append(f"a variable at {one.where} cannot be read ({type(error).__name__}): left out")
     else:
-        variables = _loaded(raw)  # a file before version 5
+        variables = _loaded(raw, expansion)  # a file before version 5
     if not variables and not objects:
         told = f": {'; '.join(notes)}" if notes else ""
         raise FileError(Issue("file", f"cannot be read as a MATLAB file{told}", fix="save it again with `save -v7` or as CSV"))
@@ -67,11 +70,12 @@ def _table(raw: bytes) -> Table:
     return replace(table, columns=columns, notes=(*notes, *found.notes, *table.notes), statements=statements)
 
 
-def _loaded(raw: bytes) -> dict[str, Any]:
+def _loaded(raw: bytes, expansion: Expansion) -> dict[str, Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for _, shape, _ in scipy.io.whosmat(io.BytesIO(raw)):
             refuse_many(math.prod(shape))
+            expansion.add(math.prod(shape) * _LEAST)
         found = scipy.io.loadmat(io.BytesIO(raw), simplify_cells=True)
     return {name: _by_name(value) for name, value in found.items() if not name.startswith("__")}
 

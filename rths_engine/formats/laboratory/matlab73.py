@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from rths_engine.formats import damage, tree
+from rths_engine.formats.expansion import Expansion
 from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import matlab_objects
 from rths_engine.formats.source import Source
@@ -25,6 +26,7 @@ _LONGEST_TEXT = 10_000  # chosen; see docs/decisions/0023
 @dataclass
 class _Read:
     file: h5py.File
+    expansion: Expansion
     objects: dict[str, str] = field(default_factory=dict)  # class of each variable that is or contains an object
     notes: list[str] = field(default_factory=list)
     variable: str = ""
@@ -39,7 +41,7 @@ def read(source: Source) -> Table:
     """Read the file. Raises FileError for errors of any kind, which a damaged file can cause."""
     raw = source.bytes()
     with damage.refused("MATLAB v7.3", "save it again, or export it as CSV"), h5py.File(io.BytesIO(raw), "r") as file:
-        state = _Read(file)
+        state = _Read(file, Expansion(len(raw)))
         variables: dict[str, Any] = {}
         for name in file:
             if name.startswith("#") or not isinstance(file.get(name, getlink=True), h5py.HardLink):
@@ -60,6 +62,7 @@ def read(source: Source) -> Table:
 
 def _value(state: _Read, item: h5py.Group | h5py.Dataset, depth: int) -> Any:
     """A struct as a mapping, a struct array as a list of mappings, a cell by its numbers, an array or a text; else None."""
+    state.expansion.node()
     of_class = _class(item)
     if "MATLAB_object_decode" in item.attrs or (of_class and of_class not in {*_NUMERIC, "char", "cell", "struct"}):
         if of_class != "function_handle":
@@ -76,6 +79,7 @@ def _value(state: _Read, item: h5py.Group | h5py.Dataset, depth: int) -> Any:
     if item.is_virtual or item.external or item.shape is None:
         return None
     refuse_many(item.size)
+    state.expansion.add(item.nbytes)
     if of_class == "char":
         return "".join(map(chr, item[()].ravel())) if item.dtype.kind == "u" and item.size <= _LONGEST_TEXT else None
     if item.dtype == h5py.ref_dtype:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from rths_engine.formats import damage
+from rths_engine.formats.expansion import Expansion
 from rths_engine.formats.format import Format
 from rths_engine.formats.plain import columns
 from rths_engine.formats.source import Source
@@ -52,6 +53,7 @@ def read(source: Source) -> Table:
     notes: list[str] = []
     refused: list[Issue] = []
     with damage.refused("a spreadsheet", "save it again as .xlsx, or as CSV"):
+        _refuse_expansion(source.bytes())
         book = CalamineWorkbook.from_filelike(io.BytesIO(source.bytes()))
         for about in book.sheets_metadata:
             sheet = book.get_sheet_by_name(about.name)
@@ -88,6 +90,16 @@ def read(source: Source) -> Table:
         statements,
         header,
     )
+
+
+def _refuse_expansion(raw: bytes) -> None:
+    """Raise FileError for a packed workbook whose parts declare too much."""
+    if raw.startswith(_ZIP):
+        expansion = Expansion(len(raw))
+        with zipfile.ZipFile(io.BytesIO(raw)) as archive:
+            for part in archive.infolist():
+                expansion.node()
+                expansion.add(part.file_size)
 
 
 def _timed(named: Sequence[Column], sheets: Sequence[Table]) -> tuple[Column, ...]:
