@@ -26,15 +26,14 @@ def addresses(client: TestClient) -> Iterator[str]:
     mappings, batches = client.get("/api/v1/mappings").json(), client.get("/api/v1/recordings/batches").json()
     ids["mapping_id"] = [*(row["id"] for row in mappings["mappings"]), "nothing"]
     ids["batch_id"] = [*(row["id"] for row in batches["batches"]), "nothing"]
-    for parameter in ("rig_id", "plan_id", "sweep_id", "webhook_id", "draft_id"):
-        ids[parameter] = ["nothing"]
     ids["sha256"] = [row["raw_sha256"] for row in client.get("/api/v1/recordings").json()["recordings"]]
     described: Any = client.app
     for path, item in described.openapi()["paths"].items():
         path = path.replace("{version}", "1").replace("{point}", "1")
         parameter = path.partition("{")[2].partition("}")[0]
         if "get" in item:
-            yield from (path.replace(f"{{{parameter}}}", one) for one in ids[parameter]) if parameter else [path]
+            values = ids.get(parameter, ["nothing"]) if parameter else [""]
+            yield from (path.replace(f"{{{parameter}}}", value) for value in values)
     yield from (*PAGES, *OTHERS)
 
 
