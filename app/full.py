@@ -7,7 +7,7 @@ import errno
 NO_SPACE = {errno.ENOSPC, errno.EDQUOT}
 WORDS = ("No space left on device", "database or disk is full")  # h5py gives no number; SQLite words
 POSTGRES = "53100"  # disk_full
-FIX = "Delete recordings, set a retention, or enlarge the disk"
+FIX = "Delete what is no longer needed, or enlarge the disk"
 
 
 class DiskFull(Exception):

@@ -7,6 +7,7 @@ from collections import Counter, deque
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
+from app.metrics import REFUSED
 from app.problems import Unavailable
 
 MOST_WAITING = 64
@@ -28,7 +29,11 @@ class Turns:
     @asynccontextmanager
     async def turn(self, client: str) -> AsyncIterator[None]:
         """Wait for a place and hold it. Raises Unavailable where the queue is full or no place becomes free in time."""
-        await self._taken(client)
+        try:
+            await self._taken(client)
+        except Unavailable:
+            REFUSED.labels("calculations").inc()
+            raise
         try:
             yield
         finally:

@@ -254,8 +254,7 @@ def parser() -> argparse.ArgumentParser:
     worker.add_argument("--workers", type=int, metavar="N", help="tests at the same time (RTHS_WORKERS; default 2)")
     _logging(worker)
 
-    migrate = _command(commands, "migrate", "app.cli.worker:migrate", "bring the database to the newest schema", recorded=True)
-    _data(migrate)
+    _operation(commands)
     _migrate_store(commands)
     _library(commands)
     _audit(commands)
@@ -359,6 +358,25 @@ def _migrate_store(commands: Commands) -> None:
         moving.add_argument(f"--{word}-database", metavar="URL", help=f"or the PostgreSQL database {what}")
         moving.add_argument(f"--{word}-store", metavar="URL", help=f"with its store {what}: s3://bucket/prefix, file:///folder")
     moving.add_argument("--accept-damaged", action="store_true", help="move files that are damaged or missing as they are")
+
+
+def _operation(commands: Commands) -> None:
+    about = "bring the database to the newest schema, or to an earlier one"
+    migrate = _command(commands, "migrate", "app.cli.migrating:migrate", about, recorded=True)
+    migrate.add_argument("--to", metavar="REVISION", help="schema to go to, such as 0018 (default: the newest)")
+    migrate.add_argument(
+        "--accept-loss", action="store_true", help="go to an earlier schema although it has no place for some data"
+    )
+    about = "copy all rows and files of one moment into a new folder, also while the control room runs: docs/operation.md"
+    backup = _command(commands, "backup", "app.cli.backup:backup", about)
+    backup.add_argument("to", type=Path, metavar="TO", help="folder of backups; files that the newest one has are linked")
+    about = "restore a backup into an empty data folder and database; nothing is overwritten"
+    restore = _command(commands, "restore", "app.cli.backup:restore", about)
+    restore.add_argument("backup", type=Path, metavar="FROM", help="folder of one backup")
+    about = "check every stored file against its row, and list files without a row; exit code 1 where a file is damaged"
+    verify = _command(commands, "verify", "app.cli.backup:verify", about)
+    for command in (migrate, backup, restore, verify):
+        _data(command)
 
 
 def _command(commands: Commands, name: str, function: str, about: str, recorded: bool = False) -> argparse.ArgumentParser:

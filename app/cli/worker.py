@@ -1,4 +1,4 @@
-"""`rths worker`, `rths migrate`."""
+"""`rths worker`."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ import os
 import socket
 from argparse import Namespace
 
-from app import db, logs
+from app import logs
 from app.cli.settings import stored
-from app.jobs import queue
-from app.leases import alone
 from app.moving.places import using
 from app.worker.main import work
 from app.worker.peers import unique
@@ -24,11 +22,3 @@ def worker(given: Namespace) -> None:
     logs.configure(settings.log_format, settings.log_level, worker=name)
     with using(settings):
         work(settings, given.web, name)
-
-
-def migrate(given: Namespace) -> None:
-    """`rths migrate`: bring the database and its queue to the newest schema."""
-    settings = stored(given)
-    with alone(settings.url):
-        db.migrate(settings.url)
-        queue.migrate(settings.url)

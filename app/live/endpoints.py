@@ -11,6 +11,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from app.abort.links import WorkerLink, WorkerLinks
 from app.access import WORKER, allowed
 from app.live.hub import Hub
+from app.metrics import SOCKETS
 
 router = APIRouter()
 FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
@@ -25,6 +26,8 @@ async def ingest(socket: WebSocket) -> None:
     links: WorkerLinks = socket.app.state.desk.links
     link = WorkerLink(socket.send_text, socket.close)
     telling = asyncio.create_task(links.keep(link))
+    open_sockets = SOCKETS.labels("worker")
+    open_sockets.inc()
     try:
         while True:
             message = await socket.receive()
@@ -42,5 +45,6 @@ async def ingest(socket: WebSocket) -> None:
     except WebSocketDisconnect:
         return
     finally:
+        open_sockets.dec()
         telling.cancel()
         await asyncio.gather(telling, return_exceptions=True)

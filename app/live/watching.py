@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
@@ -11,6 +12,7 @@ from app.access import Role, allowed
 from app.live.audience import POLL_S, Audience, Row, Watched
 from app.live.hub import Hub, LiveRun
 from app.live.messages import progress
+from app.metrics import FRAME_LAG_SECONDS, SOCKETS
 from rths_engine.foundation.errors import RecordingError
 
 router = APIRouter()
@@ -24,6 +26,8 @@ UNKNOWN_RUN, UNREADABLE = 4404, 4409
 async def watch(socket: WebSocket, run_id: str) -> None:
     """Send a run to a viewer: schema, buckets from number `from` on, live frames, and the end; see docs/architecture.md."""
     await socket.accept()
+    open_sockets = SOCKETS.labels("viewer")
+    open_sockets.inc()
     audience: Audience = socket.app.state.audience
     watched = audience.enter(run_id)
     try:
@@ -37,6 +41,7 @@ async def watch(socket: WebSocket, run_id: str) -> None:
             if isinstance(outcome, Exception) and not isinstance(outcome, WebSocketDisconnect | RuntimeError):
                 raise outcome
     finally:
+        open_sockets.dec()
         audience.leave(watched)
 
 
@@ -84,6 +89,7 @@ class _Viewer:
             if frame is not None:
                 self.cursor = live.store.count
                 await self.socket.send_bytes(frame)
+                FRAME_LAG_SECONDS.observe(time.monotonic() - live.heard)
             if live.progress_text is not told and live.progress_text:
                 told = live.progress_text
                 await self.socket.send_text(told)

@@ -170,3 +170,15 @@ def test_without_a_database_the_metrics_of_the_process_remain(client: TestClient
     monkeypatch.setattr(monitor.collected, "maker", db.sessions(missing))
     assert sample(client, "rths_database_up") == 0 and sample(client, "rths_requests_in_progress") == 1
     missing.dispose()
+
+
+def test_open_websockets_are_counted_by_side(client: TestClient) -> None:
+    run = client.post("/api/v1/runs", json={"plan": plan()}).json()["runs"][0]["id"]
+    token = {"authorization": f"Bearer {app_of(client).state.settings.worker_token}"}
+    with (
+        client.websocket_connect("/api/v1/worker", headers=token),
+        client.websocket_connect(f"/api/v1/runs/{run}/live") as viewer,
+    ):
+        viewer.receive_json()
+        assert sample(client, "rths_websockets", side="worker") == sample(client, "rths_websockets", side="viewer") == 1
+    client.post(f"/api/v1/runs/{run}/cancel", json={})
