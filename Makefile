@@ -6,6 +6,7 @@
 # Options: RTHS_PORT=8001 is the port of `make run`, RTHS_DATA=FOLDER its data folder, PYTHON=... the Python to use.
 # PYTEST="tests/engine -k word" gives pytest arguments; coverage is then not measured.
 # OPENSEES="--only specimen-gap --keep kept" gives arguments of `make prove-opensees`, CHAOS="--seed 7 --store sqlite" those of `make chaos`.
+# FUZZ="--minutes 60 --seed 7" gives arguments of `make fuzz`.
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -16,11 +17,12 @@ ENGINE := $(shell find rths_engine -name '*.py')
 PYTEST ?=
 OPENSEES ?=
 CHAOS ?=
+FUZZ ?= --minutes 10
 LOCK ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides chaos check docs migration bench prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
+.PHONY: setup run test test-clone test-guides chaos check docs migration bench fuzz prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -41,6 +43,10 @@ test-guides: setup
 bench: setup
 	@$(BIN)/python -c 'import polars, pyarrow' 2>/dev/null || $(PIP) install --no-build-isolation -e '.[bench]'
 	$(BIN)/python -m benchmarks
+
+# Send made requests to every operation of the REST interface: docs/fuzzing.md.
+fuzz: setup
+	$(BIN)/python -m tests.fuzz $(FUZZ)
 
 # Score diagnoses on recordings with known left-out physics: docs/proof.md. Takes 30 to 60 minutes.
 prove: setup

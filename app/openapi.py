@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from fastapi import FastAPI
 from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
 
+from app import openapi_rules
 from app.config import PROBES
 from app.openapi_examples import REQUESTS, example
 from app.problems import MEDIA_TYPE, TITLES
@@ -58,7 +59,7 @@ def told(*statuses: int) -> Responses:
 
 def file(media_type: str) -> Responses:
     """A download."""
-    schema = {"type": "string"} if media_type.startswith("text/") or "yaml" in media_type else {}
+    schema = {"type": "string"} if media_type.startswith("text/") else {}
     return {200: {"description": "The file", "content": {media_type: {"schema": schema}}}}
 
 
@@ -91,6 +92,7 @@ def _complete(document: dict[str, Any]) -> None:
                 responses.setdefault(str(status), _problem(TITLES[status]))
             responses["default"] = _problem("Any other error")
             _give_examples(f"{method.upper()} {path}", operation, schemas)
+            openapi_rules.add(f"{method.upper()} {path}", operation)
 
 
 def _summary(description: str) -> str:
@@ -132,8 +134,22 @@ def _problem(description: str) -> dict[str, Any]:
 def _named(name: str, model: type[BaseModel]) -> Iterator[tuple[str, dict[str, Any]]]:
     """The model's schema as `name` and the schemas in it as `name.KIND`, so that none takes another's name."""
     schema = model.model_json_schema(ref_template=f"{SCHEMAS}{name}.{{model}}")
+    _only_names(schema)
     yield from ((f"{name}.{inner}", one) for inner, one in schema.pop("$defs", {}).items())
     yield name, schema
+
+
+def _only_names(inside: Any) -> None:
+    """Leave out discriminators that lead to a choice of schemas: OpenAPI allows names of schemas only. `oneOf` stays."""
+    if isinstance(inside, dict):
+        mapping = inside.get("discriminator", {}).get("mapping", {}) if isinstance(inside.get("discriminator"), dict) else {}
+        if any(not isinstance(one, str) for one in mapping.values()):
+            del inside["discriminator"]
+        for one in inside.values():
+            _only_names(one)
+    elif isinstance(inside, list):
+        for one in inside:
+            _only_names(one)
 
 
 def _give_examples(route: str, operation: dict[str, Any], schemas: dict[str, Any]) -> None:

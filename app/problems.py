@@ -169,9 +169,10 @@ def _http_error(request: Request, error: Exception) -> Response:
 
 
 def _method_not_allowed(request: Request) -> Response:
-    """The response 405, with the methods of every route at the address; the framework lists those of the first route only."""
+    """The response 405, with the methods that the address is described with; the framework lists those of one route."""
     path, described = request.url.path, request.app.openapi()["paths"]
-    methods = {method.upper() for route, item in described.items() if compile_path(route)[0].match(path) for method in item}
+    found = [path] if path in described else [route for route in described if compile_path(route)[0].match(path)]
+    methods = {method.upper() for route in found for method in described[route]}
     allowed = ", ".join(sorted(methods | ({"HEAD"} if "GET" in methods else set()))) or "GET, HEAD"
     response = problem(405, f"{path} does not accept {request.method}. Methods allowed: {allowed}.")
     response.headers["Allow"] = allowed

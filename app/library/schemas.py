@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictInt, StringConstraints
 
 from app.jobs.states import State
 from app.openapi import Issue, PlanData
@@ -171,7 +171,7 @@ class DraftIn(_Asked):
     """The plan as typed now, what it started from, and the revision of the draft that it changes."""
 
     plan: DraftPlan
-    revision: int = Field(
+    revision: StrictInt = Field(
         ge=0,
         le=2**31 - 1,
         description="the revision that was changed; 0 for a new draft",

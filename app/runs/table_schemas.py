@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictBool, StringConstraints
 
 from app.jobs.states import State
 from app.runs.columns import Kind
@@ -88,7 +88,7 @@ class RunChange(BaseModel):
     ) = None
     tags: Tags | None = None
     notes: Annotated[str, StringConstraints(max_length=LONGEST_NOTES), AfterValidator(storable)] | None = None
-    archived: bool | None = None
+    archived: StrictBool | None = None
 
 
 Action = Literal["tag", "untag", "archive", "unarchive", "delete", "restore"]
