@@ -150,7 +150,7 @@ opensees: $(STAMPS)/package
 # to one version with the hashes of all files of its release. Pins stay where they are allowed; `make lock LOCK=--upgrade` renews them.
 lock: $(STAMPS)/python
 	@$(BIN)/python -c 'import uv' 2>/dev/null || $(PIP) install uv
-	$(BIN)/uv pip compile pyproject.toml --extra test --universal --python-version 3.11 --generate-hashes --no-annotate --no-emit-index-url --no-emit-package pip \
+	$(BIN)/uv pip compile pyproject.toml --extra test --universal --fork-strategy fewest --python-version 3.11 --generate-hashes --no-annotate --no-emit-index-url --no-emit-package pip \
 	    --custom-compile-command 'make lock' --quiet --output-file requirements.lock $(LOCK)
 
 # Check the licences of all dependencies, and ask for their known vulnerabilities: docs/supply-chain.md.

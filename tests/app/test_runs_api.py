@@ -305,7 +305,7 @@ def test_a_large_body_is_refused_by_its_declared_and_by_its_counted_length(clien
 
     answer = client.post(RUNS, content=endless(), headers={"content-type": "application/json"})
     assert answer.status_code == 413
-    assert "20 MB" in answer.json()["detail"]
+    assert "8 MB" in answer.json()["detail"]
     assert answer.headers["content-type"] == "application/problem+json"
 
 

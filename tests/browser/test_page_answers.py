@@ -6,8 +6,16 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app import pages
+from app.config import Settings
 from app.pages import rendering
 from app.runs.dependency import run_service
+
+
+def _pages_alone() -> FastAPI:
+    app = FastAPI()
+    app.state.settings = Settings()
+    app.include_router(pages.router)
+    return app
 
 
 def _broken() -> None:
@@ -15,8 +23,7 @@ def _broken() -> None:
 
 
 def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log() -> None:
-    app = FastAPI()
-    app.include_router(pages.router)
+    app = _pages_alone()
     app.dependency_overrides[run_service] = _broken
     answer = TestClient(app).get("/runs/1")
     assert answer.status_code == 500
@@ -25,8 +32,7 @@ def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log() ->
 
 
 def test_a_page_allows_no_script_but_the_services_own() -> None:
-    app = FastAPI()
-    app.include_router(pages.router)
+    app = _pages_alone()
     answer = TestClient(app).get("/new")
     policy = answer.headers["content-security-policy"]
     assert "default-src 'none'" in policy and "script-src 'self';" in policy
@@ -35,8 +41,7 @@ def test_a_page_allows_no_script_but_the_services_own() -> None:
 
 
 def test_addresses_of_the_service_are_never_taken_for_pages() -> None:
-    app = FastAPI()
-    app.include_router(pages.router)
+    app = _pages_alone()
     client = TestClient(app)
     assert client.get("/nowhere").text.startswith("<!doctype html>")
     assert client.get("/api/v1/nowhere").json() == {"detail": "Not Found"}
