@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
@@ -11,9 +13,9 @@ from app.pages import rendering
 from app.runs.dependency import run_service
 
 
-def _pages_alone() -> FastAPI:
+def _pages_alone(data: Path) -> FastAPI:
     app = FastAPI()
-    app.state.settings = Settings()
+    app.state.settings = Settings(data)
     app.include_router(pages.router)
     return app
 
@@ -22,8 +24,8 @@ def _broken() -> None:
     raise RuntimeError("the disk is gone")
 
 
-def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log() -> None:
-    app = _pages_alone()
+def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log(tmp_path: Path) -> None:
+    app = _pages_alone(tmp_path)
     app.dependency_overrides[run_service] = _broken
     answer = TestClient(app).get("/runs/1")
     assert answer.status_code == 500
@@ -31,8 +33,8 @@ def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log() ->
     assert "the disk is gone" not in answer.text
 
 
-def test_a_page_allows_no_script_but_the_services_own() -> None:
-    app = _pages_alone()
+def test_a_page_allows_no_script_but_the_services_own(tmp_path: Path) -> None:
+    app = _pages_alone(tmp_path)
     answer = TestClient(app).get("/new")
     policy = answer.headers["content-security-policy"]
     assert "default-src 'none'" in policy and "script-src 'self';" in policy
@@ -40,8 +42,8 @@ def test_a_page_allows_no_script_but_the_services_own() -> None:
     assert "<script>" not in answer.text and "style=" not in answer.text
 
 
-def test_addresses_of_the_service_are_never_taken_for_pages() -> None:
-    app = _pages_alone()
+def test_addresses_of_the_service_are_never_taken_for_pages(tmp_path: Path) -> None:
+    app = _pages_alone(tmp_path)
     client = TestClient(app)
     assert client.get("/nowhere").text.startswith("<!doctype html>")
     assert client.get("/api/v1/nowhere").json() == {"detail": "Not Found"}
