@@ -16,8 +16,8 @@ from websockets.asyncio.client import connect as watch
 from websockets.exceptions import ConnectionClosedError
 from websockets.sync.client import connect
 
-from app.live.endpoints import FRAME_HEADER
 from app.live.messages import progress
+from app.live.uplink import FRAME_HEADER
 
 HEADER = struct.Struct("<II")
 CHANNELS = 24  # a test with two stations

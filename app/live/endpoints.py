@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 import asyncio
-import json
-import struct
+import logging
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from app.abort.links import WorkerLink, WorkerLinks
 from app.access import WORKER, allowed
+from app.live import uplink
 from app.live.hub import Hub
 from app.metrics import SOCKETS
 
 router = APIRouter()
-FRAME_HEADER = struct.Struct("<36sI")  # run id, attempt
+log = logging.getLogger(__name__)
+MALFORMED = 4400
 
 
 @router.websocket("/api/v1/worker")
 @allowed(WORKER)
 async def ingest(socket: WebSocket) -> None:
-    """Receive frames and messages from a worker, whose token the gate has checked, and tell it the latch of Abort."""
+    """Receive frames and messages from a worker, whose token the gate has checked, and tell it the latch of Abort.
+
+    A malformed message closes the connection with its reason; a worker then connects again and tells everything anew.
+    """
     await socket.accept()
     hub: Hub = socket.app.state.hub
     links: WorkerLinks = socket.app.state.desk.links
@@ -34,14 +38,16 @@ async def ingest(socket: WebSocket) -> None:
             if message["type"] == "websocket.disconnect":
                 return
             if message.get("bytes") is not None:
-                run_id, attempt = FRAME_HEADER.unpack_from(message["bytes"])
-                hub.frame(run_id.decode(), attempt, message["bytes"][FRAME_HEADER.size :])
+                hub.frame(*uplink.frame(message["bytes"]))
             else:
-                sent = json.loads(message["text"])
+                sent = uplink.message(message["text"])
                 if "worker" in sent:
                     links.take(link, sent)
                     continue
                 hub.take(sent["run_id"], sent["attempt"], sent["message"])
+    except uplink.BadMessage as error:
+        log.warning("closed the connection of a worker: its message %s", error)
+        await socket.close(MALFORMED, str(error)[:120])
     except WebSocketDisconnect:
         return
     finally:

@@ -17,8 +17,8 @@ from websockets.exceptions import ConnectionClosedError, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
 from app.gate import NOT_ALLOWED
-from app.live.endpoints import FRAME_HEADER
 from app.live.frames import FrameStore
+from app.live.uplink import FRAME_HEADER
 from app.worker.stopping import Stopper
 from app.worker.trust import context
 

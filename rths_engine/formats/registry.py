@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rths_engine.formats import apart, recognised, surroundings
+from rths_engine.formats import apart, damage, recognised, surroundings
 from rths_engine.formats.format import Format
 from rths_engine.formats.laboratory import (
     catman,
@@ -104,7 +104,8 @@ def _read(source: Source, otherwise: Format, format: str | None) -> Table:
     if format is not None and format not in BY_KEY:
         raise FileError(Issue("format", "is not a known format", format, "choose one of " + ", ".join(BY_KEY)))
     chosen = BY_KEY[format] if format else detected(source, otherwise)
-    table = checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
+    with damage.refused(chosen.title):
+        table = checked(apart.read(source, chosen.key) if chosen.apart else chosen.read(source))
     if chosen not in _OWN_MARKS:
         markers.refuse_in(table)
     return table

@@ -6,13 +6,14 @@ does not agree refuses the file, because either the header or the data are not w
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 
 import numpy as np
 
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue
+from rths_engine.foundation.errors import FileError, Issue
 
 # of a step; chosen, see docs/decisions/0023
 SAME_STEP = 1e-3
@@ -53,8 +54,11 @@ class Written:
 
     @classmethod
     def of(cls, text: str, where: str) -> Written:
-        """The number in `text`. Raises ValueError where it is not a number."""
-        return cls(float(re.sub("[dD]", "E", text)), last_digit(text) / 2, where)
+        """The number in `text`. Raises ValueError where it is not a number, and FileError where it is not finite (`1e999`)."""
+        value = float(re.sub("[dD]", "E", text))
+        if not math.isfinite(value):
+            raise FileError(Issue(where, "is not a finite number", text.strip(), "correct the header, or get the file again"))
+        return cls(value, last_digit(text) / 2, where)
 
 
 def last_digit(text: str) -> float:

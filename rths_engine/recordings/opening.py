@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 
 from rths_engine.foundation.errors import Issue, RecordingError
-from rths_engine.recordings import run_file
+from rths_engine.recordings import damage, run_file
 from rths_engine.recordings.measured import store
 from rths_engine.recordings.measured.recording import Measured
 from rths_engine.recordings.of_run import of_run
@@ -30,6 +30,6 @@ def _schema(path: Path) -> object:
             return file.attrs.get("schema")
     except FileNotFoundError:
         raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
-    except OSError as error:
+    except damage.KINDS as error:
         fix = "import the measurements again, or run the plan again"
         raise RecordingError(Issue("", f"{path.name} is not a complete recording: {error}", fix=fix)) from None

@@ -10,6 +10,7 @@ long its work took, in s. Attributes of the file: `schema`, `summary`, `measures
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -22,16 +23,17 @@ import numpy as np
 from rths_engine import __version__
 from rths_engine.foundation import files
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
-from rths_engine.recordings import first_form
+from rths_engine.recordings import damage, first_form
 from rths_engine.results.channels import CHANNELS, Channel
 from rths_engine.results.measures import MEASURES
 from rths_engine.results.result import Result
 
 SCHEMA = "rths-recording/2"
 SCHEMAS = (SCHEMA, first_form.SCHEMA)  # that `load` reads
+_DAMAGE = (*damage.KINDS, RthsError)  # the plan in it may be refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +130,9 @@ def _opened(path: Path) -> Iterator[h5py.File]:
             yield file
     except FileNotFoundError:
         raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
-    except (OSError, LookupError, TypeError, ValueError) as error:
+    except RecordingError:
+        raise
+    except _DAMAGE as error:
         raise RecordingError(
             Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix="run the plan again")
         ) from None
@@ -161,10 +165,13 @@ def _write(file: h5py.File, result: Result) -> None:
 def _read(file: h5py.File) -> Recording:
     plan, summary = _plan(file), json.loads(file.attrs["summary"])
     channels, signals = _columns(file, json.loads(file.attrs["channels"]), file["signals"][:], plan)
+    dt = float(file.attrs["dt"])
+    if signals.ndim != 2 or signals.shape[1] != len(channels) or not (math.isfinite(dt) and dt > 0):
+        raise ValueError(f"it has samples of shape {signals.shape} in steps of {dt:g} s, and {len(channels)} channels")
     return Recording(
         plan,
         summary["status"],
-        float(file.attrs["dt"]),
+        dt,
         int(file.attrs["total"]),
         channels,
         signals,

@@ -17,9 +17,9 @@ from app.config import Settings
 from app.db import unit_of_work
 from app.jobs.service import JobService
 from app.live import watching
-from app.live.endpoints import FRAME_HEADER
 from app.live.frames import Decimator, bucket_size
 from app.live.messages import schema
+from app.live.uplink import FRAME_HEADER
 from app.models import Run
 from app.runs.job import RUNS
 from app.runs.order import Outcome

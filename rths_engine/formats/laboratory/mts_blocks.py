@@ -116,7 +116,7 @@ def _day(text: str, locale: Locale) -> int | None:
         return None
     try:
         return (date(*(numbers[k] for k in locale.order)) - _DAY_ZERO).days
-    except ValueError:
+    except (ValueError, OverflowError):
         return None
 
 

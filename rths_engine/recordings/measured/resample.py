@@ -73,4 +73,12 @@ def _evenly(values: Array, clock: Clock, start: float, count: int, step: float) 
     wanted = np.clip(start + np.arange(count) * step, clock.times[0], clock.times[-1])
     if len(values) < 4:
         return np.asarray(np.interp(wanted, clock.times, values))
-    return np.asarray(Akima1DInterpolator(clock.times, values, method="makima")(wanted))
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = np.asarray(Akima1DInterpolator(clock.times, values, method="makima")(wanted))
+    except ValueError:  # its slopes are not finite
+        found = np.array([np.nan])
+    if not np.isfinite(found).all():
+        bound = "has values that are too large to be resampled"
+        raise MeasuredError(Issue("mapping.channels", bound, f"{np.max(np.abs(values)):.4g}", "correct the file, or its unit"))
+    return found

@@ -22,6 +22,7 @@ from rths_engine.formats.scratch import on_disk, release, write_at
 from rths_engine.foundation import files
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, RecordingError
+from rths_engine.recordings import damage
 from rths_engine.recordings.measured import blocks
 from rths_engine.recordings.measured.finding import Finding
 from rths_engine.recordings.measured.recording import Measured, MeasuredChannel
@@ -72,7 +73,7 @@ def _opened(path: Path) -> Iterator[h5py.File]:
             yield file
     except FileNotFoundError:
         raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
-    except (OSError, KeyError, TypeError, ValueError) as error:
+    except damage.KINDS as error:
         fix = "import the measurements again"
         raise RecordingError(Issue("", f"{path.name} is not a complete {SCHEMA} recording: {error}", fix=fix)) from None
 
