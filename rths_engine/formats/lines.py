@@ -9,6 +9,7 @@ from rths_engine.foundation.errors import FileError, Issue
 
 # chosen; see docs/decisions/0023
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?"
+TOUCHING = re.compile(rf"(?:{NUMBER}){{2,}}+")  # numbers without anything between them; possessive: never tried in other parts
 _GLUED = re.compile(NUMBER)
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 _LONGEST_LINE = 20_000_000

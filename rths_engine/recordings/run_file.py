@@ -33,7 +33,7 @@ from rths_engine.results.result import Result
 
 SCHEMA = "rths-recording/2"
 SCHEMAS = (SCHEMA, first_form.SCHEMA)  # that `load` reads
-_DAMAGE = (*damage.KINDS, RthsError)  # the plan in it may be refused
+_DAMAGE: tuple[type[Exception], ...] = (*damage.KINDS, RthsError)  # the plan in it may be refused
 
 
 @dataclass(frozen=True, slots=True)

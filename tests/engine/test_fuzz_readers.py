@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rths_engine.formats import registry
+from rths_engine.formats.plain.refusals import touches
 from rths_engine.formats.source import Source
 from rths_engine.foundation.errors import FileError, MeasuredError, RecordingError
 from rths_engine.recordings.measured.clock import of_stamps
@@ -51,6 +52,12 @@ def test_a_number_of_a_header_that_is_not_finite_is_refused_with_its_line() -> N
 
 def test_a_date_beyond_all_calendars_is_no_date() -> None:
     assert registry.read(_changed("mts", "5/13/2024 10:49:14", "99999999999999999999/13/2024 10:49:14")).columns
+
+
+def test_a_token_of_many_digits_is_refused_without_trying_all_ways_to_divide_it() -> None:
+    assert touches("1.5-2.5") and touches("1.23.45") and not touches("9" * 5000 + "x")
+    with pytest.raises(FileError, match="is not a number"):
+        registry.read(_changed("at2", "-3.4360000E-03", "9" * 5000 + "x"), registry.RECORD)
 
 
 def test_values_too_large_to_be_interpolated_are_refused_with_the_largest() -> None:

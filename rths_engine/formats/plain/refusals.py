@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from rths_engine.formats.lines import NUMBER
+from rths_engine.formats.lines import TOUCHING
 from rths_engine.formats.plain.form import COMMENT, Line
 from rths_engine.foundation.errors import FileError, Issue
 
 OVERFLOW = re.compile(r"\*{2,}|#{2,}(?![A-Za-z])")
-_GLUED = re.compile(rf"({NUMBER}){{2,}}")
 _CORRECT = "correct or remove the line"
 
 
@@ -19,7 +18,7 @@ def not_a_number(at: int, field: str, what: str = "is not a number") -> FileErro
     if OVERFLOW.search(field):
         problem = f"{what}: a number was too long for its field"
         return FileError(Issue(f"line {at}", problem, field, "get the value from the origin of the file; it is lost here"))
-    if _GLUED.fullmatch(field):
+    if TOUCHING.fullmatch(field):
         problem = f"{what}: numbers touch"
         return FileError(
             Issue(f"line {at}", problem, field, "separate them, or state the format, such as (8F10.4), in the header")
@@ -46,7 +45,7 @@ def text_between(line: Line, after: Sequence[str], header: Sequence[str] = ()) -
 
 def touches(field: str) -> bool:
     """Whether a field is several numbers without anything between them, or stars of a number that was too long."""
-    return bool(_GLUED.fullmatch(field) or OVERFLOW.search(field))
+    return bool(TOUCHING.fullmatch(field) or OVERFLOW.search(field))
 
 
 def other_width(at: int, text: str, count: int, others: int, what: str = "fields") -> FileError:

@@ -11,7 +11,7 @@ import re
 import numpy as np
 
 from rths_engine.formats.format import Format
-from rths_engine.formats.lines import NUMBER, value
+from rths_engine.formats.lines import NUMBER, TOUCHING, value
 from rths_engine.formats.source import Source
 from rths_engine.formats.statement import count as stated_count
 from rths_engine.formats.strong_motion.units_written import unit_named
@@ -28,7 +28,7 @@ _SERIES = re.compile(
     re.IGNORECASE,
 )
 _EXPONENTIAL = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eEdD][-+]?\d+")
-_TOUCHING = re.compile(rf"{_EXPONENTIAL.pattern}(?:[-+]{_EXPONENTIAL.pattern.removeprefix('[-+]?')})+")
+_EXPONENTIALS = re.compile(rf"{_EXPONENTIAL.pattern}(?:[-+]{_EXPONENTIAL.pattern.removeprefix('[-+]?')})+")
 _NAMED = re.compile(rf"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*({NUMBER}|[A-Z]+)", re.IGNORECASE)
 _LISTED = re.compile(rf"^\s*(\d+)\s+({NUMBER})\s+NPTS\s*,\s*DT", re.IGNORECASE)
 
@@ -120,9 +120,9 @@ def _numbers(line: str, where: str) -> list[float]:
         number = value(token)
         if number is not None:
             found.append(number)
-        elif _TOUCHING.fullmatch(token):
+        elif _EXPONENTIALS.fullmatch(token):
             found += [float(part.replace("D", "E").replace("d", "e")) for part in _EXPONENTIAL.findall(token)]
-        elif re.fullmatch(rf"(?:{NUMBER}){{2,}}", token):
+        elif TOUCHING.fullmatch(token):
             problem = "contains numbers that nothing separates"
             raise FileError(Issue(where, problem, token, "write blanks between the numbers"))
         else:
