@@ -24,10 +24,11 @@ def load(path: Path) -> Measured:
     raise RecordingError(Issue("", problem, fix="import the measurements, or run the plan again"))
 
 
-def _schema(path: Path) -> object:
+def _schema(path: Path) -> str:
     try:
         with h5py.File(path, "r") as file:
-            return file.attrs.get("schema")
+            schema = file.attrs.get("schema")
+            return schema if isinstance(schema, str) else repr(schema)
     except FileNotFoundError:
         raise RecordingError(Issue("", f"the recording {path.name} does not exist")) from None
     except damage.KINDS as error:

@@ -12,6 +12,7 @@ from rths_engine.formats import registry
 from rths_engine.formats.plain.refusals import touches
 from rths_engine.formats.source import Source
 from rths_engine.foundation.errors import FileError, MeasuredError, RecordingError
+from rths_engine.recordings import opening
 from rths_engine.recordings.measured.clock import of_stamps
 from rths_engine.recordings.measured.resample import resampled
 from rths_engine.recordings.run_file import load, save
@@ -60,6 +61,12 @@ def test_a_token_of_many_digits_is_refused_without_trying_all_ways_to_divide_it(
         registry.read(_changed("at2", "-3.4360000E-03", "9" * 5000 + "x"), registry.RECORD)
 
 
+def test_a_count_of_thousands_of_digits_is_no_count() -> None:
+    with pytest.raises(FileError) as refused:
+        registry.read(Source("record.txt", content=b"9" * 5000 + b"\n0.1\n0.2\n0.3\n"), registry.RECORD)
+    assert "ValueError" not in str(refused.value)
+
+
 def test_values_too_large_to_be_interpolated_are_refused_with_the_largest() -> None:
     times = np.cumsum(0.1 + 0.05 * np.sin(np.arange(40)))
     clock, _ = of_stamps(times, "Time")
@@ -76,3 +83,7 @@ def test_a_recording_that_was_altered_is_refused_with_its_name(tmp_path: Path) -
             file.attrs[attribute] = value
         with pytest.raises(RecordingError, match=r"run\.h5 is not a complete"):
             load(path)
+    with h5py.File(path, "r+") as file:
+        file.attrs["schema"] = np.ones((2, 2))
+    with pytest.raises(RecordingError, match=r"run\.h5 is not a recording"):
+        opening.load(path)

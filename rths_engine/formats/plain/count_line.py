@@ -14,7 +14,7 @@ from rths_engine.foundation import unit_names
 from rths_engine.foundation.errors import FileError, Issue
 
 _TOKENS = re.compile(
-    r"([1-9]\d*)\.?(?:[\s,;]+(\d*[.,]\d+(?:[eEdD][-+]?\d+)?)(?:\s*s(?:ec)?)?)?(?:[\s,;]+([A-Za-z][\w/^*²-]*))?[\s,;]*"
+    r"([1-9]\d{0,17})\.?(?:[\s,;]+(\d*[.,]\d+(?:[eEdD][-+]?\d+)?)(?:\s*s(?:ec)?)?)?(?:[\s,;]+([A-Za-z][\w/^*²-]*))?[\s,;]*"
 )
 _NUMBERS = re.compile(r"[-+\d.,;\seEdD]*\d[-+\d.,;\seEdD]*")
 _ROWS_OF_NAMES = 3  # names, units, and the numbers above; chosen, see docs/decisions/0023
