@@ -85,6 +85,8 @@ from app.preflight.endpoints import router as preflight
 from app.publishing.endpoints import router as publishing
 from app.publishing.run_endpoints import router as run_publishing
 from app.queue.endpoints import router as queue
+from app.retention.daily import Daily
+from app.retention.endpoints import router as retention
 from app.rigs.endpoints import router as rigs
 from app.runs.edit_endpoints import router as run_edits
 from app.runs.editing import RunEditing
@@ -139,6 +141,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         rigs,
         control,
         approvals,
+        retention,
         motions,
         plans,
         preflight,
@@ -215,6 +218,8 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.desk.start()
     dispatcher = Dispatcher(app.state.sessions)
     dispatcher.start()
+    daily = Daily(app.state.sessions, store_of(settings))
+    daily.start()
     worker = EmbeddedWorker(settings, partial(_worker_ended, app)) if settings.embedded_worker else None
     if worker:
         worker.start()
@@ -224,6 +229,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         if worker:
             await asyncio.to_thread(worker.stop)
         await asyncio.to_thread(dispatcher.stop)
+        await asyncio.to_thread(daily.stop)
         app.state.audit.put(Waiting(SERVICE, "service.stopped"))
         await asyncio.to_thread(app.state.audit.stop)
         app.state.monitor.close()

@@ -12,6 +12,7 @@ from app.annotations.schemas import AnnotationList, AnnotationOut, Written
 from app.jobs.states import State
 from app.models import Annotation, Run
 from app.problems import Conflict, NotFound
+from app.runs.exports import removed
 from app.runs.service import RunService
 from rths_engine.foundation.errors import Issue, RthsError
 
@@ -80,7 +81,8 @@ def _end(run: Run) -> tuple[float, float]:
         return run.duration_s, run.duration_s + SPARE
     if run.recording_sha256 is None or run.simulated_s is None:
         until = "after its start" if run.state is State.QUEUED else "of a run with a recording"
-        raise Conflict(f"Run #{run.number} is {run.state} and has no recording to annotate. Annotate a time {until}.")
+        said = removed(run) or f"Run #{run.number} is {run.state} and has no recording to annotate."
+        raise Conflict(f"{said} Annotate a time {until}.")
     tripped = run.trip["time_s"] if run.trip else 0.0
     return run.simulated_s, max(run.simulated_s, tripped) + ROUNDED
 

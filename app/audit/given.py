@@ -34,6 +34,7 @@ OPEN = frozenset(
         "plans",
         "queue",
         "recordings",
+        "retention",
         "rigs",
         "rules",
         "runs",

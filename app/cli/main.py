@@ -375,7 +375,10 @@ def _operation(commands: Commands) -> None:
     restore.add_argument("backup", type=Path, metavar="FROM", help="folder of one backup")
     about = "check every stored file against its row, and list files without a row; exit code 1 where a file is damaged"
     verify = _command(commands, "verify", "app.cli.backup:verify", about)
-    for command in (migrate, backup, restore, verify):
+    about = "remove the recordings that the rule of retention removes, without waiting for the day: docs/operation.md"
+    retention = _command(commands, "retention", "app.cli.retention:retention", about, recorded=True)
+    retention.add_argument("--dry-run", action="store_true", help="only say how many recordings go, how large and which first")
+    for command in (migrate, backup, restore, verify, retention):
         _data(command)
 
 

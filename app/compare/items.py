@@ -10,7 +10,7 @@ from app.config import Settings
 from app.measured.service import MeasuredService
 from app.models import MeasuredRecording, Run
 from app.problems import Conflict
-from app.runs.exports import recording_path
+from app.runs.exports import recording_path, removed
 from app.runs.service import RunService
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError
 from rths_engine.recordings import selected
@@ -98,7 +98,8 @@ def opened(ref: Ref, runs: RunService, recordings: MeasuredService, settings: Se
     run = runs.get(ref.id)
     if not run.recording_sha256:
         why = "wait until it has ended" if not run.state.ended else "choose another run"
-        raise Conflict(f"Run {run.number} ({run.name}) has no recording: it is {run.state}. To compare runs, {why}.")
+        said = removed(run) or f"Run {run.number} ({run.name}) has no recording: it is {run.state}."
+        raise Conflict(f"{said} To compare runs, {why}.")
     path = recording_path(run, settings)
     try:
         return Item(ref, run, selected.of_run(path))

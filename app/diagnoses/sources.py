@@ -18,6 +18,7 @@ from app.models import Diagnosis, DiagnosisInput, MeasuredRecording, Run
 from app.plans.service import PlanService
 from app.problems import Conflict, NotFound
 from app.runs.exports import filed as filed_run
+from app.runs.exports import removed
 from app.runs.service import RunService
 from app.store.filed import Filed
 from app.store.opening import store_of
@@ -133,4 +134,4 @@ def _of_kind(where: str, test: str, plan: Plan | None) -> None:
 
 def _recorded(run: Run) -> None:
     if not run.recording_sha256:
-        raise Conflict(f"The run {run.name} has no recording: its status is {run.state}.")
+        raise Conflict(removed(run) or f"The run {run.name} has no recording: its status is {run.state}.")

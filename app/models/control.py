@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
+from typing import Any
 
 import sqlalchemy as sa
 from sqlalchemy.orm import Mapped, mapped_column
@@ -14,6 +15,7 @@ class Rules(Base):
     """The rules of the laboratory: one row. `one_driver`: only the driver of a rig starts and stops its tests.
 
     `approvals`: another person approves each submission; beside administrators the people named in `approvers`.
+    `retention`: which recordings are removed (app/retention/schemas.py), null: none; `retention_due`: not before this time.
     """
 
     __tablename__ = "rules"
@@ -22,6 +24,8 @@ class Rules(Base):
     one_driver: Mapped[bool] = mapped_column(default=False, server_default=sa.false())
     approvals: Mapped[bool] = mapped_column(default=False, server_default=sa.false())
     approvers: Mapped[list[str]] = mapped_column(sa.JSON, default=list, server_default="[]")
+    retention: Mapped[dict[str, Any] | None] = mapped_column(sa.JSON(none_as_null=True))
+    retention_due: Mapped[datetime | None]
 
 
 class Approval(Base):

@@ -45,6 +45,7 @@ class Run(Ordered, Job, Base):
     The row is narrow, because lists read every row: `RunPlan` holds the plan, and `RunValue` the values that lists sort and
     filter by. `name` starts as the name of the plan; a new name changes neither plan nor digest.
     An archived run is hidden from lists. A deleted run (`deleted_at`) is hidden too, and is removed after a grace period.
+    `recording_removed_at`: the retention of the laboratory removed the recording; checksum and size are then null.
     `pace` is the planned speed factor, null for as fast as possible. `samples` and `size` say how long and how large the test
     is: its expected time follows from earlier runs alike.
     """
@@ -73,6 +74,7 @@ class Run(Ordered, Job, Base):
     size: Mapped[str | None] = mapped_column(sa.String(40))
     recording_sha256: Mapped[str | None] = mapped_column(sa.String(64))
     recording_size: Mapped[int | None] = mapped_column(sa.BigInteger)
+    recording_removed_at: Mapped[datetime | None]
     library_id: Mapped[str | None] = mapped_column(sa.String(36), index=True)
     library_version: Mapped[int | None]
     rig: Mapped[Rig | None] = relationship(primaryjoin="foreign(Run.rig_id) == Rig.id", viewonly=True, lazy="selectin")

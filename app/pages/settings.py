@@ -11,6 +11,7 @@ from app.laboratory.dependency import OneLaboratory
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
 from app.publishing.designsafe.entities import LICENCES
+from app.retention.schemas import ENDED
 from app.runs.dependency import Runs
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
@@ -26,6 +27,7 @@ def settings(request: Request, who: Who, laboratory: OneLaboratory) -> HTMLRespo
         laboratory=laboratory.shown(),
         event_kinds=list(EventKind),
         administers=who.role is Role.ADMINISTRATOR,
+        ended_states=ENDED,
         roles=[role.name.lower() for role in Role],
     )
 

@@ -31,9 +31,17 @@ def recording_path(run: Run, settings: Settings) -> Path:
 def filed(run: Run) -> Filed:
     """The file of a recording as the row of its run describes it. Raises Conflict while there is no recording."""
     if not run.recording_sha256:
-        raise Conflict(f"The test has no recording: it is {run.state}.")
+        raise Conflict(removed(run) or f"The test has no recording: it is {run.state}.")
     what = f"The recording of run {run.number} ({run.name})"
     return Filed(of_run(run.id), what, run.recording_sha256, run.recording_size)
+
+
+def removed(run: Run) -> str:
+    """The sentence for a recording that retention removed; empty where it did not."""
+    if run.recording_removed_at is None:
+        return ""
+    what = f"The recording of run {run.number} ({run.name}) was removed by retention"
+    return f"{what} on {run.recording_removed_at:%Y-%m-%d}. Its plan and its measures are kept."
 
 
 def csv_parts(path: Path) -> Iterator[bytes]:
@@ -57,7 +65,7 @@ def _parts(channels: tuple[Channel, ...], dt: float, signals: Iterator[Array]) -
 
 def measures_text(run: Run) -> str:
     """The measures of a run as CSV. Raises Conflict while there are no measures."""
-    if not run.recording_sha256:
+    if not run.recording_sha256 and run.recording_removed_at is None:
         raise Conflict(f"The test has no measures: it is {run.state}.")
     text = io.StringIO()
     writer = csv.writer(text)

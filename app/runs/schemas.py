@@ -140,6 +140,7 @@ class _Known(BaseModel):
     notes: str
     archived: bool
     deleted_at: datetime | None
+    recording_removed_at: datetime | None = Field(description="when retention removed the recording; null: it did not")
 
 
 if TYPE_CHECKING:

@@ -15,6 +15,8 @@ export function actions(run) {
   const address = `/api/v1/runs/${run.id}`;
   const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet" }, label);
   const driven = run.test !== "hybrid" && run.test !== "structure"; // no structure is computed
+  /** @type {import("../downloads.js").Download} */
+  const measures = ["Measures, CSV", `${address}/measures.csv`, true];
   /** @type {import("../downloads.js").Download[]} */
   const recorded = [
     ["Report, HTML", `${address}/report.html`],
@@ -23,11 +25,11 @@ export function actions(run) {
     ["Recording, HDF5", `${address}/recording.h5`, true],
     ["Recording, CSV", `${address}/recording.csv`, true],
     ["Recording, MATLAB", `${address}/recording.mat`, true],
-    ["Measures, CSV", `${address}/measures.csv`, true],
+    measures,
     ["Data set for DesignSafe", `/runs/${run.id}/designsafe`],
   ];
   return [
-    downloadMenu([...(run.recording ? recorded : []), ["Plan, YAML", `${address}/plan.yaml`, true]]),
+    downloadMenu([...(run.recording ? recorded : run.recording_removed_at ? [measures] : []), ["Plan, YAML", `${address}/plan.yaml`, true]]),
     ...(driven ? [] : [link(`/stability/${run.id}`, "Stability")]),
     ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run")] : []),
     ...(run.recording ? [link(`/compare/previous/${run.id}`, "Compare with the previous run"), link(`/compare?items=run:${run.id}`, "Compare with other runs")] : []),

@@ -63,7 +63,7 @@ function show() {
   showDeadlines(run.timing);
   showActions();
   showEnd();
-  const measured = ended(run.state) && run.recording && (run.stations?.length || floorCount(run, declared.measures));
+  const measured = ended(run.state) && (run.recording || run.recording_removed_at) && (run.stations?.length || floorCount(run, declared.measures));
   byId("metrics").hidden = !measured;
   if (measured) {
     showTiles();
