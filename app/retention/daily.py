@@ -12,7 +12,7 @@ from sqlalchemy.orm import Session, sessionmaker
 from app.audit.log import SERVICE, Acting
 from app.db import unit_of_work
 from app.leases import Once
-from app.retention.service import BATCH, Removed, Retention
+from app.retention.service import Removed, Retention
 from app.store.base import Store
 
 log = logging.getLogger("rths.retention")
@@ -39,7 +39,7 @@ class Removal:
             with unit_of_work(self.maker) as session:
                 one = Retention(session).remove(self.store, self.who)
             recordings, size = recordings + one.recordings, size + one.bytes
-            if one.recordings < BATCH:
+            if not one.recordings:
                 break
         with unit_of_work(self.maker) as session:
             Retention(session).clear(self.store)

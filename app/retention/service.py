@@ -31,7 +31,7 @@ class Removed(NamedTuple):
 
     @property
     def sentence(self) -> str:
-        return f"{_counted(self.recordings)} removed, {shown(self.bytes)}."
+        return f"Removed {_counted(self.recordings)}, {shown(self.bytes)}."
 
 
 class Retention:
@@ -114,12 +114,12 @@ class Retention:
 def _told(rule: Rule, recordings: int, size: int, total: int) -> str:
     """What a rule removes, in words."""
     if not rule.acts:
-        return f"Nothing is removed. All recordings of runs take {shown(total)}."
-    gone = f"{_counted(recordings)} removed now, {shown(size)}" if recordings else "Nothing is removed now"
+        return f"The rule removes nothing. All recordings of runs take {shown(total)}."
+    gone = f"The rule removes {_counted(recordings)} now, {shown(size)}" if recordings else "The rule removes nothing now"
     over = rule.gigabytes is not None and total - size > rule.gigabytes * GIGABYTE
     why = f", more than {rule.gigabytes:g} GB, because the rule keeps them" if over else ""
     return f"{gone}. All recordings of runs take {shown(total)}; {shown(total - size)} remain{why}."
 
 
 def _counted(recordings: int) -> str:
-    return "1 recording is" if recordings == 1 else f"{recordings} recordings are"
+    return "1 recording" if recordings == 1 else f"{recordings} recordings"

@@ -201,7 +201,6 @@ def test_a_changed_rule_waits_a_day_and_then_acts_once_a_day(lab: Laboratory) ->
 
 def test_each_removal_is_an_entry_of_the_audit_log(lab: Laboratory, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(service, "BATCH", 3)
-    monkeypatch.setattr("app.retention.daily.BATCH", 3)
     before = {entry.number for entry in lab.entries()}
     lab.save(days=1)
     assert lab.remove() == 5
@@ -252,10 +251,10 @@ def test_the_command_line_previews_and_removes(lab: Laboratory, capsys: pytest.C
     data, before = ["--data", str(app_of(lab.client).state.settings.data)], len(lab.entries())
     assert main(["retention", "--dry-run", *data]) == 0
     told = capsys.readouterr().out
-    assert "1 recording is removed now, 0.0 MB" in told and "#1 Brace 1" in told
+    assert "The rule removes 1 recording now, 0.0 MB." in told and "#1 Brace 1" in told
     assert 1 in lab.left()
     assert main(["retention", *data]) == 0
-    assert "1 recording is removed" in capsys.readouterr().out
+    assert "Removed 1 recording, 0.0 MB." in capsys.readouterr().out
     assert lab.left() == list(range(2, 10))
     acted = lab.entries()[before:]
     assert [entry.action for entry in acted] == ["retention.removed", "rths retention"]

@@ -82,15 +82,15 @@ export function reason(run) {
   return run.reason || run.state;
 }
 
-/** The sentence for a recording that retention removed, null for another. @param {any} run */
-export const removed = ({ recording_removed_at }) => recording_removed_at && `Recording removed by retention on ${when(recording_removed_at).slice(0, 10)}.`;
+/** When retention removed the recording of a run, in words; null where it did not. @param {any} run */
+export const removed = ({ recording_removed_at }) => recording_removed_at && `removed by retention on ${when(recording_removed_at).slice(0, 10)}`;
 
 /** What stands in place of the test before its signals arrive. @param {any} run */
 export function awaited(run) {
   const { state, recording } = run;
   if (state === "to approve") return "The test waits until another person approves it on the page Queue.";
   if (state === "queued") return "The drawing, the gauges and the charts appear here when the test starts.";
-  if (run.recording_removed_at) return `${removed(run)} Its plan and its measures are kept.`;
+  if (run.recording_removed_at) return `Recording ${removed(run)}. The plan and the measures are kept.`;
   return ended(state) && !recording ? "This run has no recording, so there is nothing to draw. Edit the plan and run it again." : "Loading the signals of the test …";
 }
 

@@ -21,15 +21,13 @@ function typed() {
 
 /** @param {any} rule */
 function show(rule) {
+  byId("retention-held").textContent = rule.due_at ? `${rule.sentence} Next removal: ${when(rule.due_at)} or later.` : rule.sentence;
   byId("retention-days").value = rule.days ?? "";
   byId("retention-gigabytes").value = rule.gigabytes ?? "";
   for (const box of boxes) box.checked = rule.states.includes(box.value);
   byId("retention-template").value = rule.template;
   byId("retention-tag").value = rule.tag;
 }
-
-/** @param {any} rule */
-const next = ({ sentence, due_at }) => (due_at ? `${sentence} Not before ${when(due_at)}.` : sentence);
 
 let asked = 0;
 
@@ -43,7 +41,7 @@ async function preview() {
   try {
     const found = await api.get(`/retention/preview?${query}`);
     if (mine !== asked) return;
-    const runs = found.oldest.map((/** @type {any} */ one) => el("li", {}, el("a", { href: `/runs/${one.id}` }, `#${one.number} ${one.name}`), ` ended ${when(one.finished_at)}, ${size(one.size)}`));
+    const runs = found.oldest.map((/** @type {any} */ one) => el("li", {}, el("a", { href: `/runs/${one.id}` }, `#${one.number} ${one.name}`), ` ended ${when(one.finished_at).slice(0, 10)}, ${size(one.size)}`));
     host.replaceChildren(el("p", {}, found.sentence), ...(runs.length ? [el("p", { class: "muted" }, "The oldest of them:"), el("ul", {}, ...runs)] : []));
   } catch (error) {
     if (mine === asked) host.replaceChildren(el("p", { class: "bad" }, explain(error)));
@@ -55,16 +53,13 @@ byId("retention-form").addEventListener("submit", async (/** @type {Event} */ ev
   event.preventDefault();
   const note = byId("retention-note");
   try {
-    const saved = await api.put("/retention", typed());
-    show(saved);
-    note.textContent = `Saved. ${next(saved)}`;
+    show(await api.put("/retention", typed()));
+    note.textContent = "Saved.";
   } catch (error) {
     note.textContent = explain(error);
   }
   await preview();
 });
 
-const held = await api.get("/retention");
-show(held);
-byId("retention-note").textContent = next(held);
+show(await api.get("/retention"));
 await preview();
