@@ -1,5 +1,5 @@
 // @ts-check
-// The retention of recordings: the rule, and what it would remove now.
+// The retention of recordings: the rule, and what it would remove now. The preview stands below the button, which it must not move.
 import { api, explain } from "../api.js";
 import { byId, el, htmlElements } from "../dom.js";
 import { size, when } from "../format.js";
