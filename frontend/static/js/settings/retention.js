@@ -48,7 +48,7 @@ async function preview() {
   }
 }
 
-byId("retention-form").addEventListener("change", () => void preview());
+byId("retention-form").addEventListener("input", () => void preview()); // not "change": it comes with the press on the button
 byId("retention-form").addEventListener("submit", async (/** @type {Event} */ event) => {
   event.preventDefault();
   const note = byId("retention-note");
