@@ -13,7 +13,7 @@ from app import logs
 from rths_engine.foundation.errors import Issue, RthsError
 
 MEGABYTE = 1_000_000
-PROBES = frozenset({"/healthz", "/readyz"})  # answered under any host name: monitors use the machine's address
+PROBES = frozenset({"/livez", "/healthz", "/readyz"})  # answered under any host name: monitors use the machine's address
 FORMS = frozenset({"multipart/form-data", "application/x-www-form-urlencoded"})
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 

@@ -43,6 +43,19 @@ async def health(request: Request, response: Response) -> Health:
     return Health(database="ok", worker="alive" if beating else "silent", version=__version__)
 
 
+class Alive(BaseModel):
+    """The version of the program that answers."""
+
+    version: str
+
+
+@router.get("/livez")
+@allowed(ANYONE)
+async def alive() -> Alive:
+    """Report that the web service answers, whatever its database, its workers and its disk do."""
+    return Alive(version=__version__)
+
+
 def _beating(app: FastAPI) -> bool:
     """Whether a worker is alive."""
     with unit_of_work(app.state.sessions) as session:

@@ -20,7 +20,7 @@ WELL_FORMED = re.compile(r"[A-Za-z0-9._-]{8,64}")
 METHODS = {"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"}
 UNMATCHED = "unmatched"
 ABORT = "/api/v1/abort"
-QUIET = {"/healthz", "/readyz", "/metrics", "/static"}  # asked for all the time: logged at the level debug
+QUIET = {"/livez", "/healthz", "/readyz", "/metrics", "/static"}  # asked for all the time: logged at the level debug
 
 
 class Observed:

@@ -35,6 +35,7 @@ class AccountRows:
 
     def administrators(self) -> Sequence[Account]:
         """The administrators who can sign in, locked until the end of the transaction."""
+        self._wait_for_writers()
         able = (Account.role == Role.ADMINISTRATOR.name.lower(), Account.disabled_at.is_(None), Account.password.is_not(None))
         return self.session.scalars(sa.select(Account).where(*able).with_for_update()).all()
 
@@ -46,7 +47,13 @@ class AccountRows:
         self.session.delete(row)
 
     def link(self, key_sha256: str) -> AccountLink | None:
+        self._wait_for_writers()
         return self.session.get(AccountLink, key_sha256, with_for_update=True)
+
+    def _wait_for_writers(self) -> None:
+        """Begin the transaction that writes: SQLite has no SELECT FOR UPDATE, and reads outside of it before a change."""
+        nothing = sa.update(Account).where(sa.false()).values(name=Account.name)
+        self.session.execute(nothing, execution_options={"synchronize_session": False})
 
     def forget_links(self, account_id: str | None, now: datetime) -> None:
         """Remove the links of an account (None: of the first administrator) and all that have expired."""

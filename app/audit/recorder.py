@@ -27,7 +27,8 @@ AT_ONCE = 200
 AGAIN_S = 1.0
 LAST_S = 3.0  # for what still waits when the service stops
 SAME_S = 60.0  # equal refusals within this time make one entry
-MOST_REFUSALS = 100  # different refusals within this time that are stored; more are only counted
+MOST_REFUSALS = 100  # different refusals of one person, or of all who did not sign in, in this time; more are counted together
+OTHERS = "others"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,15 @@ class Waiting:
     at: datetime = field(default_factory=lambda: datetime.now(UTC))
 
 
+@dataclass(slots=True)
+class _Refusal:
+    """A refusal that was stored, and how many equal ones came since."""
+
+    entry: Waiting
+    since: float
+    more: int = 0
+
+
 class Recorder:
     """Stores entries in their order, and again until the database takes them."""
 
@@ -48,7 +58,7 @@ class Recorder:
         self.sessions = sessions
         self.waiting: queue.Queue[Waiting | None] = queue.Queue(MOST_WAITING)
         self.lost = 0
-        self._refusals: dict[tuple[str, ...], tuple[float, int]] = {}
+        self._refusals: dict[tuple[str, ...], _Refusal] = {}
         self._lock = threading.Lock()
         self._until: float | None = None
         self._thread = threading.Thread(target=self._work, name="audit", daemon=True)
@@ -69,15 +79,30 @@ class Recorder:
     def refused(self, entry: Waiting) -> None:
         """Store a refusal. Equal ones within a minute are counted and make one entry, so that nobody floods the log."""
         key = (entry.who.who, *(str(entry.details.get(one)) for one in ("address", "method")), entry.action)
-        now = time.monotonic()
         with self._lock:
-            self._refusals = {one: at for one, at in self._refusals.items() if now - at[0] < SAME_S or at[1]}
-            since, more = self._refusals.get(key, (-SAME_S, 0))
-            if now - since < SAME_S or len(self._refusals) >= MOST_REFUSALS:
-                self._refusals[key] = (since, more + 1)
-                return
-            self._refusals[key] = (now, 0)
-        self._put(replace(entry, details={**entry.details, "equal_before": more}) if more else entry)
+            counted = self._over(time.monotonic())
+            if key not in self._refusals and sum(one[0] == key[0] for one in self._refusals) >= MOST_REFUSALS:
+                key = (key[0], OTHERS)
+            known = self._refusals.get(key)
+            if known is None:
+                self._refusals[key] = _Refusal(entry, time.monotonic())
+            else:
+                known.more += 1
+        for one in [*counted, *([entry] if known is None else [])]:
+            self._put(one)
+
+    def _over(self, now: float) -> list[Waiting]:
+        """Forget the refusals whose time is over, the first first; returns an entry for each that was counted meanwhile."""
+        counted = []
+        while self._refusals:
+            key, oldest = next(iter(self._refusals.items()))
+            if now - oldest.since < SAME_S:
+                break
+            del self._refusals[key]
+            if oldest.more:
+                counts = {"others_later" if key[1] == OTHERS else "equal_later": oldest.more}
+                counted.append(replace(oldest.entry, details={**oldest.entry.details, **counts}))
+        return counted
 
     def _put(self, entry: Waiting | None) -> None:
         try:

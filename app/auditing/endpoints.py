@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import StreamingResponse
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.access import Role, Scope, allowed
 from app.auditing.repository import Wanted
@@ -18,6 +17,7 @@ from app.db import unit_of_work
 from app.dependencies import OneSession
 from app.openapi import file, told
 from app.text import Storable
+from app.times import InUtc
 
 router = APIRouter(prefix="/api/v1/audit", tags=["audit log"])
 JSON_LINES = "application/jsonl"
@@ -30,8 +30,8 @@ class Asked(BaseModel):
 
     who: Storable = Field("", max_length=80, description="part of the name of the person or worker")
     action: Storable = Field("", max_length=80, description="part of the action, such as `runs.` or `refused`")
-    since: datetime | None = None
-    until: datetime | None = None
+    since: InUtc | None = None
+    until: InUtc | None = None
     run: Storable = Field("", max_length=36, description="number or id of a run")
     limit: int = Field(50, ge=1, le=500)
     offset: int = Field(0, ge=0, le=10**9)
@@ -40,14 +40,6 @@ class Asked(BaseModel):
     @classmethod
     def _given(cls, query: dict[str, Any]) -> dict[str, Any]:
         return {name: value for name, value in query.items() if value not in ("", [""])}
-
-    @field_validator("since", "until")
-    @classmethod
-    def _in_utc(cls, time: datetime) -> datetime:
-        try:
-            return time.replace(tzinfo=UTC) if time.tzinfo is None else time.astimezone(UTC)
-        except OverflowError:
-            raise ValueError("is out of range: needs a year from 1 to 9999") from None
 
 
 @router.get("")

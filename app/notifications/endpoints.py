@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.access import Role, allowed
 from app.dependencies import OneSession
 from app.events.tables import EventKind
 from app.notifications.schemas import EventList
 from app.notifications.service import NotificationService
+from app.times import InUtc
 
 router = APIRouter(prefix="/api/v1", tags=["notifications"])
 
@@ -22,7 +22,7 @@ class Since(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    since: datetime | None = Field(None, description="events later than this time")
+    since: InUtc | None = Field(None, description="events later than this time")
     after: int = Field(0, ge=0, le=2**62, description="events with a larger number")
     kind: list[EventKind] = []
     run_id: str = Field("", max_length=36)
@@ -32,14 +32,6 @@ class Since(BaseModel):
     @classmethod
     def _given(cls, query: dict[str, Any]) -> dict[str, Any]:
         return {name: value for name, value in query.items() if value not in ("", [""])}
-
-    @field_validator("since")
-    @classmethod
-    def _in_utc(cls, time: datetime) -> datetime:
-        try:
-            return time.replace(tzinfo=UTC) if time.tzinfo is None else time.astimezone(UTC)
-        except OverflowError:
-            raise ValueError("is out of range: needs a year from 1 to 9999") from None
 
 
 @router.get("/events")

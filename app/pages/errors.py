@@ -23,7 +23,7 @@ UNPROCESSABLE = "Unprocessable content: the address is not valid"
 class PagePath(Convertor[str]):
     """Any address except those of the API, the static files and the health check."""
 
-    regex = r"(?!api/|api$|static/|healthz).*"
+    regex = r"(?!api/|api$|static/|healthz|livez).*"
 
     def convert(self, value: str) -> str:
         return value

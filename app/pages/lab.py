@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from datetime import datetime
 from typing import Any
 
 from fastapi import APIRouter, Request
@@ -23,6 +22,7 @@ from app.queue.dependency import Queued
 from app.runs.dependency import Runs
 from app.runs.repository import Filter, Page
 from app.runs.service import RunService
+from app.times import InUtc
 
 QUEUED_SHOWN = 5
 RECENT_SHOWN = 8
@@ -49,7 +49,7 @@ def lab_now(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
 
 @router.get("/lab/since")
 @allowed(Role.VIEWER)
-def lab_since(request: Request, session: OneSession, moment: datetime) -> HTMLResponse:
+def lab_since(request: Request, session: OneSession, moment: InUtc) -> HTMLResponse:
     """What happened since a moment, the newest first."""
     events, total = EventLog(session).listed(since=moment, kinds=WORTH_TELLING, limit=500)
     counts = Counter(event.kind for event in events if event.about == "run")

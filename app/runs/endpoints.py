@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 from fastapi.responses import FileResponse, PlainTextResponse, Response, StreamingResponse
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.access import Role, Scope, Who, allowed
 from app.dependencies import Configured
@@ -17,6 +16,7 @@ from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, measures_text, recording_path
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Asking, RunDetail, RunList, RunOut, Submission, Submitted
+from app.times import InUtc
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning import plan_yaml
 
@@ -32,8 +32,8 @@ class Wanted(BaseModel):
     q: str = Field("", max_length=200)
     submitted_by: str = Field("", max_length=80)
     template: str = Field("", max_length=80)
-    since: datetime | None = None
-    until: datetime | None = None
+    since: InUtc | None = None
+    until: InUtc | None = None
     sort: str = Field("number", max_length=40)
     order: str = Field("desc", pattern="^(asc|desc)$")
     limit: int = Field(50, ge=1, le=500)
@@ -43,14 +43,6 @@ class Wanted(BaseModel):
     @classmethod
     def _given(cls, query: dict[str, Any]) -> dict[str, Any]:
         return {name: value for name, value in query.items() if value not in ("", [""])}
-
-    @field_validator("since", "until")
-    @classmethod
-    def _in_utc(cls, time: datetime) -> datetime:
-        try:
-            return time.replace(tzinfo=UTC) if time.tzinfo is None else time.astimezone(UTC)
-        except OverflowError:
-            raise ValueError("is out of range: needs a year from 1 to 9999") from None
 
     def filter(self) -> Filter:
         return Filter(tuple(self.state), self.q, self.submitted_by, self.template, self.since, self.until)

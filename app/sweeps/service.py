@@ -210,7 +210,7 @@ class SweepService:
         """Delete a sweep that has ended, with its results. Raises Conflict where it has not ended."""
         sweep = self.get(sweep_id)
         self.rows.lock(sweep)
-        if self.rows.unfinished(sweep):
+        if sweep.to_approve or self.rows.unfinished(sweep):
             raise Conflict("The sweep has not ended. Cancel it first.")
         self.rows.remove_sweep(sweep)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -47,6 +48,32 @@ def test_the_first_administrator_is_made_by_a_link_that_works_once(tmp_path: Pat
         with unit_of_work(app_of(fresh).state.sessions) as session:
             row = session.scalars(sa.select(AccountSession)).one()
             assert fresh.cookies[COOKIE] not in {row.key_sha256, row.id} and not session.scalars(sa.select(AccountLink)).all()
+
+
+def test_a_link_that_many_use_at_once_works_once(tmp_path: Path) -> None:
+    with TestClient(create_app(Settings(data=tmp_path, embedded_worker=False)), ADDRESS, client=HERE) as fresh:
+        with unit_of_work(app_of(fresh).state.sessions) as session:
+            key = AccountService(session).link()[0].partition("#")[2]
+
+        def use(number: int) -> int:
+            sent = {"key": key, "name": f"Admin {number}", "password": PASSWORD}
+            answer = fresh.post(f"{V1}/sign-in/link", json=sent)
+            return int(answer.status_code)
+
+        with ThreadPoolExecutor(4) as together:
+            assert sorted(together.map(use, range(4))) == [204, 404, 404, 404]
+        with unit_of_work(app_of(fresh).state.sessions) as session:
+            assert len(AccountService(session).listed()) == 1
+
+
+def test_of_two_administrators_who_lose_the_role_at_once_one_keeps_it(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, embedded_worker=False, local_sign_in=True)
+    with TestClient(create_app(settings), ADDRESS, client=HERE) as one:
+        with unit_of_work(app_of(one).state.sessions) as session:
+            two = [AccountService(session).add(name, Role.ADMINISTRATOR, PASSWORD).id for name in ("Ana", "Eva")]
+        with ThreadPoolExecutor(2) as together:
+            answers = together.map(lambda account: one.patch(f"{V1}/accounts/{account}", json={"role": "viewer"}), two)
+        assert sorted(answer.status_code for answer in answers) == [200, 409]
 
 
 def test_a_link_expires(person: Person, lab: TestClient, browser: Callable[..., TestClient]) -> None:

@@ -118,6 +118,7 @@ def test_a_sweep_waits_for_approval_too(ruled: TestClient) -> None:
     assert found["state"] == "to approve"
     (waits,) = ruled.get("/api/v1/approvals", params={"by": "Bea"}).json()["approvals"]
     assert (waits["about"], waits["points"]) == ("sweep", 2)
+    assert ruled.delete(f"/api/v1/sweeps/{found['id']}").status_code == 409  # it would leave a submission without its sweep
     assert decide(ruled, waits, "approve", "Bea").status_code == 200
     assert ruled.get(f"/api/v1/sweeps/{found['id']}").json()["state"] == "queued"
     with app_of(ruled).state.sessions() as session:

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -24,7 +25,7 @@ from app.audit import actions, given
 from app.audit.chain import EMPTY, Head, canonical
 from app.audit.check import check
 from app.audit.log import Acting, AuditLog, acts
-from app.audit.recorder import Recorder, Waiting
+from app.audit.recorder import MOST_REFUSALS, SAME_S, Recorder, Waiting
 from app.audit.tables import AuditEntry, AuditHead
 from app.cli.main import main
 from app.config import Settings
@@ -355,3 +356,20 @@ def test_the_recorder_waits_for_a_database_that_does_not_answer(client: TestClie
         recorder.put(Waiting(ANA, "abort"))
         assert client.get("/api/v1/runs").status_code == 200
     assert asked(client)[0]["action"] == "abort"
+
+
+def test_refusals_of_strangers_never_hide_those_of_a_person_and_are_counted(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recorder: Recorder = app_of(client).state.audit
+    now = 1000.0
+    monkeypatch.setattr("app.audit.recorder.time", SimpleNamespace(monotonic=lambda: now, sleep=lambda _: None))
+    for number in range(2 * MOST_REFUSALS):
+        recorder.refused(Waiting(Acting("", ""), f"refused.made-up-{number}"))
+    recorder.refused(Waiting(Acting("Vera Viewer", "viewer"), "refused.queue"))
+    now += SAME_S
+    recorder.refused(Waiting(Acting("Vera Viewer", "viewer"), "refused.queue"))
+    assert len(recorder._refusals) == 1
+    told = asked(client, action="refused", limit=500)
+    assert [one["who"] for one in told].count("Vera Viewer") == 2
+    assert [one["details"] for one in told if "others_later" in one["details"]] == [{"others_later": MOST_REFUSALS - 1}]

@@ -71,14 +71,14 @@ def test_an_upload_is_refused_before_it_is_read(low: TestClient) -> None:
         yield b"x"
         raise AssertionError("the body was read")
 
-    answer = low.post("/api/v1/motions", content=never(), headers={"content-length": "9000000"})
+    answer = low.post("/api/v1/motions", content=never(), headers={"content-length": "7000000"})
     assert answer.status_code == 507
 
 
 def test_an_upload_that_would_take_the_reserve_is_refused(serving: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(disk, "space", lambda _: disk.Space(free=2 * GB + 5 * MEGABYTE, reserve=2 * GB))
-    answer = serving.post("/api/v1/motions", content=b"x", headers={"content-length": "9000000"})
-    assert answer.status_code == 507 and "this request has 9.0 MB" in answer.json()["detail"]
+    answer = serving.post("/api/v1/motions", content=b"x", headers={"content-length": "7000000"})
+    assert answer.status_code == 507 and "this request has 7.0 MB" in answer.json()["detail"]
 
 
 def test_what_stops_or_reads_goes_on_while_the_disk_is_low(low: TestClient) -> None:

@@ -52,7 +52,7 @@ def test_every_route_websocket_and_mount_is_declared(made: FastAPI) -> None:
 def test_only_a_few_addresses_are_open(made: FastAPI) -> None:
     open_ones = {place.path for place in places(made) if place.access and place.access.who is ANYONE}
     signing_in = {"/api/v1/sign-in", "/api/v1/sign-in/link", "/api/v1/sign-in/link/read", "/sign-in", "/sign-in/link"}
-    assert open_ones == {"/healthz", "/readyz", "/static/{path:path}"} | signing_in
+    assert open_ones == {"/livez", "/healthz", "/readyz", "/static/{path:path}"} | signing_in
     assert {place.path for place in places(made) if place.access and place.access.who is WORKER} == {"/api/v1/worker"}
 
 

@@ -106,4 +106,4 @@ def test_a_websocket_of_a_page_is_checked_and_that_of_a_program_is_not(client: T
 def test_every_route_says_that_a_foreign_host_name_is_refused() -> None:
     for path, item in DOCUMENT["paths"].items():
         for operation in item.values():
-            assert ("421" in operation["responses"]) is (path not in ("/healthz", "/readyz")), path
+            assert ("421" in operation["responses"]) is (path not in ("/livez", "/healthz", "/readyz")), path

@@ -77,6 +77,8 @@ def test_the_page_says_what_happened_since_a_moment(client: TestClient) -> None:
     later = datetime.now(UTC) + timedelta(minutes=1)
     assert "Nothing happened." in client.get("/lab/since", params={"moment": later.isoformat()}).text
     assert client.get("/lab/since", params={"moment": "yesterday"}).status_code == 422
+    assert client.get("/lab/since", params={"moment": "2026-11-29"}).status_code == 200
+    assert client.get("/lab/since", params={"moment": "0001-01-01T00:00:00+14:00"}).status_code == 422
 
 
 def test_the_tour_leads_from_the_demonstration_to_a_comparison(client: TestClient) -> None:

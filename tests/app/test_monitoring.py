@@ -75,6 +75,7 @@ def test_a_service_with_a_worker_is_ready(beating: TestClient) -> None:
 
 
 def test_without_a_worker_the_service_is_not_ready(client: TestClient) -> None:
+    assert client.get("/livez").status_code == 200  # load balancers: Abort stays reachable
     status, found = checked(client)
     assert status == 503 and not found["worker"]["ok"] and "rths worker" in found["worker"]["reason"]
 
