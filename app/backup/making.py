@@ -7,7 +7,7 @@ import shutil
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from app.backup import manifest, snapshot
@@ -45,7 +45,7 @@ def make(settings: Settings, into: Path, told: Callable[[str], None]) -> Made:
     into.mkdir(parents=True, exist_ok=True)
     before = newest(into)
     moment = datetime.now(UTC)
-    folder = into / f"{moment.strftime(NAMED)}{UNFINISHED}"
+    folder = into / f"{_free(into, moment)}{UNFINISHED}"
     folder.mkdir(mode=0o700)
     try:
         told("copying rows")
@@ -71,6 +71,13 @@ def make(settings: Settings, into: Path, told: Callable[[str], None]) -> Made:
         shutil.rmtree(folder, ignore_errors=True)
         raise
     return Made(final, made, making.linked)
+
+
+def _free(into: Path, moment: datetime) -> str:
+    """The name of a backup that begins now; of the next second that is free where backups follow each other within a second."""
+    while (into / (name := moment.strftime(NAMED))).exists():
+        moment += timedelta(seconds=1)
+    return name
 
 
 def newest(into: Path) -> tuple[Path, Manifest] | None:

@@ -166,7 +166,7 @@ def test_a_result_is_stored_once_whatever_attempt_comes_late(bench: Bench) -> No
 def test_a_result_that_comes_after_its_cancel_is_not_kept(bench: Bench) -> None:
     bench.do("start", "here")
     bench.client.post(f"{URL}/{bench.diagnosis}/cancel", json={"by": "Bo"})
-    assert bench.do("cancel_requested") and bench.seen["state"] == "running"
+    assert bench.do("to_stop", 1) and bench.seen["state"] == "running"
     bench.do("finish", 1, RESULT)
     assert (bench.seen["state"], bench.seen["verdict"]) == ("cancelled", None)
 
