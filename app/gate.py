@@ -179,7 +179,7 @@ def _silent() -> Response:
 
 
 async def _close(access: Access | None, receive: Receive, send: Send) -> None:
-    """Refuse a websocket. A worker, which is no browser, is told why."""
+    """Refuse a websocket. A worker also gets the reason."""
     if access is not None and access.who is Open.WORKER:
         await receive()
         await send({"type": "websocket.accept"})

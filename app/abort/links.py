@@ -1,4 +1,4 @@
-"""The workers that are connected: they are told of the latch at once, and say what they do. Used on the event loop only."""
+"""The workers that are connected: the service sends them the latch at once, and they answer what they do. Event loop only."""
 
 from __future__ import annotations
 

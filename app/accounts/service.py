@@ -131,5 +131,5 @@ class AccountService:
 
 
 def key_of(name: str) -> str:
-    """A name as accounts are told apart by it: without regard to case, spaces around it and forms of the same letter."""
+    """The key of a name: equal for names that differ only in case, in spaces around them or in forms of the same letter."""
     return unicodedata.normalize("NFKC", name).strip().casefold()[:240]

@@ -22,7 +22,7 @@ class EmbeddedWorker:
     """The worker as a child process. Its standard input is a pipe that closes when this process ends, however it ends."""
 
     def __init__(self, settings: Settings, ended: Callable[[str], None]):
-        """`ended` is told the identity of each worker whose process has ended."""
+        """`ended` is called with the identity of each worker whose process has ended."""
         self.settings, self.ended = settings, ended
         self.process: subprocess.Popen[bytes] | None = None
         self._stopping = threading.Event()

@@ -127,7 +127,7 @@ class Link:
             delay = min(2 * delay, BACK_OFF_S[1])
 
     def _forget_ended(self) -> None:
-        """Free the memory of runs that have ended while there is no connection; their ends are told later."""
+        """Free the memory of runs that have ended while there is no connection; their ends are sent after it is back."""
         with self._lock:
             self._tellings = [telling.only_end() if telling.ended else telling for telling in self._tellings]
 

@@ -38,7 +38,7 @@ class Stopper:
         threading.Thread(target=self._keep, args=(stop,), daemon=True, name="rths-stopper").start()
 
     def as_dict(self) -> dict[str, Any]:
-        """What the services are told."""
+        """The message to the services."""
         return {"latch": self.latch.as_dict(), "acknowledged": self.acknowledged, "stopping": self.stopping}
 
     def look(self, maker: sessionmaker[Session], kinds: Sequence[Kind[Any, Any, Any]]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tarfile
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ from app.config import Settings
 from app.jobs import queue
 from app.main import create_app
 from rths_engine.planning import templates
+from tests.app import postgres
 from tests.browser.service import Service, running
 
 ARCHIVE = Path(__file__).parents[1] / "data" / "earlier_build_0_1_0.tar.xz"
@@ -48,6 +50,28 @@ def client(settings: Settings) -> Iterator[TestClient]:
 @pytest.fixture(scope="session")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     with running(tmp_path_factory.mktemp("app")) as one:
+        yield one
+
+
+@pytest.fixture(scope="module")
+def database() -> Iterator[str]:
+    """The URL of a PostgreSQL server of this module's tests; in CI a missing server is a failure."""
+    reason = postgres.missing()
+    if reason and os.environ.get("CI"):
+        pytest.fail(reason)
+    if reason:
+        pytest.skip(reason)
+    with postgres.server() as url:
+        yield url
+
+
+@pytest.fixture(scope="module")
+def serving(tmp_path_factory: pytest.TempPathFactory, migrated: Path) -> Iterator[TestClient]:
+    """One service without a worker for all tests of a module, which put back what they change."""
+    folder = tmp_path_factory.mktemp("serving") / "rths"
+    shutil.copytree(migrated.parent, folder)
+    app = create_app(Settings(data=folder, embedded_worker=False, local_sign_in=True))
+    with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as one:
         yield one
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -32,7 +31,6 @@ from app.config import Settings
 from app.events.log import EventLog
 from app.events.tables import EventKind
 from app.main import create_app
-from tests.app import postgres
 from tests.app.conftest import ADDRESS, HERE, app_of, plan
 
 ROOT = Path(__file__).parents[2]
@@ -158,17 +156,6 @@ def write_from_threads(maker: sessionmaker[Session], threads: int = 5, each: int
 
 def test_concurrent_writers_make_one_chain(maker: sessionmaker[Session]) -> None:
     write_from_threads(maker)
-
-
-@pytest.fixture(scope="module")
-def database() -> Iterator[str]:
-    reason = postgres.missing()
-    if reason and os.environ.get("CI"):
-        pytest.fail(reason)
-    if reason:
-        pytest.skip(reason)
-    with postgres.server() as url:
-        yield url
 
 
 def test_postgresql_keeps_one_chain_of_concurrent_writers_and_refuses_changes(database: str) -> None:

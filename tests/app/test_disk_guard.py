@@ -32,15 +32,6 @@ GB = 1000 * MEGABYTE
 MOTION = b"0.0\n0.1\n-0.1\n0.0\n" * 20
 
 
-@pytest.fixture(scope="module")
-def serving(tmp_path_factory: pytest.TempPathFactory, migrated: Path) -> Iterator[TestClient]:
-    folder = tmp_path_factory.mktemp("guarded") / "rths"
-    shutil.copytree(migrated.parent, folder)
-    app = create_app(Settings(data=folder, embedded_worker=False, local_sign_in=True))
-    with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as one:
-        yield one
-
-
 @pytest.fixture
 def low(serving: TestClient, monkeypatch: pytest.MonkeyPatch) -> TestClient:
     """A service whose disk is below its reserve."""

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import shutil
 import threading
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,11 +13,9 @@ from fastapi.testclient import TestClient
 from prometheus_client.parser import text_string_to_metric_families
 
 from app import db, disk, metrics
-from app.config import Settings
 from app.jobs.tables import WorkerHeartbeat
-from app.main import create_app
 from app.monitoring import checks, collected, endpoints, reporting
-from tests.app.conftest import ADDRESS, HERE, app_of, plan
+from tests.app.conftest import app_of, plan
 
 
 def checked(client: TestClient) -> tuple[int, dict[str, Any]]:
@@ -39,16 +35,6 @@ def samples(text: str) -> dict[tuple[str, frozenset[tuple[str, str]]], float]:
 
 def sample(client: TestClient, name: str, **labels: str) -> float | None:
     return samples(client.get("/metrics").text).get((name, frozenset(labels.items())))
-
-
-@pytest.fixture(scope="module")
-def serving(tmp_path_factory: pytest.TempPathFactory, migrated: Path) -> Iterator[TestClient]:
-    """One service without a worker for all tests here; each test puts back what it changes."""
-    folder = tmp_path_factory.mktemp("monitoring") / "rths"
-    shutil.copytree(migrated.parent, folder)
-    app = create_app(Settings(data=folder, embedded_worker=False, local_sign_in=True))
-    with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as one:
-        yield one
 
 
 @pytest.fixture

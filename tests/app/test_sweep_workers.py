@@ -11,7 +11,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import pytest
 import sqlalchemy as sa
 from fastapi.testclient import TestClient
 
@@ -19,7 +18,6 @@ from app.config import Settings
 from app.db import unit_of_work
 from app.main import create_app
 from app.models import SweepShard
-from tests.app import postgres
 from tests.app.conftest import ADDRESS, HERE, app_of, plan
 from tests.browser.service import ROOT, UNMEASURED, until
 
@@ -91,17 +89,6 @@ def test_a_sweep_is_cancelled_within_a_second_and_resumes_with_the_points_left(c
         found = wait(client, sweep, lambda one: one["state"] == "completed")
     assert found["completed"] == 40
     assert points(client, sweep).items() >= kept.items() and len(kept) == cancelled["done"]
-
-
-@pytest.fixture(scope="module")
-def database() -> Iterator[str]:
-    reason = postgres.missing()
-    if reason and os.environ.get("CI"):
-        pytest.fail(reason)
-    if reason:
-        pytest.skip(reason)
-    with postgres.server() as url:
-        yield url
 
 
 def test_a_killed_worker_of_several_loses_no_point_and_none_is_stored_twice(database: str, tmp_path: Path) -> None:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import hypothesis
 import schemathesis
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from hypothesis import HealthCheck, Phase
 from schemathesis import Case, GenerationMode
 from schemathesis.checks import load_all_checks
 from schemathesis.core.failures import Failure, FailureGroup
 from schemathesis.specs.openapi import checks
+
+from tests.fuzz.trying import each_once
 
 load_all_checks()
 CHECKS = [
@@ -40,29 +42,9 @@ def faults(client: TestClient, operation: Any, examples: int, seed: int) -> Iter
     for mode in MODES:
         try:
             strategy = operation.as_strategy(generation_mode=mode)
-            yield from _of_cases(client, strategy, examples, seed)
+            yield from each_once(strategy, partial(_faults_of, client), examples, seed)
         except (hypothesis.errors.Unsatisfiable, hypothesis.errors.InvalidArgument):
             continue  # an operation without parameters has no invalid request
-
-
-def _of_cases(client: TestClient, strategy: Any, examples: int, seed: int) -> Iterator[str]:
-    found: dict[str, str] = {}
-
-    @hypothesis.seed(seed)
-    @hypothesis.settings(
-        max_examples=examples,
-        deadline=None,
-        database=None,
-        phases=[Phase.generate],
-        suppress_health_check=list(HealthCheck),
-    )
-    @hypothesis.given(case=strategy)
-    def tried(case: Case[Any]) -> None:
-        for fault in _faults_of(client, case):
-            found.setdefault(fault.partition(":")[0], fault)
-
-    tried()
-    yield from found.values()
 
 
 def _faults_of(client: TestClient, case: Case[Any]) -> Iterator[str]:

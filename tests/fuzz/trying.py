@@ -7,7 +7,7 @@ import signal
 import threading
 import traceback
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
@@ -49,6 +49,19 @@ def faults(
     strategy: SearchStrategy[Example], wrong: Callable[[Example], str | None], examples: int, seed: int
 ) -> Iterator[str]:
     """What `wrong` says of the examples; also every error that it raises, and each example beyond the bounds."""
+
+    def all_wrong(example: Example) -> Iterator[str]:
+        fault = _fault(example, wrong)
+        if fault is not None:
+            yield fault
+
+    yield from each_once(strategy, all_wrong, examples, seed)
+
+
+def each_once(
+    strategy: SearchStrategy[Example], wrong: Callable[[Example], Iterable[str]], examples: int, seed: int
+) -> Iterator[str]:
+    """What `wrong` says of the examples, each kind of fault (the words before its first colon) once."""
     found: dict[str, str] = {}
 
     @hypothesis.seed(seed)
@@ -61,8 +74,7 @@ def faults(
     )
     @hypothesis.given(example=strategy)
     def tried(example: Example) -> None:
-        fault = _fault(example, wrong)
-        if fault is not None:
+        for fault in wrong(example):
             found.setdefault(fault.partition(":")[0], fault)
 
     tried()
