@@ -17,6 +17,7 @@ from app.live.audience import Replay, Row, Watched
 from app.live.frames import Decimator
 from app.live.hub import Hub, LiveRun
 from rths_engine.results.channels import Channel
+from tests.coroutines import finished
 
 CHANNELS = (Channel("x_cmd", 1, "A"), Channel("d_alpha", 1, "B"))
 SCHEMA = {"type": "schema", "channels": [{}] * 3}
@@ -53,7 +54,7 @@ def test_viewers_hear_of_changes_at_the_same_moment_and_of_the_end_at_once() -> 
         hub.end("run", live)
         return early, second.is_set(), "run" in hub.runs
 
-    assert asyncio.run(scenario()) == (False, True, False)
+    assert finished(scenario()) == (False, True, False)
 
 
 def test_more_viewers_get_fewer_frames_a_second() -> None:
@@ -93,7 +94,7 @@ def test_a_hundred_viewers_that_wait_ask_the_database_once() -> None:
             await watched.row(fresh_since=time.monotonic())
             return [len(set(map(id, rows))), early, len(asked)]
 
-    assert asyncio.run(scenario()) == [1, 1, 2]
+    assert finished(scenario()) == [1, 1, 2]
 
 
 def test_live_values_are_not_compressed_for_each_viewer(settings: Settings) -> None:

@@ -17,6 +17,7 @@ from app.calculations.processes import shared
 from app.problems import Unavailable
 from rths_engine.foundation.errors import RthsError
 from tests.app import calculated
+from tests.coroutines import finished
 
 BOUND = Bound("trial", seconds=60, megabytes=500, mend="use less", where="plan")
 SHORT = Bound("trial", seconds=1, megabytes=50, mend="use less")
@@ -62,7 +63,7 @@ def test_each_calculation_has_a_process_of_its_own_and_raises_what_it_raises() -
         with pytest.raises(Unavailable, match="ended unexpectedly"):
             await of(calculations, calculated.dies)
 
-    asyncio.run(run())
+    finished(run())
 
 
 def test_time_and_memory_are_bounded_and_the_error_names_the_bound() -> None:
@@ -75,7 +76,7 @@ def test_time_and_memory_are_bounded_and_the_error_names_the_bound() -> None:
         assert exceeded.value.issues[0].fix == "use less"
         assert await calculations.do("one", stays, BOUND, calculated.takes, 200) == 200_000_000
 
-    asyncio.run(run())
+    finished(run())
 
 
 def test_a_calculation_ends_when_its_client_leaves(tmp_path: Path) -> None:
@@ -89,7 +90,7 @@ def test_a_calculation_ends_when_its_client_leaves(tmp_path: Path) -> None:
         await until(lambda: not alive(started(tmp_path / "it")))
         assert not calculations.short.running
 
-    asyncio.run(run())
+    finished(run())
 
 
 def test_one_client_leaves_a_place_for_others_and_has_a_bounded_queue(tmp_path: Path) -> None:
@@ -109,7 +110,7 @@ def test_one_client_leaves_a_place_for_others_and_has_a_bounded_queue(tmp_path: 
         assert await asyncio.gather(*busy) == [str(k) for k in range(len(busy))]
         assert not calculations.short.waiting and not calculations.short.running
 
-    asyncio.run(run())
+    finished(run())
 
 
 def test_a_calculation_that_waits_is_forgotten_when_its_client_leaves() -> None:
@@ -127,7 +128,7 @@ def test_a_calculation_that_waits_is_forgotten_when_its_client_leaves() -> None:
         async with one.turn(client):
             pass
 
-    asyncio.run(run())
+    finished(run())
 
 
 def test_clients_take_turns() -> None:
@@ -146,7 +147,7 @@ def test_clients_take_turns() -> None:
         await asyncio.gather(*waiting)
         return order
 
-    assert asyncio.run(run()) == ["a", "b", "a", "a"]
+    assert finished(run()) == ["a", "b", "a", "a"]
 
 
 def test_a_server_of_processes_that_died_is_started_again() -> None:
@@ -159,4 +160,4 @@ def test_a_server_of_processes_that_died_is_started_again() -> None:
         server.wait()
         assert await of(calculations, calculated.process) > 0
 
-    asyncio.run(run())
+    finished(run())
