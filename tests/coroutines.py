@@ -11,6 +11,6 @@ Result = TypeVar("Result")
 
 
 def finished(coroutine: Coroutine[Any, Any, Result]) -> Result:
-    """What the coroutine returns, run in a thread of its own: Playwright keeps an event loop in the main one.
+    """What the coroutine returns, run in a thread of its own: Playwright keeps an event loop in the main one."""
     with ThreadPoolExecutor(1) as threads:
         return threads.submit(asyncio.run, coroutine).result()
