@@ -20,7 +20,7 @@ from rths_engine.parts.ground_motions import MotionLibrary
 
 READING = frozenset({"GET", "HEAD", "OPTIONS"})
 WRITERS = 32  # requests that may write at the same time; the threads of requests are 40
-READERS = 8  # requests that may read rows at the same time: each thread more delays the event loop, and with it Abort
+READERS = 4  # requests that may read rows at the same time: each thread more delays the event loop, and with it Abort
 PATIENCE_S = 60.0
 
 

@@ -1,90 +1,44 @@
 """Time until Abort is acknowledged, and until the engine is idle, under load: `python -m benchmarks.abort [--presses 30]`.
 
-Starts a control room with its worker in a folder of its own, and for each load a test in real time. While another process makes
+Starts a control room with its worker and many stored runs, and for each load a test in real time. While another process makes
 the load, Abort is pressed again and again; the first press stops the test. Prints median, 95th percentile and maximum.
+The full disk needs root (a small tmpfs), the lost database a PostgreSQL server of its own; where one lacks, its line says so.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
-import io
 import os
-import sqlite3
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Awaitable, Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
 
-import h5py
 import httpx
 import numpy as np
-import websockets
 
+from app.config import Settings
+from benchmarks.abort_loads import CLIENTS, load, small_disk, under
+from benchmarks.run_table import fill
+from tests.app import postgres
 from tests.browser.service import free_port, until
 
-STOREYS, LEAVE_S = 100, 5.0
-CLIENTS = {"stability": 45, "submits": 50, "yaml": 8, "hdf5": 4, "pages": 20, "viewers": 100}
 TEST = {"pace": {"kind": "real_time", "factor": 1.0}, "duration": 300.0}
-
-
-def tall(plan: dict[str, Any]) -> dict[str, Any]:
-    """A plan of many storeys, about 9 kB."""
-    storey = plan["structure"]["storeys"][0]
-    return {**plan, "structure": {**plan["structure"], "storeys": [storey] * STOREYS}}
-
-
-def expanding() -> bytes:
-    """A small HDF5 file of 200 MB of zeros."""
-    held = io.BytesIO()
-    with h5py.File(held, "w") as file:
-        file.create_dataset("displacement", data=np.zeros(25_000_000), compression="gzip", compression_opts=9)
-    return held.getvalue()
-
-
-async def load(name: str, url: str) -> None:
-    """Make a load for ever."""
-    async with httpx.AsyncClient(base_url=f"{url}/api/v1", timeout=60, limits=httpx.Limits(max_connections=None)) as http:
-        plan = (await http.get("/templates/two-storeys")).json()["plan"]
-        high, text, file = tall(plan), "notes: " + "- [a, b, {c: d}]\n" * 45_000, expanding() if name == "hdf5" else b""
-        run = (await http.get("/runs?state=running&limit=1")).json()["runs"]
-        actions: dict[str, Callable[[], Awaitable[object]]] = {
-            "stability": lambda: http.post("/stability", json=high, timeout=LEAVE_S),
-            "submits": lambda: http.post("/runs", json={"plan": {**plan, "duration": 1.0}}),
-            "yaml": lambda: http.post("/plans/read", content=text, headers={"content-type": "application/yaml"}),
-            "hdf5": lambda: http.post("/recordings/files", files={"file": ("sheet.h5", file)}),
-            "pages": lambda: http.get("/runs?limit=500&sort=elapsed_s"),
-            "viewers": lambda: watched(url, run[0]["id"]),
-        }
-        await asyncio.gather(*(again(actions[name]) for _ in range(CLIENTS[name])))
-
-
-async def watched(url: str, run: str) -> None:
-    """Watch a run."""
-    async with websockets.connect(f"{url.replace('http', 'ws', 1)}/api/v1/runs/{run}/live", max_size=None) as socket:
-        async for _ in socket:
-            pass
-
-
-async def again(action: Callable[[], Awaitable[object]]) -> None:
-    """Repeat an action for ever, also where it fails."""
-    while True:
-        try:
-            await action()
-        except (httpx.HTTPError, OSError, websockets.WebSocketException):
-            await asyncio.sleep(0.05)
+ORDINARY = ("none", *CLIENTS, "locked")
 
 
 @contextmanager
-def control_room(folder: Path) -> Iterator[tuple[httpx.Client, str]]:
+def control_room(folder: Path, database: str) -> Iterator[tuple[httpx.Client, str]]:
     """A control room in processes of its own, and a client that keeps its connection."""
     port = free_port()
     command = [str(Path(sys.executable).with_name("rths")), "serve", "--local", "--data", str(folder), "--port", str(port)]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    environment = {**os.environ, "RTHS_DATABASE_URL": database}
+    with (folder.parent / f"{folder.name}.log").open("wb") as log:
+        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
     url = f"http://127.0.0.1:{port}"
     try:
         with httpx.Client(base_url=f"{url}/api/v1", timeout=120) as http:
@@ -123,11 +77,38 @@ def measured(http: httpx.Client, presses: int) -> tuple[list[float], float]:
     return times, idle
 
 
+def room(names: tuple[str, ...], presses: int, rows: int) -> None:
+    """Measure some loads in one control room and print a line for each."""
+    with tempfile.TemporaryDirectory() as outer, ExitStack() as open_:
+        folder, database = Path(outer) / "data", None
+        folder.mkdir()
+        if "disk" in names:
+            open_.enter_context(small_disk(folder))
+        if "database" in names:
+            database = postgres.Server()
+            open_.callback(database.remove)
+            database.start()
+        stored = database.url if database else ""
+        if rows:
+            fill(Settings(data=folder, database_url=stored).prepared().url, rows)
+        http, url = open_.enter_context(control_room(folder, stored))
+        for name in names:
+            http.post("/queue/release", json={})
+            started(http)
+            with under(name, url, folder, database):
+                times, idle = measured(http, presses)
+            p50, p95 = np.percentile(times, [50, 95])
+            print(f"{name:12} {p50:22.0f} {p95:5.0f} {max(times):5.0f} {idle:8.0f}", flush=True)
+            until(lambda: http.get("/abort").json()["recorded"], bool, 240)
+            _cancel_waiting(http)
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--presses", type=int, default=30)
-    parser.add_argument("--only", nargs="*", default=("none", *CLIENTS, "locked"), help="loads to measure")
+    parser.add_argument("--rows", type=int, default=23_000, help="runs that are stored before (default %(default)s)")
+    parser.add_argument("--only", nargs="*", default=(*ORDINARY, "disk", "database"), help="loads to measure")
     parser.add_argument("--load", help=argparse.SUPPRESS)
     parser.add_argument("--url", help=argparse.SUPPRESS)
     given = parser.parse_args()
@@ -136,36 +117,18 @@ def main() -> None:
         return
     print(f"{os.cpu_count()} cores, load average {os.getloadavg()[0]:.1f} before the first load")
     print("load         acknowledged, ms: p50   p95   max   engine idle, ms")
-    with tempfile.TemporaryDirectory() as folder, control_room(Path(folder)) as (http, url):
-        for name in given.only:
-            http.post("/queue/release", json={})
-            started(http)
-            with _under(name, url, Path(folder)):
-                times, idle = measured(http, given.presses)
-            p50, p95 = np.percentile(times, [50, 95])
-            print(f"{name:12} {p50:22.0f} {p95:5.0f} {max(times):5.0f} {idle:8.0f}", flush=True)
-            until(lambda: http.get("/abort").json()["recorded"], bool, 240)
-            _cancel_waiting(http)
-
-
-@contextmanager
-def _under(name: str, url: str, folder: Path) -> Iterator[None]:
-    if name == "none":
-        yield
-    elif name == "locked":
-        with sqlite3.connect(folder / "rths.sqlite", isolation_level=None, timeout=60) as other:
-            other.execute("begin immediate")
-            yield
-            other.rollback()
-    else:
-        making = subprocess.Popen([sys.executable, "-m", "benchmarks.abort", "--load", name, "--url", url])
-        try:
-            time.sleep(LEAVE_S + 1)
-            yield
-        finally:
-            making.kill()
-            making.wait()
-            time.sleep(1)
+    if ordinary := tuple(name for name in given.only if name in ORDINARY):
+        room(ordinary, given.presses, given.rows)
+    if "disk" in given.only:
+        if os.geteuid():
+            print("disk         not measured: only root may mount a small disk")
+        else:
+            room(("disk",), given.presses, 0)
+    if "database" in given.only:
+        if missing := postgres.missing():
+            print(f"database     not measured: {missing}")
+        else:
+            room(("database",), given.presses, 0)
 
 
 def _cancel_waiting(http: httpx.Client) -> None:
