@@ -34,6 +34,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
     with unit_of_work(app.state.sessions) as session:
         accounts = AccountService(session)
         accounts.add("Ana Ruiz", Role.ADMINISTRATOR, PASSWORD)
+        accounts.add("Vera Holm", Role.VIEWER, PASSWORD)
         path, _ = accounts.link(accounts.add("Ben Osei", Role.ENGINEER))
     yield f"http://127.0.0.1:{settings.port}", path
     server.should_exit = True
@@ -96,3 +97,18 @@ def test_a_link_chooses_the_password_and_signs_in_once(page: Page, lab: tuple[st
     expect(page.locator(".person summary")).to_have_text("Ben Osei")
     page.goto(lab[1])
     expect(page.get_by_role("alert")).to_contain_text("The link is not valid")
+
+
+READING = {"Events", "Light theme", "Open", "Add filter", "Choose columns", "Export CSV", "Abort"}
+"""What a viewer may press on the pages: everything else is for higher roles."""
+
+
+def test_a_viewer_sees_no_control_of_a_higher_role(page: Page) -> None:
+    page.request.post("/api/v1/sign-in", data={"name": "Vera Holm", "password": PASSWORD})
+    for path in ("/queue", "/plans", "/runs", "/recordings", "/settings"):
+        visit(page, path)
+        shown = page.locator(":is(button, a.button, input[type=file]):visible:enabled").all_inner_texts()
+        assert set(shown) <= READING, path
+    expect(page.get_by_text("Only an administrator changes these settings.")).to_be_visible()
+    expect(page.get_by_label("Address line")).to_be_disabled()
+    whole(page)

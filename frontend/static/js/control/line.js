@@ -31,7 +31,7 @@ export function controlLine(host, wanted, { controls = true } = {}) {
   }
 
   /** @param {string} label @param {() => unknown} click */
-  const button = (label, click) => el("button", { type: "button", class: "quiet small", on: { click } }, label);
+  const button = (label, click, needs = "operator") => el("button", { type: "button", class: "quiet small", "data-needs": needs, on: { click } }, label);
 
   /** @param {Driven} rig @param {boolean} may_take_over */
   function buttons(rig, may_take_over) {
@@ -47,7 +47,7 @@ export function controlLine(host, wanted, { controls = true } = {}) {
     };
     return [
       ...(rig.asked_by === person() ? [] : [button("Ask for the control", () => act(rig, "request"))]),
-      ...(may_take_over ? [button("Take over …", over)] : []),
+      ...(may_take_over ? [button("Take over …", over, "administrator")] : []),
     ];
   }
 

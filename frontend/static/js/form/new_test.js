@@ -3,6 +3,7 @@ import { ApiError, api, explain } from "../api.js";
 import { ask } from "../ask.js";
 import { byId, el } from "../dom.js";
 import { person, remember } from "../person.js";
+import { may } from "../role.js";
 import { planProblems } from "./bounds.js";
 import { liveCheck } from "./checker.js";
 import { confirmed } from "./confirming.js";
@@ -114,7 +115,7 @@ function edited() {
 
 /** Queue the plan in the form: checked, simulated, and confirmed where it would trip. */
 async function queue() {
-  if (queueing) return;
+  if (queueing || !may("operator")) return;
   if (!who.value.trim()) return refuseWho();
   remember(who.value.trim());
   queueing = byId("submit").disabled = true;

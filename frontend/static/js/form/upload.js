@@ -56,7 +56,7 @@ class Upload {
     for (const control of [this.count, this.dt]) control.addEventListener("input", soon);
     const box = el(
       "details",
-      { class: "upload" },
+      { class: "upload", "data-needs": "engineer" },
       el("summary", {}, "Upload a record: a strong-motion file or columns of numbers"),
       el("div", { class: "fields" }, labelled("upload.file", "File", this.file)),
       this.told,

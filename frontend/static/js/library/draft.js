@@ -1,6 +1,7 @@
 // @ts-check
 import { ApiError, api, explain } from "../api.js";
 import { el } from "../dom.js";
+import { may } from "../role.js";
 import { heldHere, hold, release, remember } from "./held_here.js";
 import { savedAt } from "./words.js";
 
@@ -81,6 +82,7 @@ export class Draft {
 
   /** Save shortly after the last edit. */
   autosave() {
+    if (!may("engineer")) return;
     this.edited = true;
     if (this.stopped) return;
     clearTimeout(this.timer);

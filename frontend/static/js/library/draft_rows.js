@@ -31,7 +31,7 @@ function row(draft, refresh) {
     el("td", { class: "name", "data-label": "Started from" }, origin ? el("a", { href: addressOf(origin) }, origin_title || `${origin.kind} ${origin.id}`) : "–"),
     el("td", { class: "problems", "data-label": "Check of the plan" }, onlyHere ? "Only this browser holds it: open it to save it" : problemsOf(problems)),
     el("td", { class: "nowrap", "data-label": "Saved" }, savedAt(saved_at)),
-    el("td", {}, el("span", { class: "actions" }, rowButton("Discard", `the draft ${title}`, () => attempt(() => discard(draft, title, refresh))))),
+    el("td", {}, el("span", { class: "actions" }, rowButton("Discard", `the draft ${title}`, () => attempt(() => discard(draft, title, refresh)), "engineer"))),
   );
 }
 

@@ -40,9 +40,9 @@ export function planRow(plan, refresh, filter) {
 function acts({ id, name, versions }, refresh) {
   return [
     el("a", { class: "button quiet small", href: `/new?library=${id}`, "aria-label": `Open ${name} in the form` }, "Open"),
-    rowButton("Queue", name, () => attempt(() => queueVersion(id, name, versions))),
-    rowButton("Duplicate", name, () => attempt(() => duplicate(id, refresh))),
-    rowButton("Archive", name, () => attempt(() => archive(id, name, refresh))),
+    rowButton("Queue", name, () => attempt(() => queueVersion(id, name, versions)), "operator"),
+    rowButton("Duplicate", name, () => attempt(() => duplicate(id, refresh)), "engineer"),
+    rowButton("Archive", name, () => attempt(() => archive(id, name, refresh)), "engineer"),
   ];
 }
 
@@ -71,5 +71,5 @@ function unarchive({ id, name }, refresh) {
     await refresh();
     notice(`${name} is in the library again.`);
   };
-  return rowButton("Unarchive", name, () => attempt(act));
+  return rowButton("Unarchive", name, () => attempt(act), "engineer");
 }

@@ -53,8 +53,8 @@ function offerTags(tags) {
 function nothing() {
   if (view.get("q") || view.get("tag")) return el("p", { class: "empty" }, "No plan matches this filter.");
   if (view.has("archived")) return el("p", { class: "empty" }, "No plan is archived. A plan that you archive leaves the list and appears here.");
-  const words = "There is no plan in the library yet. Plans appear here when you save them: set up a test and press ";
-  return el("p", { class: "empty" }, words, el("a", { href: "/new" }, "Save to the library"), ", or import a plan from YAML.");
+  const words = "Plans appear here when you save them: set up a test and press ";
+  return el("p", { class: "empty" }, "There is no plan in the library yet. ", el("span", { "data-needs": "engineer" }, words, el("a", { href: "/new" }, "Save to the library"), ", or import a plan from YAML."));
 }
 
 /** @param {number} page @param {number} shown @param {number} total */

@@ -49,7 +49,7 @@ function row({ id, name }, version, box) {
         "span",
         { class: "actions" },
         el("a", { class: "button quiet small", href: `/new?library=${id}&version=${number}`, "aria-label": `Open version ${number} in the form` }, "Open"),
-        rowButton("Queue", `version ${number}`, () => attempt(() => queueVersion(id, name, number))),
+        rowButton("Queue", `version ${number}`, () => attempt(() => queueVersion(id, name, number)), "operator"),
         el("a", { href: `/api/v1/library/plans/${id}/versions/${number}/plan.yaml`, "aria-label": `Version ${number} as YAML` }, "YAML"),
       ),
     ),

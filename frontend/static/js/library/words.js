@@ -52,7 +52,7 @@ export function tableOf(label, heads, rows) {
   );
 }
 
-/** A small button of a row. @param {string} verb @param {string} object @param {() => void} click */
-export function rowButton(verb, object, click) {
-  return el("button", { type: "button", class: "quiet small", "aria-label": `${verb} ${object}`, on: { click } }, verb);
+/** A small button of a row. @param {string} verb @param {string} object @param {() => void} click @param {string | false} [needs] the role */
+export function rowButton(verb, object, click, needs = false) {
+  return el("button", { type: "button", class: "quiet small", "data-needs": needs, "aria-label": `${verb} ${object}`, on: { click } }, verb);
 }

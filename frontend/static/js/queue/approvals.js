@@ -33,8 +33,8 @@ function item(one) {
   const buttons = one.refusal
     ? [el("span", { class: "muted" }, one.refusal)]
     : [
-        el("button", { type: "button", class: "small", "aria-label": `Approve ${called}`, on: { click: () => decide(one, "approve", { digest: one.digest }) } }, "Approve"),
-        el("button", { type: "button", class: "quiet small", "aria-label": `Reject ${called}`, on: { click: reject } }, "Reject …"),
+        el("button", { type: "button", class: "small", "data-needs": "operator", "aria-label": `Approve ${called}`, on: { click: () => decide(one, "approve", { digest: one.digest }) } }, "Approve"),
+        el("button", { type: "button", class: "quiet small", "data-needs": "operator", "aria-label": `Reject ${called}`, on: { click: reject } }, "Reject …"),
       ];
   return el(
     "li",

@@ -143,7 +143,7 @@ function showUndo(undoable) {
       el("span", {}, el("a", { href: `/runs/${one.id}` }, `Run ${one.number}, ${one.name}`), `: ${one.reason}`),
       el(
         "button",
-        { type: "button", class: "quiet small", "data-undo": one.id, "aria-label": `Undo the cancel of run ${one.number}` },
+        { type: "button", class: "quiet small", "data-needs": "operator", "data-undo": one.id, "aria-label": `Undo the cancel of run ${one.number}` },
         "Undo the cancel",
       ),
     ),

@@ -24,7 +24,7 @@ export function showRunning(running, cancel) {
       el("td", { class: "number end" }, clock(run.expected_end)),
       el(
         "td",
-        { class: "acts" },
+        { class: "acts", "data-needs": "operator" },
         el(
           "button",
           { type: "button", class: "quiet small", "data-cancel": run.id, "aria-label": `Cancel run ${run.number}, ${run.name}` },

@@ -27,9 +27,10 @@ export class WaitingRow {
     this.facts = el("small", { class: "muted" });
     this.priority = el(
       "select",
-      { on: { change: () => acts.priority(one.id, Number(this.priority.value)) } },
+      { "data-needs": "operator", on: { change: () => acts.priority(one.id, Number(this.priority.value)) } },
       ...PRIORITIES.map(([value, name]) => el("option", { value }, String(name))),
     );
+    this.words = el("span", { "data-lacks": "operator" });
     this.rig = el("td", { class: "rig" });
     this.by = el("td", { class: "by" });
     this.waits = el("td", { class: "waits" });
@@ -43,17 +44,17 @@ export class WaitingRow {
     this.node = el(
       "tr",
       { id: `waiting-${one.id}` },
-      el("td", { class: "grip" }, this.handle, this.check),
+      el("td", { class: "grip", "data-needs": "operator" }, this.handle, this.check),
       this.position,
       el("td", { class: "name" }, this.link, this.facts),
-      el("td", { class: "priority" }, this.priority),
+      el("td", { class: "priority" }, this.priority, this.words),
       this.rig,
       this.by,
       this.takes,
       this.start,
       this.end,
       this.waits,
-      el("td", { class: "acts" }, el("div", { class: "actions" }, this.top, this.up, this.down, this.cancel)),
+      el("td", { class: "acts", "data-needs": "operator" }, el("div", { class: "actions" }, this.top, this.up, this.down, this.cancel)),
     );
   }
 
@@ -69,6 +70,7 @@ export class WaitingRow {
     text(this.start, clock(one.expected_start));
     text(this.end, clock(one.expected_end));
     text(this.waits, one.waits);
+    text(this.words, String(PRIORITIES.find(([value]) => value === one.priority)?.[1]));
     if (document.activeElement !== this.priority) this.priority.value = String(one.priority);
     for (const [node, label] of [
       [this.check, `Select run ${one.number}`],

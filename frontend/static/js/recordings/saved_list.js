@@ -13,7 +13,7 @@ export async function showSaved() {
   try {
     const { mappings } = await api.get("/mappings");
     offer(mappings);
-    host.replaceChildren(mappings.length ? table(mappings) : el("p", { class: "empty" }, "There is no saved mapping yet. Choose a file above, complete its mapping, and save it under a name."));
+    host.replaceChildren(mappings.length ? table(mappings) : el("p", { class: "empty" }, "There is no saved mapping yet.", el("span", { "data-needs": "engineer" }, " Choose a file above, complete its mapping, and save it under a name.")));
   } catch (error) {
     host.replaceChildren(el("p", { class: "note bad", role: "alert" }, explain(error)));
   }
@@ -52,7 +52,7 @@ function row(saved) {
     el("td", {}, saved_by),
     el("td", { class: "nowrap" }, when(saved_at)),
     el("td", {}, el("a", { href: `/api/v1/mappings/${id}/mapping.yaml`, "aria-label": `Mapping ${name}, YAML` }, "YAML")),
-    el("td", {}, el("span", { class: "actions" }, button("Rename", () => rename(saved, cell)), button("Delete", () => remove(saved)))),
+    el("td", {}, el("span", { class: "actions", "data-needs": "engineer" }, button("Rename", () => rename(saved, cell)), button("Delete", () => remove(saved)))),
   );
 }
 

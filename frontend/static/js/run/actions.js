@@ -6,14 +6,14 @@ import { ended } from "./facts.js";
 /** The button that cancels a test which has not ended. @param {any} run @param {(button: HTMLButtonElement) => void} stop @returns {HTMLElement[]} */
 export function cancelling(run, stop) {
   if (ended(run.state)) return [];
-  const cancel = el("button", { type: "button", class: "quiet stop", on: { click: () => stop(cancel) } }, "Cancel this test");
+  const cancel = el("button", { type: "button", class: "quiet stop", "data-needs": "operator", on: { click: () => stop(cancel) } }, "Cancel this test");
   return [cancel];
 }
 
 /** The links of a run. @param {any} run @returns {HTMLElement[]} */
 export function actions(run) {
   const address = `/api/v1/runs/${run.id}`;
-  const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet" }, label);
+  const link = (/** @type {string} */ href, /** @type {string} */ label, /** @type {string | false} */ needs = false) => el("a", { href, class: "button quiet", "data-needs": needs }, label);
   const driven = run.test !== "hybrid" && run.test !== "structure"; // no structure is computed
   /** @type {import("../downloads.js").Download} */
   const measures = ["Measures, CSV", `${address}/measures.csv`, true];
@@ -31,9 +31,9 @@ export function actions(run) {
   return [
     downloadMenu([...(run.recording ? recorded : run.recording_removed_at ? [measures] : []), ["Plan, YAML", `${address}/plan.yaml`, true]]),
     ...(driven ? [] : [link(`/stability/${run.id}`, "Stability")]),
-    ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run")] : []),
+    ...(run.recording ? [link(`/diagnoses?run=${run.id}`, "Diagnose this run", "engineer")] : []),
     ...(run.recording ? [link(`/compare/previous/${run.id}`, "Compare with the previous run"), link(`/compare?items=run:${run.id}`, "Compare with other runs")] : []),
-    link(`/new?from=${run.id}`, "Edit and run again"),
-    ...(run.test === "client" ? [] : [link(`/sweeps/new?run=${run.id}`, "Sweep this plan")]),
+    link(`/new?from=${run.id}`, "Edit and run again", "engineer"),
+    ...(run.test === "client" ? [] : [link(`/sweeps/new?run=${run.id}`, "Sweep this plan", "engineer")]),
   ];
 }

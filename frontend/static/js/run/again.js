@@ -19,7 +19,7 @@ export function again(run, refused, changed) {
     }
   };
   const button = (/** @type {string} */ label, /** @type {() => void} */ click) =>
-    el("button", { type: "button", class: "quiet", on: { click } }, label);
+    el("button", { type: "button", class: "quiet", "data-needs": "operator", on: { click } }, label);
   const retry = button("Retry this test", act("retry", (one) => location.assign(`/runs/${one.id}`)));
   return run.state === "cancelled" && !run.started_at ? [button("Undo the cancel", act("undo-cancel", changed)), retry] : [retry];
 }

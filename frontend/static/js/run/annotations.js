@@ -2,6 +2,7 @@
 import { api, explain } from "../api.js";
 import { el } from "../dom.js";
 import { person, remember } from "../person.js";
+import { may } from "../role.js";
 import { NoteDialog } from "./note_dialog.js";
 
 /**
@@ -24,9 +25,9 @@ export class Annotations {
     this.notes = [];
     this.dialog = new NoteDialog(run.plan.stations);
     this.list = el("ol", { class: "notes" });
-    this.empty = el("p", { class: "empty" }, "No annotation yet. Point at a chart and press N, or use the button: the note gets a number, a mark on every chart and a line in the report.");
+    this.empty = el("p", { class: "empty" }, "No annotation yet.", el("span", { "data-needs": "engineer" }, " Point at a chart and press N, or use the button: the note gets a number, a mark on every chart and a line in the report."));
     this.said = el("p", { class: "note-said", role: "status" });
-    const write = el("button", { type: "button", class: "quiet", on: { click: () => this.write() } }, "Write an annotation (N)");
+    const write = el("button", { type: "button", class: "quiet", "data-needs": "engineer", on: { click: () => this.write() } }, "Write an annotation (N)");
     host.replaceChildren(el("h2", {}, "Annotations"), this.empty, this.list, el("div", { class: "actions" }, write), this.said, this.dialog.element);
     document.addEventListener("keydown", (event) => this.#key(event));
   }
@@ -64,8 +65,8 @@ export class Annotations {
     const name = this.run.plan.stations[(note.station ?? 0) - 1]?.name;
     const where = note.station === null ? "" : ` · station ${note.station}${name ? `, ${name}` : ""}`;
     const go = el("button", { type: "button", class: "quiet small", "aria-label": `Show annotation ${note.number} at ${time}`, on: { click: () => this.view()?.seek(note.from_s) } }, time);
-    const edit = el("button", { type: "button", class: "quiet small", "aria-label": `Edit annotation ${note.number}`, on: { click: () => this.#edit(note) } }, "Edit");
-    const remove = el("button", { type: "button", class: "quiet small", "aria-label": `Delete annotation ${note.number}`, on: { click: () => this.#remove(note) } }, "Delete");
+    const edit = el("button", { type: "button", class: "quiet small", "data-needs": "engineer", "aria-label": `Edit annotation ${note.number}`, on: { click: () => this.#edit(note) } }, "Edit");
+    const remove = el("button", { type: "button", class: "quiet small", "data-needs": "engineer", "aria-label": `Delete annotation ${note.number}`, on: { click: () => this.#remove(note) } }, "Delete");
     const by = note.by ? el("span", { class: "muted" }, note.by) : null;
     return el("li", { value: note.number }, el("div", { class: "note-line" }, go, el("span", { class: "note-text" }, note.text, el("span", { class: "muted" }, where)), by, edit, remove));
   }
@@ -99,7 +100,7 @@ export class Annotations {
 
   /** @param {KeyboardEvent} event */
   #key(event) {
-    if (event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+    if (event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey || event.repeat || !may("engineer")) return;
     const { target } = event;
     if (target instanceof HTMLElement && target.closest("input, textarea, select, dialog[open], [contenteditable]")) return;
     event.preventDefault();

@@ -15,7 +15,7 @@ function show(run) {
   banner.hidden = !run.deleted_at && !run.archived;
   if (banner.hidden) return;
   const words = run.deleted_at ? "This run is deleted. Its recording is removed 7 days after the deletion." : "This run is archived: lists hide it.";
-  const button = el("button", { type: "button", class: "quiet small", on: { click: () => restore(run) } }, run.deleted_at ? "Restore run" : "Unarchive run");
+  const button = el("button", { type: "button", class: "quiet small", "data-needs": "engineer", on: { click: () => restore(run) } }, run.deleted_at ? "Restore run" : "Unarchive run");
   banner.replaceChildren(el("p", {}, words), button);
 }
 

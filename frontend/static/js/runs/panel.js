@@ -56,7 +56,7 @@ export class Panel {
   /** @param {any} run */
   draw(run) {
     const ended = ENDED.includes(run.state);
-    const button = (/** @type {string} */ label, /** @type {() => void} */ act) => el("button", { type: "button", class: "quiet small", on: { click: act } }, label);
+    const button = (/** @type {string} */ label, /** @type {() => void} */ act) => el("button", { type: "button", class: "quiet small", "data-needs": "engineer", on: { click: act } }, label);
     byId("panel-content").replaceChildren(
       el("div", { class: "panel-head" }, el("a", { href: `/runs/${run.id}`, class: "run-number" }, `Run #${run.number}`), el("span", { class: `badge ${run.state}` }, run.state)),
       el("p", { class: "muted" }, `${run.submitted_by}, ${minute(run.submitted_at)}`),
@@ -65,7 +65,7 @@ export class Panel {
       ...about(run, this.listener.tags(), () => this.listener.changed()),
       el("div", { class: "actions" },
         el("a", { href: `/runs/${run.id}`, class: "button small" }, "Open run"),
-        el("a", { href: `/new?from=${run.id}`, class: "button quiet small" }, "Edit and run again"),
+        el("a", { href: `/new?from=${run.id}`, class: "button quiet small", "data-needs": "engineer" }, "Edit and run again"),
         ended && !run.deleted_at && button(run.archived ? "Unarchive run" : "Archive run", () => this.listener.archive(run)),
         ended && !run.deleted_at && button("Delete run", () => this.listener.remove(run))),
     );

@@ -94,7 +94,7 @@ function showCount({ rows, total, exact }) {
 function empty(total) {
   if (total) return [`Page ${view.page} is empty: there are only ${total} runs. `, el("a", { href: view.with({}).address }, "Go to the first page"), "."];
   if (view.filtered) return ["No run matches this filter. ", el("a", { href: "/runs" }, "Show all runs"), "."];
-  return ["There is no run yet. Each test that you queue appears here. ", el("a", { href: "/new" }, "Set up the first test"), "."];
+  return ["There is no run yet. Each test that you queue appears here. ", el("span", { "data-needs": "operator" }, el("a", { href: "/new" }, "Set up the first test"), ".")];
 }
 
 function showFilters() {
@@ -125,7 +125,7 @@ function showSelection() {
   const deleted = view.values.shelf === "deleted";
   byId("selection").hidden = !chosen.length;
   byId("selected").textContent = `${chosen.length} ${chosen.length === 1 ? "run" : "runs"} selected`;
-  const button = (/** @type {string} */ label, /** @type {() => void} */ act) => el("button", { type: "button", class: "quiet small", on: { click: act } }, label);
+  const button = (/** @type {string} */ label, /** @type {() => void} */ act) => el("button", { type: "button", class: "quiet small", "data-needs": "engineer", on: { click: act } }, label);
   const archived = view.values.shelf === "archived";
   const items = chosen.map((run) => `run:${run.id}`).join(",");
   byId("bulk").replaceChildren(...(deleted
@@ -136,7 +136,7 @@ function showSelection() {
         button("Remove tags", () => askTags(chosen, "untag", reload)),
         button(archived ? "Unarchive runs" : "Archive runs", () => act(archived ? "unarchive" : "archive", chosen, done)),
         button("Delete runs", () => act("delete", chosen, done)),
-      ]), button("Clear selection", () => grid.clear()));
+      ]), el("button", { type: "button", class: "quiet small", on: { click: () => grid.clear() } }, "Clear selection"));
 }
 
 /** After runs have left the list. */

@@ -25,7 +25,7 @@ function row(rig) {
     el("td", {}, `${rig.running} running, ${rig.queued} waiting`),
     el(
       "td",
-      {},
+      { "data-needs": "administrator" },
       el(
         "div",
         { class: "actions" },

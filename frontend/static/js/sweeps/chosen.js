@@ -39,7 +39,7 @@ export class Chosen {
     const compare = runs.length > 1 && el("a", { class: "button", href: `/compare?items=${runs.map((run) => `run:${run?.id}`).join(",")}` }, `Compare the ${runs.length} runs`);
     byId("chosen").replaceChildren(
       el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Values of the chosen points" }, el("table", { class: "chosen" }, el("thead", {}, el("tr", {}, el("th", { scope: "col", class: "fixed" }, "Column"), ...heads)), el("tbody", {}, ...body))),
-      el("p", { class: "actions" }, compare || el("span", { class: "muted" }, "Run two points with full recording to compare their signals.")),
+      el("p", { class: "actions" }, compare || el("span", { class: "muted", "data-needs": "engineer" }, "Run two points with full recording to compare their signals.")),
       el("p", { id: "chosen-refusal", class: "note bad", role: "alert" }),
     );
   }
@@ -47,7 +47,7 @@ export class Chosen {
   /** @param {number} point @param {{id: string, number: number} | null} run */
   #recorded(point, run) {
     if (run) return el("a", { href: `/runs/${run.id}` }, `Run ${run.number}`);
-    const button = el("button", { type: "button", class: "small", "aria-label": `Run point ${point} with full recording`, on: { click: () => this.#run(point, button) } }, "Run with full recording");
+    const button = el("button", { type: "button", class: "small", "data-needs": "engineer", "aria-label": `Run point ${point} with full recording`, on: { click: () => this.#run(point, button) } }, "Run with full recording");
     return button;
   }
 

@@ -57,10 +57,10 @@ const downloads = () => downloadMenu([
 
 function showActions() {
   const does = (/** @type {string} */ what, /** @type {string} */ label, /** @type {string} */ kind) => {
-    const button = el("button", { type: "button", class: kind, on: { click: () => change(what, button) } }, label);
+    const button = el("button", { type: "button", class: kind, "data-needs": "engineer", on: { click: () => change(what, button) } }, label);
     return button;
   };
-  const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet" }, label);
+  const link = (/** @type {string} */ href, /** @type {string} */ label) => el("a", { href, class: "button quiet", "data-needs": "engineer" }, label);
   const ended = ENDED.includes(sweep.state);
   renew(
     byId("actions"),
