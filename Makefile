@@ -154,6 +154,7 @@ lock: $(STAMPS)/python
 	    --custom-compile-command 'make lock' --quiet --output-file requirements.lock $(LOCK)
 
 # Check the licences of all dependencies, and ask for their known vulnerabilities: docs/supply-chain.md.
+# Fails with "Error 3" where no vulnerability is known, but some packages were not checked.
 audit-dependencies: setup
 	$(BIN)/python -m app.supply_chain licences
 	$(BIN)/python -m app.supply_chain advisories

@@ -9,13 +9,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from app import logs
+from app import logs, private
+from app.own_names import own_names
 from rths_engine.foundation.errors import Issue, RthsError
 
 MEGABYTE = 1_000_000
 PROBES = frozenset({"/livez", "/healthz", "/readyz"})  # answered under any host name: monitors use the machine's address
 FORMS = frozenset({"multipart/form-data", "application/x-www-form-urlencoded"})
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
+ANY = frozenset({"0.0.0.0", "::", ""})  # listens on every address of this computer
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +38,8 @@ class Variable:
 class Settings:
     """Everything that differs between installations. All data is in the folder `data`; limits are in bytes.
 
-    `hosts` are the host names that browsers use when they differ from `host`, for example behind a proxy. With `local_sign_in`
-    a request from this computer without credentials acts as an administrator.
+    `hosts` are the host names that browsers use when they differ from those of this computer, for example behind a proxy.
+    With `local_sign_in` a request from this computer without credentials acts as an administrator.
     With `store`, recordings, measured files and ground motions lie there instead: app/store.
     """
 
@@ -97,14 +99,27 @@ class Settings:
         return self.measurements_limit if path.startswith("/api/v1/recordings") else self.upload_limit
 
     @property
+    def on_network(self) -> bool:
+        """Whether other computers can reach the service."""
+        return self.host not in LOOPBACK
+
+    @property
     def known_hosts(self) -> frozenset[str]:
-        """Host names that a request may use; empty (any) where the service listens on a network without `hosts`."""
-        return LOOPBACK | {self.host, *self.hosts} if self.host in LOOPBACK or self.hosts else frozenset()
+        """Host names that a request may use, in lower case; on a network without `hosts` those of this computer too."""
+        own = own_names() if self.on_network and not self.hosts else frozenset()
+        return frozenset(name.lower() for name in (*LOOPBACK, *self.hosts, *own, *([] if self.host in ANY else [self.host])))
+
+    @property
+    def by_any_address(self) -> bool:
+        """Whether a request may use any IP address as host: on a network without `hosts`. See docs/decisions/0078."""
+        return self.on_network and not self.hosts
 
     def prepared(self) -> Settings:
-        """Create the folders; returns the same settings."""
-        for folder in (self.data, self.recordings, self.motions, self.measured, self.fmus):
-            folder.mkdir(parents=True, exist_ok=True)
+        """Create the folders, private to the user of this process; returns the same settings."""
+        private.made(self.data)
+        with private.writing():
+            for folder in (self.recordings, self.motions, self.measured, self.fmus):
+                folder.mkdir(exist_ok=True)
         return self
 
 
@@ -167,8 +182,8 @@ VARIABLES: dict[str, Variable] = {
     "hosts": Variable(
         "RTHS_HOSTS",
         lambda text: tuple(text.split(",")),
-        "host names that browsers use, separated by commas, when the service is behind a proxy",
-        default="none",
+        "host names that browsers use, separated by commas: behind a proxy, or where they are not those of this computer",
+        default="the names and addresses of this computer",
     ),
     "worker_concurrency": Variable("RTHS_WORKERS", int, "tests that run at the same time"),
     "sweep_processes": Variable(

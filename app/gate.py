@@ -88,7 +88,7 @@ class Gate:
         if access.who is Open.WORKER:
             return None if self._is_worker(Headers(scope=scope)) else problem(403, "This address needs the token of workers.")
         try:
-            person = await self._person(scope, access.remembered)
+            person = await person_of(scope, self.settings, access.remembered)
         except SQLAlchemyError:
             return _silent()
         if person is None:
@@ -100,18 +100,19 @@ class Gate:
             return problem(403, f"{needed} An administrator changes roles on the page Settings.")
         return None if person.may(access) else problem(403, _beyond(access))
 
-    async def _person(self, scope: Connection, remembered: bool) -> SignedIn | None:
-        """The person behind a request: of an API token where there is one, else of the cookie, else of this computer."""
-        connection, state = HTTPConnection(scope), scope["app"].state
-        if "authorization" in connection.headers:
-            found: SignedIn | None = await state.credentials.person("token", _bearer(connection.headers), remembered)
-            return found
-        key = connection.cookies.get(cookie_name(self.settings))
-        person: SignedIn | None = await state.credentials.person("session", key, remembered) if key else None
-        return person or (LOCAL if self.settings.local_sign_in and _on_this_computer(scope) else None)
-
     def _is_worker(self, headers: Headers) -> bool:
         return hmac.compare_digest(_bearer(headers).encode(), self.settings.worker_token.encode())
+
+
+async def person_of(scope: Connection, settings: Settings, remembered: bool) -> SignedIn | None:
+    """The person behind a request: of an API token where there is one, else of the cookie, else of this computer."""
+    connection, state = HTTPConnection(scope), scope["app"].state
+    if "authorization" in connection.headers:
+        found: SignedIn | None = await state.credentials.person("token", _bearer(connection.headers), remembered)
+        return found
+    key = connection.cookies.get(cookie_name(settings))
+    person: SignedIn | None = await state.credentials.person("session", key, remembered) if key else None
+    return person or (LOCAL if settings.local_sign_in and _on_this_computer(scope) else None)
 
 
 class Place:

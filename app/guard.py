@@ -10,6 +10,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app import headers
 from app.config import PROBES, Settings
+from app.own_names import is_address
 from app.problems import problem, too_large
 
 SAFE = {"GET", "HEAD", "OPTIONS"}
@@ -24,14 +25,14 @@ class Guard:
     """ASGI middleware that checks Host and Origin of requests and websockets, and completes the headers of every answer.
 
     The host of a request must be in `Settings.known_hosts`: otherwise a page of another site could read this service under a
-    foreign name that resolves to this machine. Programs send no Origin; the Origin of a browser must equal the host of the
-    request. A websocket without Origin is a program, such as a worker that connects by an address, and may use any host.
-    `Bodies` and the framework count bodies that declare no length.
+    foreign name that resolves to this machine. An IP address is no such name. Programs send no Origin; the Origin of a browser
+    must equal the host of the request. A websocket without Origin is a program, such as a worker that connects by an address,
+    and may use any host. `Bodies` and the framework count bodies that declare no length.
     """
 
     def __init__(self, app: ASGIApp, settings: Settings):
         self.app, self.limit = app, settings.body_limit
-        self.known = frozenset(host.lower() for host in settings.known_hosts)
+        self.known, self.by_any_address = settings.known_hosts, settings.by_any_address
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in {"http", "websocket"}:
@@ -59,11 +60,12 @@ class Guard:
 
     def _at_home(self, scope: Scope, given: Headers) -> bool:
         """Whether the request is for this service by the name that it asks for."""
-        if not self.known or scope["path"] in PROBES:
+        if scope["path"] in PROBES:
             return True
         if scope["type"] == "websocket" and "origin" not in given:
             return True
-        return _hostname(given.get("host", "")) in self.known
+        host = _hostname(given.get("host", ""))
+        return host in self.known or (self.by_any_address and is_address(host))
 
     def _other_host(self, host: str) -> str:
         known = ", ".join(sorted(self.known))

@@ -11,14 +11,21 @@ from typing import Any
 import pytest
 from ruamel.yaml import YAML
 
+from app import config
 from app.cli.main import parser
-from app.config import VARIABLES
+from app.config import VARIABLES, Settings, from_environment
 
 ROOT = Path(__file__).parent.parent
 DEPLOY = ROOT / "docs" / "deploy"
 UNITS = sorted(DEPLOY.glob("*.service"))
 OTHER = frozenset({"RTHS_CACHE", "RTHS_WEB", "RTHS_SITE", "RTHS_HOME", "RTHS_ENVIRONMENT"})  # of scripts and compiler
 KNOWN = {one.key for one in VARIABLES.values()} | OTHER
+FOLDERS = {
+    "StateDirectory": "/var/lib",
+    "CacheDirectory": "/var/cache",
+    "RuntimeDirectory": "/run",
+    "LogsDirectory": "/var/log",
+}
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +82,61 @@ def test_a_unit_is_accepted_by_systemd_and_starts_a_command_of_rths(path: Path, 
     found = subprocess.run(["systemd-analyze", "verify", "--man=no", unit], capture_output=True, text=True, check=False)
     about = [line for line in found.stderr.splitlines() if path.stem.rstrip("@") in line]
     assert about == [], found.stderr
+
+
+def lines(path: Path) -> list[tuple[str, str]]:
+    """Keys and values of a unit or a file of variables, those of the first instance of a template."""
+    found = (line.partition("=") for line in path.read_text(encoding="utf-8").replace("%i", "1").splitlines())
+    return [(key, value) for key, sign, value in found if sign and not key.startswith("#")]
+
+
+def in_force(unit: Path) -> dict[str, str]:
+    """The variables of a unit: those of its file precede its own, as in systemd.exec(5)."""
+    own = dict(value.split("=", 1) for key, value in lines(unit) if key == "Environment")
+    assert ("EnvironmentFile", "/etc/rths/environment") in lines(unit)
+    return {**own, **dict(lines(DEPLOY / "environment"))}
+
+
+@pytest.mark.parametrize("unit", UNITS, ids=lambda path: path.name)
+def test_a_unit_may_write_every_folder_that_its_settings_name(unit: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = lines(unit)
+    assert ("ProtectSystem", "strict") in found and ("PrivateTmp", "true") in found
+    writable = [Path(FOLDERS[key], name) for key, value in found if key in FOLDERS for name in value.split()]
+    writable += [Path(path) for key, value in found if key == "ReadWritePaths" for path in value.split()]
+    for name, value in (given := in_force(unit)).items():
+        if not name.endswith("_FILE"):  # a secret, which is not here
+            monkeypatch.setenv(name, value)
+    settings = from_environment()
+    store = Path(settings.store.removeprefix("file://"))
+    for path in (settings.data, Path(given["RTHS_CACHE"]), store):
+        assert path.is_absolute() and any(path.is_relative_to(one) for one in writable), path
+        assert not path.is_relative_to("/tmp") and not path.is_relative_to("/var/tmp"), path  # which PrivateTmp empties
+    assert ("RequiresMountsFor", str(store)) in found and ("UMask", "0077") in found
+
+
+def test_the_units_answer_https_where_their_workers_ask_for_it() -> None:
+    web, worker = (in_force(DEPLOY / name) for name in ("rths-web.service", "rths-worker@.service"))
+    certificate = {"RTHS_TLS_CERTIFICATE", "RTHS_TLS_KEY"} <= web.keys()
+    addresses = worker["RTHS_WEB"].split(",")
+    assert {one.partition(":")[0] for one in addresses} == ({"wss"} if certificate else {"ws"})
+    assert addresses[0].removeprefix("wss://").partition(":")[0] in web["RTHS_HOSTS"].split(",")
+    paths = [value for found in (web, worker) for value in found.values() if value.startswith("/")]
+    assert not [path for path in paths if path.startswith(("/home", "/root", "/run/user"))]  # which ProtectHome hides
+
+
+def test_a_container_and_each_web_service_answer_by_address_and_by_the_name_that_others_use(
+    compose: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(config, "own_names", lambda: frozenset({"4f1c2a"}))  # Docker's name of a container
+    dockerfile = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    assert "RTHS_HOST=0.0.0.0" in dockerfile and "RTHS_HOSTS" not in dockerfile
+    alone = Settings(host="0.0.0.0")
+    assert alone.by_any_address and "localhost" in alone.known_hosts
+    for name in ("web-1", "web-2"):
+        given = compose["services"][name]["environment"]["RTHS_HOSTS"]
+        hosts = given.removeprefix("${RTHS_HOSTS:-").removesuffix("}").split(",")
+        known = Settings(host="0.0.0.0", hosts=tuple(hosts)).known_hosts
+        assert {"localhost", "127.0.0.1", name} <= known  # of a browser, of the health check and of the proxy
 
 
 def test_the_script_for_slurm_is_valid_and_ends_its_worker(tmp_path: Path) -> None:

@@ -19,7 +19,8 @@ def backup(given: Namespace) -> int:
     kept = made.manifest.files
     size = shown(sum(one.size for one in kept.values()))
     rows = sum(made.manifest.rows.values())
-    print(f"{made.folder}\n{rows} rows and {len(kept)} files ({size}), of which {made.linked} are links to the backup before.")
+    files = len(kept) - 1  # beside the database, as `rths restore` counts them
+    print(f"{made.folder}\n{rows} rows and {files} files ({size}), of which {made.linked} are links to the backup before.")
     for problem in made.manifest.damaged.values():
         print(f"not in the backup: {problem}", file=sys.stderr)
     return FAILED if made.manifest.damaged else DONE

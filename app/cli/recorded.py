@@ -11,7 +11,7 @@ from app.audit.given import SECRET
 from app.audit.log import Acting, AuditLog
 from app.cli.settings import stored
 
-OF_PARSER = {"function", "command", "action", "recorded"}
+OF_PARSER = {"function", "command", "action", "recorded", "private"}
 
 
 def record(given: Namespace) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import fcntl
+import os
 import socket
 import ssl
 import sys
@@ -19,7 +20,7 @@ from app.accounts.service import AccountService
 from app.cli.connections import Bounded, allow_files
 from app.cli.main import DONE, FAILED
 from app.cli.settings import stored
-from app.config import LOOPBACK, Settings
+from app.config import ANY, Settings
 from app.db import unit_of_work
 from app.demonstration import queue_demonstration
 from app.main import create_app
@@ -29,12 +30,13 @@ from rths_engine.foundation.errors import Issue, RthsError
 GRACE_S = 2
 SWITCH_S = 0.001  # after which a thread of a request leaves the interpreter to the event loop: Abort waits for it
 LOCK = "control-room.lock"
+PROXIES = "FORWARDED_ALLOW_IPS"  # uvicorn's list of trusted proxies: with one, the proxy is to answer https
 
 
 def serve(given: Namespace) -> int:
     """`rths serve`: run the control room until Ctrl-C; returns the exit code."""
     settings = stored(given, embedded_worker=not given.no_worker, local_sign_in=given.local)
-    if settings.local_sign_in and settings.host not in LOOPBACK:
+    if settings.local_sign_in and settings.on_network:
         fix = "leave out --local and give each person an account: docs/accounts.md"
         raise RthsError(Issue("host", "can be reached from other computers, where --local is not allowed", settings.host, fix))
     logs.configure(settings.log_format, settings.log_level)
@@ -78,11 +80,23 @@ class Server(uvicorn.Server):
         if self.demonstrate:
             queue_demonstration(self.app)
         print(f"\nRTHS control room: {address(self.settings)}")
+        if self.settings.on_network:
+            print(reachable(self.settings), end="")
         if self.settings.local_sign_in:
             print("Everyone on this computer is signed in as administrator. For accounts, start it without --local.")
         else:
             print(_first(self.app, self.settings), end="")
         print(f"Data folder: {self.settings.data.resolve()}\nPress Ctrl-C to stop the control room.", flush=True)
+
+
+def reachable(settings: Settings) -> str:
+    """For which hosts a service on a network answers, and a warning where passwords pass the network unencrypted."""
+    addresses = " and for every IP address" if settings.by_any_address else ""
+    said = f"Answers for the host names {', '.join(sorted(settings.known_hosts))}{addresses}. Others: RTHS_HOSTS=NAME,NAME\n"
+    if settings.tls_certificate or os.environ.get(PROXIES):
+        return said
+    warning = "Warning: browsers on other computers send passwords unencrypted, because the service answers plain http."
+    return f"{said}{warning}\nGive a certificate with --tls-certificate, or use a proxy with TLS: docs/scaled-mode.md\n"
 
 
 def _first(app: FastAPI, settings: Settings) -> str:
@@ -142,7 +156,7 @@ def only_server(settings: Settings) -> IO[str]:
 
 def address(settings: Settings) -> str:
     """The URL of the service for a browser on this machine."""
-    host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
+    host = "127.0.0.1" if settings.host in ANY else settings.host
     scheme = "https" if settings.tls_certificate else "http"
     return f"{scheme}://[{host}]:{settings.port}/" if ":" in host else f"{scheme}://{host}:{settings.port}/"
 

@@ -8,6 +8,7 @@ from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
+from app import private
 from app.config import Settings, from_environment, variable
 from rths_engine.foundation.errors import Issue, RthsError
 
@@ -35,7 +36,8 @@ def stored(given: Namespace, **more: Any) -> Settings:
     except OSError as error:
         fix = "choose another folder with --data or RTHS_DATA"
         raise RthsError(Issue("data folder", f"can't be used: {error.strerror}", str(found.data), fix)) from None
-    _check_database(found.url)
+    with private.writing():
+        _check_database(found.url)
     return settings(given, worker_token=token, **more)
 
 

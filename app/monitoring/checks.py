@@ -77,18 +77,24 @@ def _of_worker(_: Settings, session: Session) -> Check:
 
 
 def _of_clock(_: Settings, session: Session) -> Check:
-    """The clock is not behind what is stored, nor apart from that of the database server."""
-    now = datetime.now(UTC)
+    """The clock agrees with that of the database server and is not behind what is stored.
+
+    A clock that was set right leaves later times behind for ever: they are only told where a worker lives by the present clock.
+    """
+    now, fix = datetime.now(UTC), "Set the clocks, for example with NTP."
+    ahead = abs((db.now(session) - now).total_seconds())
+    if ahead > CLOCKS_APART.total_seconds():
+        reason = f"The clocks of this machine and of the database are {ahead:.0f} s apart. {fix}"
+        return Check(name="clock", ok=False, reason=reason)
     newest = max(filter(None, (session.scalar(sa.select(sa.func.max(column))) for column in _TIMES)), default=now)
-    ahead = db.now(session) - now
-    if newest - now > CLOCKS_APART:
-        behind = (newest - now).total_seconds()
-        reason = f"The clock of this machine is {behind:.0f} s behind the newest time in the database."
-    elif abs(ahead) > CLOCKS_APART:
-        reason = f"The clocks of this machine and of the database are {abs(ahead.total_seconds()):.0f} s apart."
-    else:
+    if newest - now <= CLOCKS_APART:
         return Check(name="clock", ok=True, reason="The clock agrees with the database.")
-    return Check(name="clock", ok=False, reason=f"{reason} Set the clocks, for example with NTP.")
+    later = f"The database has times up to {(newest - now).total_seconds():.0f} s later than the clock of this machine"
+    workers = Workers(session)
+    if workers.alive(workers.last_beat()):
+        reason = f"{later}: the clock was set back. If it is right now, nothing is to be done. If it is not: {fix}"
+        return Check(name="clock", ok=True, reason=reason)
+    return Check(name="clock", ok=False, reason=f"{later}. {fix} If it is right now, start a worker.")
 
 
 _TIMES = (WorkerHeartbeat.seen_at, Event.at)

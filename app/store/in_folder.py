@@ -7,6 +7,7 @@ import os
 import shutil
 from pathlib import Path
 
+from app import private
 from app.store.base import Store
 from app.store.checks import check
 from app.store.filed import Filed
@@ -14,7 +15,7 @@ from rths_engine.foundation import files
 
 
 class FolderStore(Store):
-    """Files below a folder, each under its key."""
+    """Files below a folder, each under its key and with the rights of the folder: private, or shared with a group."""
 
     def __init__(self, root: Path):
         self.root, self.where = root, str(root)
@@ -23,15 +24,14 @@ class FolderStore(Store):
         return check(self.root / filed.key, filed)
 
     def scratch(self, prefix: str) -> Path:
-        folder = self.root / prefix
-        folder.mkdir(parents=True, exist_ok=True)
-        return folder
+        return self._folder(self.root / prefix)
 
     def put(self, path: Path, key: str, sha256: str | None = None) -> None:
         target = self.root / key
-        target.parent.mkdir(parents=True, exist_ok=True)
+        self._folder(target.parent)
         if path != target:
             _move(path, target)
+        private.like(target, self.root)
         files.sync(target.parent)
 
     def delete(self, key: str) -> None:
@@ -52,7 +52,18 @@ class FolderStore(Store):
         return self.root / prefix
 
     def keep(self, prefix: str, name: str) -> None:
+        private.like(self.root / prefix / name, self.root)
         files.sync(self.root / prefix)
+
+    def _folder(self, folder: Path) -> Path:
+        """Make a folder with the rights of the store's own folder."""
+        if not folder.is_dir():
+            folder.mkdir(parents=True, exist_ok=True)
+            for one in (folder, *folder.parents):
+                if one == self.root or self.root not in one.parents:
+                    break
+                private.like(one, self.root)
+        return folder
 
 
 def _move(path: Path, target: Path) -> None:

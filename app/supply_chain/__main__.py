@@ -8,9 +8,11 @@ from pathlib import Path
 from app.supply_chain import advisories, licences, sbom
 from app.supply_chain.parts import parts
 
+FINE, WRONG, UNCHECKED = 0, 1, 3
+
 
 def main(arguments: list[str] | None = None) -> int:
-    """Print what is asked for; returns 1 where a licence is refused or a vulnerability is known."""
+    """Print what is asked for; returns WRONG where a licence is refused; for advisories as `told` does."""
     given = argparse.ArgumentParser(prog="python -m app.supply_chain", description=__doc__)
     asked = given.add_subparsers(dest="asked", required=True)
     asked.add_parser("licences", help="check the licence of every part").add_argument("--table", action="store_true")
@@ -23,20 +25,22 @@ def main(arguments: list[str] | None = None) -> int:
     if chosen.asked == "sbom":
         chosen.file.write_text(sbom.document(found))
         print(f"{len(found)} parts written to {chosen.file}")
-        return 0
+        return FINE
     wrong = licences.problems(found)
     lines = [*(licences.table(found) if chosen.table else []), *wrong]
     print("\n".join([*lines, f"{len(found)} parts, {len(wrong)} problems with licences"]))
-    return int(bool(wrong))
+    return WRONG if wrong else FINE
 
 
 def told(answers: list[advisories.Answer]) -> int:
-    """Print the answers of the services; returns 1 only where they know a vulnerability."""
+    """Print the answers; returns WRONG where a vulnerability is known, else UNCHECKED where a package was not checked."""
     for answer in answers:
         print(answer.text)
         for one in answer.found:
             print(f"  {one}")
-    return int(any(answer.found for answer in answers))
+    if any(answer.found for answer in answers):
+        return WRONG
+    return FINE if all(answer.complete for answer in answers) else UNCHECKED
 
 
 if __name__ == "__main__":

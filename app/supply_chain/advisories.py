@@ -36,9 +36,14 @@ class Answer:
     why: str = ""
 
     @property
+    def complete(self) -> bool:
+        """Whether every package was checked."""
+        return self.checked > 0 and not self.unchecked
+
+    @property
     def text(self) -> str:
         """The answer in one line."""
-        if self.unchecked or not self.checked:
+        if not self.complete:
             number = str(self.unchecked) if self.unchecked else "all"
             rest = f"{self.checked} checked, {len(self.found)} vulnerabilities found"
             return f"{self.service}: NOT CHECKED: {number} packages ({self.why}); {rest}"

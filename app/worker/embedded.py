@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable
 
 from app import logs
-from app.config import Settings
+from app.config import ANY, Settings
 from app.worker.peers import unique
 
 NAME = "embedded"
@@ -53,7 +53,7 @@ class EmbeddedWorker:
 
     def _spawn(self, boot: str) -> subprocess.Popen[bytes]:
         settings = self.settings
-        host = "127.0.0.1" if settings.host in {"0.0.0.0", "::"} else settings.host
+        host = "127.0.0.1" if settings.host in ANY else settings.host
         scheme = "wss" if settings.tls_certificate else "ws"
         known = ["--name", NAME, "--boot", boot]
         command = [sys.executable, "-m", "app.worker", "--with-parent", *known, "--web", f"{scheme}://{host}:{settings.port}"]

@@ -29,6 +29,7 @@ from app.jobs.queue import APPLICATION, VERSION
 from app.jobs.service import MOST_ATTEMPTS
 from app.latch import Latch
 from app.monitoring import reporting, statements
+from app.private import OTHERS
 from app.worker.executor import Executor
 from app.worker.kinds import KINDS
 from app.worker.link import Links
@@ -55,6 +56,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--workers", type=int, dest="worker_concurrency", help="tests at the same time (RTHS_WORKERS)")
     parser.add_argument("--with-parent", action="store_true", help="end when standard input closes")
     given = parser.parse_args(arguments)
+    os.umask(OTHERS)
     settings = from_environment(
         data=given.data, database_url=given.database_url, worker_concurrency=given.worker_concurrency
     ).prepared()

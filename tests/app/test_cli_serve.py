@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +17,10 @@ import httpx
 import pytest
 from fastapi.testclient import TestClient
 
+from app import config
 from app.cli.main import main
-from app.cli.serve import only_server
-from app.config import from_environment
+from app.cli.serve import PROXIES, only_server, reachable
+from app.config import Settings, from_environment
 from app.demonstration import queue_demonstration
 from tests.app.conftest import app_of
 from tests.browser.service import free_port, until
@@ -143,6 +145,33 @@ def test_the_workers_token_is_kept_for_its_owner_only(tmp_path: Path) -> None:
     kept = token.read_text()
     main(["migrate", "--data", str(tmp_path)])
     assert token.read_text() == kept and token.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_service_on_a_network_says_for_which_hosts_it_answers_and_that_passwords_are_not_encrypted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(config, "own_names", lambda: frozenset({"control-room"}))
+    monkeypatch.delenv(PROXIES, raising=False)
+    open_to_all = Settings(host="0.0.0.0")
+    said = reachable(open_to_all)
+    assert "127.0.0.1, ::1, control-room, localhost and for every IP address" in said and "send passwords unencrypted" in said
+    assert "unencrypted" not in reachable(replace(open_to_all, tls_certificate=tmp_path / "web.pem"))
+    monkeypatch.setenv(PROXIES, "10.0.0.2")
+    said = reachable(replace(open_to_all, hosts=("lab.example",)))
+    assert "lab.example, localhost." in said and "unencrypted" not in said and "IP address" not in said
+
+
+def test_the_data_folder_and_all_in_it_are_for_their_owner_only(tmp_path: Path) -> None:
+    folder = tmp_path / "rths"
+    before = os.umask(0o022)
+    try:
+        assert main(["account", "list", "--data", str(folder)]) == 0  # the first command that makes the database
+        assert main(["migrate", "--data", str(folder)]) == 0
+        assert main(["account", "add", "Ana", "--data", str(folder)]) == 0
+    finally:
+        assert os.umask(before) == 0o022  # what a command sets ends with it
+    assert folder.stat().st_mode & 0o777 == 0o700
+    assert not [one for one in folder.rglob("*") if one.stat().st_mode & 0o077]
 
 
 def test_a_second_control_room_on_the_same_folder_is_refused(

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import socket
+import threading
 from dataclasses import FrozenInstanceError
 from pathlib import Path
 
 import pytest
 
-from app import checking
+from app import checking, config, own_names
 from app.config import VARIABLES, Settings, from_environment
 from rths_engine.foundation.errors import RthsError
 from rths_engine.running import run
@@ -48,11 +50,35 @@ def test_settings_cannot_be_changed_and_each_has_a_token_of_its_own() -> None:
     assert Settings().worker_token != Settings().worker_token
 
 
-def test_host_names_are_known_where_the_service_is_this_machines_own_or_was_told_them() -> None:
-    assert {"localhost", "127.0.0.1", "::1"} == Settings().known_hosts
-    assert "lab.example" in Settings(hosts=("lab.example",)).known_hosts
-    assert Settings(host="0.0.0.0").known_hosts == frozenset()
-    assert Settings(host="0.0.0.0", hosts=("lab.example",)).known_hosts >= {"lab.example", "localhost"}
+def test_host_names_are_those_of_this_machine_or_those_that_the_service_was_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(config, "own_names", lambda: frozenset({"control-room", "control-room.lab.example"}))
+    loopback = {"localhost", "127.0.0.1", "::1"}
+    assert Settings().known_hosts == loopback
+    assert Settings(hosts=("Lab.example",)).known_hosts == loopback | {"lab.example"}
+    for host in ("0.0.0.0", "::", "10.0.0.4"):
+        on_network = Settings(host=host)
+        own = {"control-room", "control-room.lab.example"} | ({host} if host == "10.0.0.4" else set())
+        assert on_network.known_hosts == loopback | own and on_network.by_any_address
+        told = Settings(host=host, hosts=("lab.example",))
+        assert told.known_hosts == (loopback | {"lab.example", host}) - {"0.0.0.0", "::"} and not told.by_any_address
+
+
+def test_the_names_of_this_machine_are_asked_for_with_patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    released = threading.Event()
+    monkeypatch.setattr(own_names, "PATIENCE_S", 0.01)
+    monkeypatch.setattr(socket, "gethostname", lambda: "Hall-2.lab.example")
+    monkeypatch.setattr(socket, "getfqdn", lambda: str(released.wait(30)))
+    own_names.own_names.cache_clear()
+    assert own_names.own_names() == {"hall-2.lab.example", "hall-2", "hall-2.local"}
+    released.set()
+    own_names.own_names.cache_clear()
+
+
+@pytest.mark.parametrize(
+    ("host", "is_one"), [("10.0.0.4", True), ("fe80::1", True), ("10.0.0.4.lab.example", False), (None, False)]
+)
+def test_an_ip_address_is_told_from_a_name(host: str | None, is_one: bool) -> None:
+    assert own_names.is_address(host) is is_one
 
 
 def test_the_largest_recording_is_the_engines() -> None:

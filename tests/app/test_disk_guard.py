@@ -18,7 +18,7 @@ from fastapi.testclient import TestClient
 
 from app import disk, full
 from app.config import MEGABYTE, Settings
-from app.disk_guard import creates
+from app.disk_guard import SMALL_ROWS, creates
 from app.main import create_app
 from app.worker.child import Refused
 from app.worker.room import HEADER, largest, room_for
@@ -78,6 +78,17 @@ def test_what_stops_or_reads_goes_on_while_the_disk_is_low(low: TestClient) -> N
     assert low.get("/api/v1/runs").is_success and low.get("/runs").is_success
 
 
+def test_small_rows_are_stored_while_the_disk_is_low(low: TestClient) -> None:
+    for path, body in (
+        ("/api/v1/accounts", {"name": "Ana Ruiz", "role": "engineer"}),
+        ("/api/v1/runs/views", {"name": "Mine", "query": "q=brace", "by": "Ana Ruiz"}),
+        ("/api/v1/library/plans", {"name": "Brace", "plan": plan()}),
+    ):
+        assert low.post(path, json=body).status_code == 201, path
+    large = low.post("/api/v1/library/plans", content=b"x", headers={"content-length": str(2 * MEGABYTE)})
+    assert large.status_code == 507
+
+
 def test_every_page_says_that_the_disk_is_low(low: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
     said = "New tests and uploads are refused"
     assert said in low.get("/queue").text
@@ -99,6 +110,7 @@ def test_the_guard_knows_every_route_that_creates_data(serving: TestClient) -> N
         "/api/v1/laboratory/logo",
     } <= found
     assert not [path for path in found if path.endswith(("/abort", "/cancel", "/hold", "/release", "/archive"))]
+    assert found >= SMALL_ROWS
 
 
 class Broken:

@@ -10,7 +10,7 @@ import pytest
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from app import headers
+from app import config, headers
 from app.config import Settings
 from app.main import create_app
 from tests.app.conftest import HERE
@@ -91,6 +91,25 @@ def test_a_service_on_a_network_knows_the_hosts_of_its_settings(settings: Settin
     with TestClient(create_app(settings_of_lab), "http://lab.example", client=HERE) as one:
         assert one.get("/api/v1/runs").status_code == 200
         assert one.get("/api/v1/runs", headers={"host": "elsewhere.example"}).status_code == 421
+
+
+def test_a_service_on_a_network_knows_its_own_names_and_addresses_by_itself(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(config, "own_names", lambda: frozenset({"control-room"}))
+    with TestClient(create_app(replace(settings, host="0.0.0.0")), "http://control-room", client=HERE) as one:
+        for host, status in {
+            "control-room:8000": 200,
+            "172.17.0.2:8000": 200,
+            "[fe80::1]:8000": 200,
+            "elsewhere.example": 421,
+            "172.17.0.2.elsewhere.example": 421,
+        }.items():
+            assert one.get("/api/v1/runs", headers={"host": host}).status_code == status, host
+        refused = one.get("/api/v1/runs", headers={"host": "elsewhere.example"}).json()["detail"]
+        assert "control-room" in refused and "RTHS_HOSTS" in refused
+        for probe in ("/livez", "/healthz", "/readyz"):
+            assert one.get(probe, headers={"host": "10.0.0.4"}).status_code in {200, 503}
 
 
 def test_a_websocket_of_a_page_is_checked_and_that_of_a_program_is_not(client: TestClient) -> None:

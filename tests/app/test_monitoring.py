@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -13,9 +14,11 @@ from fastapi.testclient import TestClient
 from prometheus_client.parser import text_string_to_metric_families
 
 from app import db, disk, metrics
+from app.events.tables import Event, EventKind
 from app.jobs.tables import WorkerHeartbeat
 from app.monitoring import checks, collected, endpoints, reporting
 from tests.app.conftest import app_of, plan
+from tests.browser.service import until
 
 
 def checked(client: TestClient) -> tuple[int, dict[str, Any]]:
@@ -40,6 +43,7 @@ def sample(client: TestClient, name: str, **labels: str) -> float | None:
 @pytest.fixture
 def client(serving: TestClient, monkeypatch: pytest.MonkeyPatch) -> TestClient:
     monkeypatch.setattr(collected, "KEPT_S", 0.0)
+    monkeypatch.setattr(endpoints, "KEPT_S", 0.0)
     return serving
 
 
@@ -77,11 +81,58 @@ def test_a_database_of_another_schema_is_not_ready(beating: TestClient) -> None:
     assert status == 503 and "schema 0001" in found["schema"]["reason"] and "rths migrate" in found["schema"]["reason"]
 
 
-def test_a_clock_behind_what_is_stored_is_not_ready(beating: TestClient) -> None:
+@pytest.mark.parametrize("alive", [True, False])
+def test_a_clock_that_was_set_back_is_not_ready_until_a_worker_lives_by_it(beating: TestClient, alive: bool) -> None:
+    later = datetime.now(UTC) + timedelta(hours=1)
     with db.unit_of_work(app_of(beating).state.sessions) as session:
-        session.merge(WorkerHeartbeat(worker="one", seen_at=datetime.now(UTC) + timedelta(hours=1)))
+        session.add(WorkerHeartbeat(worker="before", seen_at=later))
+        session.add(event := Event(at=later, kind=EventKind.RELEASED, sentence="Released.", about="queue"))
+        if not alive:
+            session.execute(sa.delete(WorkerHeartbeat).where(WorkerHeartbeat.worker == "one"))
     status, found = checked(beating)
-    assert status == 503 and "3600 s behind" in found["clock"]["reason"]
+    with db.unit_of_work(app_of(beating).state.sessions) as session:
+        session.delete(event)
+    assert (status, found["clock"]["ok"]) == ((200, True) if alive else (503, False))
+    assert "3600 s later" in found["clock"]["reason"] or "3599 s later" in found["clock"]["reason"]
+
+
+def test_a_clock_apart_from_that_of_the_database_is_not_ready(beating: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(db, "now", lambda _: datetime.now(UTC) + timedelta(hours=1))
+    status, found = checked(beating)
+    assert status == 503 and "3600 s apart" in found["clock"]["reason"]
+
+
+def test_who_is_not_signed_in_reads_only_the_names_of_failed_checks(beating: TestClient) -> None:
+    stranger = TestClient(app_of(beating), "http://127.0.0.1:8000", client=("192.0.2.1", 1))
+    assert stranger.get("/readyz").json() == {"ready": True, "checks": []}
+    with db.unit_of_work(app_of(beating).state.sessions) as session:
+        session.execute(sa.delete(WorkerHeartbeat))
+    answer = stranger.get("/readyz", headers={"authorization": "Bearer made-up"})
+    (failed,) = answer.json()["checks"]
+    assert answer.status_code == 503 and (failed["name"], failed["ok"]) == ("worker", False)
+    assert failed["reason"].startswith("Sign in")
+
+
+def test_probes_share_one_look_at_the_checks(beating: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    looks: list[int] = []
+    real, done = checks.readiness, threading.Event()
+
+    def counted(*given: Any) -> Any:
+        looks.append(1)
+        done.wait(30)
+        return real(*given)
+
+    monkeypatch.setattr(checks, "readiness", counted)
+    monkeypatch.setattr(endpoints, "WITHIN_S", 60.0)
+    with ThreadPoolExecutor(3) as threads:
+        probes = [threads.submit(beating.get, "/readyz") for _ in range(3)]
+        until(
+            lambda: sample(beating, "rths_requests_in_progress"), lambda number: number == 4
+        )  # three probes, and this request
+        done.set()
+        assert [one.result().status_code for one in probes] == [200, 200, 200]
+    monkeypatch.setattr(endpoints, "KEPT_S", 600.0)
+    assert beating.get("/readyz").status_code == 200 and looks == [1]
 
 
 def test_a_disk_below_its_reserve_is_not_ready(beating: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
