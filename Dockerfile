@@ -9,7 +9,7 @@ RUN RTHS_CACHE=/opt/rths/cache make setup
 FROM python:3.11-slim
 WORKDIR /opt/rths
 COPY --from=build /opt/rths /opt/rths
-RUN useradd --system --uid 10001 rths && mkdir /data && chown -R rths /data /opt/rths/cache
+RUN useradd --system --uid 10001 rths && mkdir -m 700 /data /store && chown -R rths /data /opt/rths/cache /store
 USER rths
 ENV RTHS_DATA=/data RTHS_HOST=0.0.0.0 RTHS_PORT=8000 RTHS_CACHE=/opt/rths/cache
 VOLUME /data

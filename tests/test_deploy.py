@@ -54,6 +54,15 @@ def test_the_commands_of_the_containers_are_commands_of_rths(compose: dict[str, 
     assert [one.removeprefix("ws://").partition(":")[0] for one in web.split(",")] == ["web-1", "web-2"]
 
 
+def test_every_volume_of_a_container_belongs_to_the_user_who_writes_it(compose: dict[str, Any]) -> None:
+    """Docker gives a new volume the owner of the folder in the image; without that folder it is root's."""
+    (made,) = re.findall(r"chown -R rths (.*)$", (ROOT / "Dockerfile").read_text(encoding="utf-8"), re.MULTILINE)
+    for name in ("web-1", "web-2", "worker"):
+        one = compose["services"][name]
+        written = [volume.split(":")[1] for volume in one["volumes"]] + [one["environment"]["RTHS_DATA"]]
+        assert "/store" in written and set(written) <= set(made.split()), name
+
+
 def test_no_secret_stands_in_the_environment_of_a_container(compose: dict[str, Any]) -> None:
     for one in compose["services"].values():
         for name, value in one.get("environment", {}).items():
