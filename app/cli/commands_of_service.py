@@ -36,7 +36,7 @@ def services(commands: Commands) -> None:
 
 
 def operation(commands: Commands) -> None:
-    """`rths migrate`, `backup`, `restore`, `verify` and `retention`."""
+    """`rths migrate`, `backup`, `restore`, `send-recordings`, `verify` and `retention`."""
     about = "bring the database to the newest schema, or to an earlier one"
     migrate = command(commands, "migrate", "app.cli.migrating:migrate", about, recorded=True)
     migrate.add_argument("--to", metavar="REVISION", help="schema to go to, such as 0018 (default: the newest)")
@@ -49,12 +49,17 @@ def operation(commands: Commands) -> None:
     about = "restore a backup into an empty data folder and database; nothing is overwritten"
     restore = command(commands, "restore", "app.cli.backup:restore", about, private=True)
     restore.add_argument("backup", type=Path, metavar="FROM", help="folder of one backup")
+    about = "attach recordings that their worker could not send to their runs; `rths worker` does so at its start"
+    sending = command(commands, "send-recordings", "app.cli.sending:send_recordings", about, recorded=True)
+    sending.add_argument(
+        "folder", type=Path, nargs="?", metavar="FOLDER", help="folder `unsent` of a worker (default: that of the data folder)"
+    )
     about = "check every stored file against its row, and list files without a row; exit code 1 where a file is damaged"
     verify = command(commands, "verify", "app.cli.backup:verify", about)
     about = "remove the recordings that the rule of retention removes, without waiting for the day: docs/operation.md"
     retention = command(commands, "retention", "app.cli.retention:retention", about, recorded=True)
     retention.add_argument("--dry-run", action="store_true", help="only say how many recordings go, how large and which first")
-    for each in (migrate, backup, restore, verify, retention):
+    for each in (migrate, backup, restore, sending, verify, retention):
         data_folder(each)
 
 

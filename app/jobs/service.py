@@ -101,7 +101,8 @@ class JobService(Generic[Row, Result]):
     def cancel(self, job_id: str, by: str) -> Row:
         """Cancel a queued job now; ask the worker to stop a running job. Raises IllegalTransition for a job that has ended."""
         job = self.locked(job_id)
-        states.check(job.state, State.CANCELLED, self.kind.noun)
+        if job.state.ended:
+            raise states.IllegalTransition(self.kind.noun, job.state, State.CANCELLED)
         if job.state is not State.RUNNING:
             self._end(job, State.CANCELLED, f"Cancelled by {named(by)} before it started.")
         else:
@@ -252,6 +253,15 @@ class JobService(Generic[Row, Result]):
             job.share = 1.0
         self._end(job, state, reason)
         return True
+
+    def finish_late(self, job: Row, result: Result) -> None:
+        """Store the result of a job that failed only because its result was not stored. The caller has locked the job."""
+        state, reason = self.kind.store(job, result)
+        self._move(job, state)
+        job.reason = f"{reason} Its worker kept the result, which was not stored at first, and sent it later."
+        if state is State.COMPLETED:
+            job.share = 1.0
+        self._tell(EventKind(state), job, job.reason)
 
     def fail(self, job_id: str, attempt: int, reason: str, stopped: bool = False) -> None:
         """End a job whose attempt failed, unless it has ended or was taken over.

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from dbos import DBOS
+from sqlalchemy.orm import Session, sessionmaker
 
 from app import logs
 from app.audit.log import Acting, acts
@@ -30,6 +31,8 @@ from app.jobs.service import MOST_ATTEMPTS
 from app.latch import Latch
 from app.monitoring import reporting, statements
 from app.private import OTHERS
+from app.runs.job import UNSENT
+from app.store.opening import store_of
 from app.worker.executor import Executor
 from app.worker.kinds import KINDS
 from app.worker.link import Links
@@ -112,6 +115,8 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
             on_conflict="always_update",
         )
     reporting.start(maker, worker)
+    if (settings.data / UNSENT).is_dir():
+        threading.Thread(target=send_kept, args=(settings, maker), daemon=True, name="rths-unsent").start()
     try:
         _watch(executor, peers, stopper)
     finally:
@@ -130,6 +135,17 @@ def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
     @DBOS.workflow(name=kind.workflow, max_recovery_attempts=None)
     def run(turn: str) -> None:
         execute(turn)
+
+
+def send_kept(settings: Settings, maker: sessionmaker[Session]) -> None:
+    """Send the recordings that the store did not take before this worker was started; what fails again stays."""
+    from app.runs.unsent import send  # loads numpy and HDF5
+
+    try:
+        for one in send(settings.data / UNSENT, maker, store_of(settings)):
+            log.warning("the recording %s that was not sent before: %s", one.path, one.sentence)
+    except (OSError, *DATABASE_SILENT) as error:
+        log.warning("recordings stay in %s: %s", settings.data / UNSENT, error)
 
 
 def _watch(executor: Executor, peers: Peers, stopper: Stopper) -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import shutil
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -10,20 +13,26 @@ import sqlalchemy as sa
 from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
+from app.cli.main import main
 from app.config import Settings
 from app.jobs.queue import DurableQueue
 from app.jobs.service import MOST_ATTEMPTS, JobService
 from app.jobs.states import State
 from app.models import Run
-from app.runs.job import RUNS
+from app.runs.job import RUNS, UNSENT
 from app.runs.order import Outcome, RunOrder
 from app.runs.repository import RunRepository
 from app.runs.service import RunService
+from app.store.in_folder import FolderStore
 from app.worker import executor as module
 from app.worker.child import Done, Failed
 from app.worker.executor import Executor
+from app.worker.main import send_kept
 from app.worker.pool import ProcessDied
 from rths_engine.parts.ground_motions import MotionLibrary
+from rths_engine.planning.reading import read_model
+from rths_engine.recordings.run_file import save
+from rths_engine.running import run as engine_run
 from tests.app.conftest import plan
 
 SUMMARY: dict[str, Any] = {
@@ -174,6 +183,71 @@ def test_a_recording_that_cannot_be_put_in_its_place_is_a_failed_run_that_says_w
     assert run.state is State.FAILED and run.recording_sha256 is None
     assert run.reason is not None and "was not stored" in run.reason and "directory" in run.reason
     assert bench.told.ended == [(run.id, 1)]
+
+
+@pytest.fixture
+def kept(bench: Bench) -> Path:
+    """A recording that the store did not take: it stays in the folder `unsent` of its worker."""
+
+    def unwritable(job: RunOrder) -> Done:
+        test = engine_run.Run(read_model(job.plan), MotionLibrary(None))
+        test.advance(100_000)
+        result = test.result("completed", 0.1)
+        saved = save(job.recording, result)
+        (bench.settings.recordings / f"{job.job_id}.h5" / "in the way").mkdir(parents=True)
+        return Done(Outcome(result.summary(), saved.sha256, saved.size))
+
+    run = bench.execute(unwritable)
+    assert run.state is State.FAILED
+    shutil.rmtree(bench.settings.recordings / f"{run.id}.h5")
+    return bench.settings.data / UNSENT / f"{run.id}.1.h5"
+
+
+def test_a_recording_that_was_not_sent_is_attached_to_its_run_by_a_command(bench: Bench, kept: Path) -> None:
+    recording, finished_at = kept.read_bytes(), bench.run.finished_at
+    command = ["send-recordings", "--data", str(bench.settings.data)]
+    assert main(command) == 0
+    run = bench.run
+    assert run.state is State.COMPLETED and "sent it later" in (run.reason or "") and run.finished_at == finished_at
+    assert (bench.settings.recordings / f"{run.id}.h5").read_bytes() == recording and not kept.parent.exists()
+    assert run.recording_sha256 == hashlib.sha256(recording).hexdigest() and run.stations[0].measure("mte_mm") is not None
+    assert main(command) == 0 and bench.run.reason == run.reason  # nothing is left to send
+    assert main([*command, str(kept)]) == 2
+
+
+def test_a_worker_sends_what_was_not_sent_before_its_start(bench: Bench, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError("the store does not answer")
+
+    with monkeypatch.context() as away:
+        away.setattr(FolderStore, "put", full)
+        send_kept(bench.settings, bench.maker)
+    assert kept.exists() and bench.run.state is State.FAILED
+    send_kept(bench.settings, bench.maker)
+    assert not kept.exists() and str(bench.run.state) == "completed"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"attempt": 2}, "of attempt 1 of run 1, which ended with attempt 2"),
+        ({"digest": "0" * 64}, "its plan is not the plan of run 1"),
+        ({"state": State.CANCELLED}, "run 1 is cancelled, not failed"),
+        ({"recording_sha256": "0" * 64}, "run 1 has a recording"),
+        ({"id": "00000000-0000-0000-0000-000000000000"}, "there is no such run"),
+    ],
+)
+def test_a_recording_that_does_not_belong_to_a_failed_attempt_is_left(
+    bench: Bench, kept: Path, change: dict[str, Any], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with db.unit_of_work(bench.maker) as session:
+        session.execute(sa.update(Run).values(**change))
+    (kept.parent / "notes.h5").write_bytes(b"no recording")
+    kept.with_name(kept.name.replace(".1.", ".3.")).write_bytes(b"cut")
+    assert main(["send-recordings", str(kept.parent), "--data", str(bench.settings.data)]) == 1
+    told = capsys.readouterr()
+    assert said in told.err and "its name is not RUN.ATTEMPT.h5" in told.err and "not a complete" in told.err
+    assert "0 recordings attached to their runs, 3 left" in told.out and kept.exists()
 
 
 def test_what_a_killed_worker_left_behind_is_removed_before_the_next_attempt(bench: Bench) -> None:
