@@ -21,10 +21,10 @@ SUBMITTER = "demonstration"
 
 
 def queue_demonstration(app: FastAPI) -> None:
-    """Queue the demonstration, unless a demonstration is queued or running and has an attempt left."""
+    """Queue the demonstration, unless one waits, also for approval, or is running, and has an attempt left."""
     with unit_of_work(app.state.sessions) as session:
         runs = RunService(session, motions_of(app.state.settings), app.state.queue)
-        unfinished = Filter(states=(State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)
+        unfinished = Filter(states=(State.TO_APPROVE, State.QUEUED, State.RUNNING), submitted_by=SUBMITTER, template=TEMPLATE)
         if all(run.attempt >= MOST_ATTEMPTS for run in runs.listed(unfinished, Page())[0]):
             plan = templates.template(TEMPLATE).model_copy(update={"pace": RealTime()})
             with suppress(NotDriving):  # where one person drives a rig, that person queues it

@@ -106,7 +106,7 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/queue/cancel": lambda: BY | {"runs": [RUN]},
     "POST /api/v1/runs/{run_id}/undo-cancel": lambda: BY,
     "POST /api/v1/runs/{run_id}/retry": lambda: BY,
-    "PUT /api/v1/rules": lambda: {"one_driver": False},
+    "PUT /api/v1/rules": lambda: {"one_driver": False, "approvals": False, "approvers": []},
     "PUT /api/v1/retention": lambda: {"days": 365, "states": ["cancelled", "failed"]},
     "POST /api/v1/control/{rig_id}/take": lambda: BY,
     "POST /api/v1/control/{rig_id}/renew": lambda: BY,

@@ -14,6 +14,7 @@ from app.access import Role
 from app.accounts import keys, passwords
 from app.accounts.repository import AccountRows
 from app.models import Account, AccountLink
+from app.models.accounts import key_of
 from app.problems import Conflict, NotFound
 from rths_engine.foundation.errors import Issue, RthsError
 
@@ -128,8 +129,3 @@ class AccountService:
         able = self.rows.administrators()
         if [one.id for one in able] == [account.id]:
             raise Conflict(f"{account.name} is the last administrator. Give another account the role administrator first.")
-
-
-def key_of(name: str) -> str:
-    """The key of a name: equal for names that differ only in case, in spaces around them or in forms of the same letter."""
-    return unicodedata.normalize("NFKC", name).strip().casefold()[:240]

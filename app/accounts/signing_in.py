@@ -11,9 +11,9 @@ from sqlalchemy.orm import Session
 from app.access import ROLE_OF, Role, Scope
 from app.accounts import keys, passwords
 from app.accounts.repository import AccountRows
-from app.accounts.service import key_of
 from app.accounts.throttle import Throttle
 from app.models import Account, AccountSession, ApiToken
+from app.models.accounts import key_of
 from app.problems import Conflict, NotFound
 from rths_engine.foundation.errors import Issue, RthsError
 

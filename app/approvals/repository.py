@@ -19,13 +19,6 @@ class ApprovalRepository:
         """The approvals that nobody has decided, oldest first."""
         return list(self.session.scalars(sa.select(Approval).where(Approval.decision.is_(None)).order_by(Approval.number)))
 
-    def locked(self, about_id: str) -> Approval | None:
-        """The latest approval of a run or a sweep, locked against other writers until the end of the transaction."""
-        lock = sa.update(Approval).where(Approval.about_id == about_id).values(reason=Approval.reason)
-        self.session.execute(lock, execution_options={"synchronize_session": False})
-        query = sa.select(Approval).where(Approval.about_id == about_id).order_by(Approval.number.desc()).limit(1)
-        return self.session.scalar(query.execution_options(populate_existing=True))
-
     def decide(self, approval: Approval, decision: str, by: str, reason: str = "") -> None:
         approval.decision, approval.decided_by, approval.decided_at = decision, by, now(self.session)
         approval.reason = reason

@@ -19,10 +19,13 @@ class ApprovalOut(BaseModel):
     number: int
     name: str
     rig_name: str | None = Field(description="rig of a run; null for a sweep, which moves none")
+    duration_s: float | None = Field(description="planned duration of a run; null for a sweep")
+    pace: float | None = Field(description="planned speed factor of a run; null: as fast as possible, or a sweep")
     points: int | None = Field(description="points of a sweep; null for a run")
-    digest: str = Field(description="digest of what was submitted: approve exactly this")
+    digest: str = Field(description="digest of the whole plan, pace and name included, or of the sweep: approve exactly this")
     asked_by: str
     asked_at: datetime
+    own: bool = Field(description="whether the person of the request submitted it, and may withdraw it by `cancel`")
     refusal: str | None = Field(description="why the person of the request can't decide; null where that person can")
 
 

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 from sqlalchemy.orm import Session
 
 from app.access import Role, SignedIn
 from app.approvals.repository import ApprovalRepository
 from app.approvals.schemas import ApprovalList, ApprovalOut, Decided
+from app.control.service import same_person
 from app.jobs.service import named
-from app.models import Approval
+from app.models import Approval, Run, Sweep
 from app.problems import Conflict, NotFound
+from app.runs.order import digest_of, is_approved
 from app.runs.service import RunService
 from app.sweeps.service import SweepService, digest
 
@@ -26,7 +30,12 @@ class ApprovalService:
 
     def listed(self, who: SignedIn, by: str) -> ApprovalList:
         """What waits, as the person sees it."""
-        return ApprovalList(approvals=[self._out(one, self._refusal(one, who, by)) for one in self.rows.waiting()])
+        shown = []
+        for asked in self.rows.waiting():
+            with suppress(NotFound):  # one lost row does not hide the others
+                found = self._found(asked)
+                shown.append(_out(asked, found, _own(asked, found, by), self._refusal(asked, who, by)))
+        return ApprovalList(approvals=shown)
 
     def approve(self, about_id: str, who: SignedIn, by: str, seen: str) -> Decided:
         """Queue what was submitted. `seen` is its digest, as the person saw it.
@@ -59,7 +68,7 @@ class ApprovalService:
 
     def _asked(self, about_id: str, who: SignedIn, by: str) -> Approval:
         """What waits for approval, locked, if the person may decide."""
-        asked = self.rows.locked(about_id)
+        asked = self.runs.control.rows.locked_approval(about_id)
         if asked is None:
             raise NotFound(f"No run and no sweep {about_id} asks for approval.")
         if asked.decision is not None:
@@ -71,35 +80,35 @@ class ApprovalService:
     def _refusal(self, asked: Approval, who: SignedIn, by: str) -> str | None:
         """Why a person can't decide; None where the person can."""
         rules, person = self.runs.control.rules(), by.strip()
-        if who.role is not Role.ADMINISTRATOR and person not in rules.approvers:
+        if who.role is not Role.ADMINISTRATOR and not any(same_person(one, person) for one in rules.approvers):
             return "Administrators approve, and the people whom they name on the page Settings."
-        return "Nobody approves or rejects the own submission: cancel it instead." if person == asked.asked_by else None
+        if _own(asked, self._found(asked), person):
+            return "You cannot approve or reject your own submission: withdraw it instead."
+        return None
 
     def _digest(self, asked: Approval) -> str:
         """The digest of what would run now."""
-        if asked.about == "run":
-            return self.runs.plan_of(self.runs.get(asked.about_id)).digest
-        return digest(self.sweeps.get(asked.about_id))
+        found = self._found(asked)
+        if isinstance(found, Sweep):
+            return digest(found)
+        return asked.digest if is_approved(found.plan, asked.digest) else digest_of(found.plan)
 
-    def _out(self, asked: Approval, refusal: str | None) -> ApprovalOut:
-        run = self.runs.get(asked.about_id) if asked.about == "run" else None
-        sweep = self.sweeps.get(asked.about_id) if run is None else None
-        found = run or sweep
-        assert found is not None
-        return ApprovalOut.model_validate(
-            {
-                "about": asked.about,
-                "id": asked.about_id,
-                "number": found.number,
-                "name": found.name,
-                "rig_name": run.rig_name if run else None,
-                "points": sweep.points if sweep else None,
-                "digest": asked.digest,
-                "asked_by": asked.asked_by,
-                "asked_at": asked.asked_at,
-                "refusal": refusal,
-            }
-        )
+    def _found(self, asked: Approval) -> Run | Sweep:
+        """The run or the sweep that an approval is about."""
+        return self.runs.get(asked.about_id) if asked.about == "run" else self.sweeps.get(asked.about_id)
+
+
+def _out(asked: Approval, found: Run | Sweep, own: bool, refusal: str | None) -> ApprovalOut:
+    stored = {name: getattr(asked, name) for name in ("about", "digest", "asked_by", "asked_at")}
+    of_run = {name: getattr(found, name, None) for name in ("rig_name", "duration_s", "pace")}
+    points = found.points if isinstance(found, Sweep) else None
+    shown = {"id": found.id, "number": found.number, "name": found.name, "points": points, "own": own, "refusal": refusal}
+    return ApprovalOut.model_validate({**stored, **of_run, **shown})
+
+
+def _own(asked: Approval, found: Run | Sweep, person: str) -> bool:
+    """Whether a person submitted what waits, or put it back by undoing its cancel."""
+    return any(same_person(one, person) for one in (asked.asked_by, found.submitted_by))
 
 
 def _decided(asked: Approval) -> Decided:

@@ -25,9 +25,9 @@ def rules(control: Controlled) -> RulesIn:
 
 @router.put("/rules")
 @allowed(Role.ADMINISTRATOR)
-def save_rules(control: Controlled, given: Annotated[RulesIn, Body()]) -> RulesIn:
-    """Set the rules of the laboratory."""
-    return control.save_rules(given)
+def save_rules(control: Controlled, who: Who, given: Annotated[RulesIn, Body()]) -> RulesIn:
+    """Set all rules of the laboratory. With accounts, each approver is an account with at least the role operator."""
+    return control.save_rules(given, who.how != "local")
 
 
 @router.get("/control")
@@ -68,8 +68,8 @@ def request(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver
 @router.post("/control/{rig_id}/hand-over", responses=told(409))
 @allowed(Role.OPERATOR)
 def hand_over(rig_id: str, control: Controlled, who: Who, given: Annotated[HandOver, Body()]) -> ControlOut:
-    """Give the control of a rig to another person."""
-    return control.hand_over(rig_id, who.named(given.by), given.to)
+    """Give the control of a rig to another person. With accounts, it is an account with at least the role operator."""
+    return control.hand_over(rig_id, who.named(given.by), given.to, who.how != "local")
 
 
 @router.post("/control/{rig_id}/take-over")

@@ -9,7 +9,9 @@ from sqlalchemy.orm import Session
 
 from app.db import now
 from app.jobs.states import State
-from app.models import Approval, Rig, RigControl, Rules, Run
+from app.models import Account, Approval, Rig, RigControl, Rules, Run
+from app.models.accounts import key_of
+from app.roles import Role
 
 
 class ControlRepository:
@@ -56,8 +58,20 @@ class ControlRepository:
         query = sa.select(Approval).where(Approval.about_id == about_id).order_by(Approval.number.desc()).limit(1)
         return self.session.scalar(query)
 
+    def locked_approval(self, about_id: str) -> Approval | None:
+        """The latest approval of a run or a sweep, locked against other writers until the end of the transaction."""
+        lock = sa.update(Approval).where(Approval.about_id == about_id).values(reason=Approval.reason)
+        self.session.execute(lock, execution_options={"synchronize_session": False})
+        query = sa.select(Approval).where(Approval.about_id == about_id).order_by(Approval.number.desc()).limit(1)
+        return self.session.scalar(query.execution_options(populate_existing=True))
+
     def ask(self, approval: Approval) -> None:
         self.session.add(approval)
+
+    def operator(self, name: str) -> Account | None:
+        """The account with this name, in any case of its letters, where it may operate; None otherwise."""
+        able = sa.and_(Account.disabled_at.is_(None), Account.role != Role.VIEWER.name.lower())
+        return self.session.scalar(sa.select(Account).where(Account.key == key_of(name), able))
 
     def rig_of(self, run_id: str) -> str | None:
         return self.session.scalar(sa.select(Run.rig_id).where(Run.id == run_id))

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from datetime import datetime
+from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.text import Named, Storable
 
+Approver = Annotated[Named, Field(max_length=80)]
+
 
 class RulesIn(BaseModel):
-    """The rules of the laboratory."""
+    """The rules of the laboratory. A change gives all of them, so that none is switched off by leaving it out."""
 
     model_config = ConfigDict(extra="forbid", from_attributes=True)
 
-    approvals: bool = Field(False, description="another person approves each submission before it queues")
-    approvers: list[Named] = Field([], max_length=50, description="people beside administrators who approve and reject")
-    one_driver: bool = Field(False, description="only the driver of a rig starts, holds, releases and cancels its tests")
+    approvals: bool = Field(strict=True, description="another person approves each submission before it queues")
+    approvers: list[Approver] = Field(
+        max_length=50, description="people beside administrators who approve and reject; with accounts, names of accounts"
+    )
+    one_driver: bool = Field(strict=True, description="only the driver of a rig starts, holds, releases and cancels its tests")
 
 
 class Driver(BaseModel):
@@ -30,7 +35,7 @@ class Driver(BaseModel):
 class HandOver(Driver):
     """The person who drives, and the person who drives next."""
 
-    to: Named = Field(max_length=80)
+    to: Named = Field(max_length=80, description="with accounts, the name of an account that may operate")
 
 
 class TakeOver(Driver):

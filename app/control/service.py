@@ -14,16 +14,22 @@ from sqlalchemy.orm import Session
 
 from app.control.repository import ControlRepository
 from app.control.schemas import ControlList, ControlOut, RulesIn
+from app.jobs.service import named
 from app.jobs.states import State
 from app.models import Approval, RigControl
+from app.models.accounts import key_of
 from app.problems import Conflict, NotFound
-from rths_engine.foundation.errors import Issue, RthsError
+from rths_engine.foundation.errors import Issue, PlanError, RthsError
 
 EXPIRES = timedelta(minutes=10)  # after the last renewal; an open page of the driver renews every minute
 
 
 class NotDriving(Conflict):
     """A change that needs the control of a rig which the person does not have."""
+
+
+class NotYours(Conflict):
+    """The withdrawal of a submission by a person who did not submit it."""
 
 
 class Control:
@@ -35,8 +41,18 @@ class Control:
     def rules(self) -> RulesIn:
         return RulesIn.model_validate(self.rows.rules)
 
-    def save_rules(self, given: RulesIn) -> RulesIn:
-        for name, value in given.model_dump().items():
+    def save_rules(self, given: RulesIn, accounts: bool) -> RulesIn:
+        """Set all rules. With `accounts`, raises PlanError for every approver who is not an account that may operate."""
+        approvers: list[str] = []
+        issues: list[Issue] = []
+        for index, name in enumerate(given.approvers):
+            try:
+                approvers.append(self._known(name, f"approvers.{index}", accounts))
+            except RthsError as error:
+                issues += error.issues
+        if issues:
+            raise PlanError(issues)
+        for name, value in {**given.model_dump(), "approvers": list(dict.fromkeys(approvers))}.items():
             setattr(self.rows.rules, name, value)
         return self.rules()
 
@@ -75,10 +91,10 @@ class Control:
         held.asked_by = _person(by)
         return _out(rig_id, name, held, by)
 
-    def hand_over(self, rig_id: str, by: str, to: str) -> ControlOut:
-        """Give the control to another person. Raises NotDriving."""
+    def hand_over(self, rig_id: str, by: str, to: str, accounts: bool) -> ControlOut:
+        """Give the control to another person. Raises NotDriving, and with `accounts` RthsError where nobody has this name."""
         name, held = self._driven(rig_id, by)
-        return self._give(rig_id, name, to, held, by)
+        return self._give(rig_id, name, self._known(to, "to", accounts), held, by)
 
     def take_over(self, rig_id: str, by: str) -> ControlOut:
         """Take the control from whoever has it. The caller has checked that the person is an administrator."""
@@ -93,17 +109,24 @@ class Control:
     def ask_approval(self, about: str, about_id: str, digest: str, by: str) -> None:
         """Ask for the approval of a run or a sweep."""
         at = self.rows.now()
-        self.rows.ask(Approval(about=about, about_id=about_id, digest=digest, asked_by=by.strip(), asked_at=at))
+        self.rows.ask(Approval(about=about, about_id=about_id, digest=digest, asked_by=named(by), asked_at=at))
 
     def approval(self, about_id: str) -> Approval | None:
         """The latest approval of a run or a sweep; None where none was asked for."""
         return self.rows.approval(about_id)
 
-    def withdrawn(self, about_id: str, by: str) -> None:
-        """Close an approval that waits, because its run or sweep was cancelled."""
-        asked = self.approval(about_id)
-        if asked is not None and asked.decision is None:
-            asked.decision, asked.decided_by, asked.decided_at = "withdrawn", by.strip(), self.rows.now()
+    def withdraw(self, about_id: str, submitted_by: str, by: str) -> bool:
+        """Close an approval that waits, because its run or sweep is cancelled. False where it does not wait any more.
+
+        Raises NotYours for a person who neither submitted it nor asked for its approval: who approves rejects it instead.
+        """
+        asked = self.rows.locked_approval(about_id)
+        if asked is None or asked.decision is not None:
+            return False
+        if not any(same_person(one, by) for one in (submitted_by, asked.asked_by)):
+            raise NotYours(f"It waits for approval, and only {asked.asked_by} withdraws it. An approver rejects it instead.")
+        asked.decision, asked.decided_by, asked.decided_at = "withdrawn", named(by), self.rows.now()
+        return True
 
     def check(self, rigs: Iterable[str], by: str) -> None:
         """Raise NotDriving unless the person drives all these rigs, or the laboratory has no such rule."""
@@ -132,6 +155,16 @@ class Control:
         """Raise NotDriving unless the person drives every rig whose tests wait."""
         self.check(self.rows.with_tests(State.QUEUED), by)
 
+    def _known(self, name: str, where: str, accounts: bool) -> str:
+        """The name as its account has it; with `accounts`, raises RthsError where no account that may operate has it."""
+        account = self.rows.operator(name)
+        if account is not None:
+            return account.name
+        if accounts:
+            fix = "give the name of an account that is not disabled and has at least the role operator"
+            raise RthsError(Issue(where, "is not a person who may operate", name, fix))
+        return name.strip()
+
     def _locked(self, rig_id: str) -> tuple[str, RigControl | None]:
         """The name of a rig and its control if it is valid, locked. Raises NotFound."""
         name = self.rows.named(rig_id)
@@ -159,6 +192,11 @@ class Control:
 
 def _valid(control: RigControl | None, now: datetime) -> RigControl | None:
     return control if control is not None and control.driver and control.until > now else None
+
+
+def same_person(first: str, second: str) -> bool:
+    """Whether two names are those of one account, in any case of their letters; all who give no name are one."""
+    return key_of(named(first)) == key_of(named(second))
 
 
 def _person(by: str) -> str:

@@ -75,8 +75,7 @@ class JobService(Generic[Row, Result]):
             raise states.IllegalTransition(self.kind.noun, job.state, State.QUEUED)
         self._move(job, State.QUEUED)
         self._tell(EventKind.APPROVED, job, f"{named(by)} approved it.")
-        assert self.queue is not None
-        self.queue.enqueue(self.session, self.kind, [job.id])
+        self._enqueue_again(job)
         return job
 
     def reject(self, job_id: str, by: str, reason: str) -> Row:
@@ -109,23 +108,33 @@ class JobService(Generic[Row, Result]):
             job.cancel_requested_by = named(by)
         return job
 
-    def undo_cancel(self, job_id: str, by: str) -> Row:
-        """Put a job back at its place in the queue that was cancelled there. Raises Conflict for any other job."""
+    def undo_cancel(self, job_id: str, by: str, to: State = State.QUEUED) -> Row:
+        """Put a job back at its place in the queue that was cancelled there, or let it wait for approval (TO_APPROVE).
+
+        Raises Conflict for any other job.
+        """
         job = self.locked(job_id)
         noun = self.kind.noun
         if job.state is not State.CANCELLED:
             raise Conflict(f"The {noun} is {job.state}, not cancelled. There is no cancel to undo.")
         if job.started_at is not None:
             raise Conflict(f"The {noun} was running when it was cancelled. Retry it instead.")
-        if job.finished_at is None or datetime.now(UTC) - job.finished_at > UNDO:
+        if not undoable(job):
             minutes = UNDO // timedelta(minutes=1)
             raise Conflict(f"The cancel of the {noun} is more than {minutes} minutes old. Retry the {noun} instead.")
-        self._move(job, State.QUEUED)
+        self._move(job, to)
         job.reason, job.finished_at = None, None
+        if to is State.TO_APPROVE:
+            self._tell(EventKind.TO_APPROVE, job, f"{named(by)} undid the cancel. Another person approves it.")
+            return job
         self._tell(EventKind.REQUEUED, job, f"Back in the queue: {named(by)} undid the cancel.")
-        assert self.queue is not None
-        self.queue.enqueue(self.session, self.kind, [str(uuid.uuid4())])  # its first turn may have passed
+        self._enqueue_again(job)
         return job
+
+    def _enqueue_again(self, job: Row) -> None:
+        """A turn for a job that may have had one, which may have passed. Ordered kinds start their first job by any turn."""
+        assert self.queue is not None
+        self.queue.enqueue(self.session, self.kind, [str(uuid.uuid4()) if self.kind.ordered else job.id])
 
     def cancel_running(self, by: str) -> list[Row]:
         """Ask the workers to stop every running job; returns these jobs."""
@@ -312,6 +321,12 @@ class JobService(Generic[Row, Result]):
         """Write what happened to a job into the log, when it is stored."""
         about = {"run": job.id, "kind": self.kind.name, "number": str(job.number), "state": str(job.state)}
         afterwards(self.session, "after_commit", lambda: log.info("%s", sentence, extra={"fields": about}))
+
+
+def undoable(job: Any) -> bool:
+    """Whether a job was cancelled before it started, so short ago that this can be undone."""
+    ended = job.finished_at if job.state is State.CANCELLED and job.started_at is None else None
+    return ended is not None and datetime.now(UTC) - ended <= UNDO
 
 
 def named(by: str) -> str:

@@ -27,7 +27,8 @@ class State(StrEnum):
         return [state.value for state in kind]
 
 
-# running -> queued: the worker of the job has died; cancelled -> queued: the cancel of a job that had not started was undone;
+# running -> queued: the worker of the job has died
+# cancelled -> queued, to approve: the cancel of a job that had not started was undone
 # failed -> an end with a result: the store had not taken the result, which its worker kept and sent later
 TRANSITIONS: dict[State, frozenset[State]] = {
     State.TO_APPROVE: frozenset({State.QUEUED, State.CANCELLED}),
@@ -35,7 +36,7 @@ TRANSITIONS: dict[State, frozenset[State]] = {
     State.RUNNING: frozenset({State.QUEUED, State.COMPLETED, State.TRIPPED, State.CANCELLED, State.FAILED}),
     State.COMPLETED: frozenset(),
     State.TRIPPED: frozenset(),
-    State.CANCELLED: frozenset({State.QUEUED}),
+    State.CANCELLED: frozenset({State.QUEUED, State.TO_APPROVE}),
     State.FAILED: frozenset({State.COMPLETED, State.TRIPPED, State.CANCELLED}),
 }
 

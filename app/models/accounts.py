@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from datetime import datetime
 
 import sqlalchemy as sa
@@ -22,6 +23,11 @@ class Account(Base):
     password: Mapped[str | None] = mapped_column(sa.String(200))
     created_at: Mapped[datetime]
     disabled_at: Mapped[datetime | None]
+
+
+def key_of(name: str) -> str:
+    """The key of a name: equal for names that differ only in case, in spaces around them or in forms of the same letter."""
+    return unicodedata.normalize("NFKC", name).strip().casefold()[:240]
 
 
 class AccountSession(Base):

@@ -27,7 +27,8 @@ def queue(queued: Queued, limit: Annotated[int, Query(ge=1, le=MOST_RUNS)] = 200
 def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
     """Move queued runs before or after another queued run, or to the top or the bottom of the queue.
 
-    They take the priority of their new neighbour, because higher priorities start first.
+    They take the priority of their new neighbour, because higher priorities start first. Where one person drives a rig, only
+    the driver of the rigs of these runs moves them.
     """
     queued.move(move)
     return queued.state()
@@ -36,8 +37,11 @@ def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
 @router.post("/queue/priority", responses=told(404, 409))
 @allowed(Role.OPERATOR)
 def priority(asked: Annotated[NewPriority, Body()], queued: Queued) -> QueueOut:
-    """Give queued runs a priority. Runs of a higher priority start first, whatever their position."""
-    queued.prioritise(asked.runs, asked.priority)
+    """Give queued runs a priority. Runs of a higher priority start first, whatever their position.
+
+    Where one person drives a rig, only the driver of the rigs of these runs does so.
+    """
+    queued.prioritise(asked.runs, asked.priority, asked.by)
     return queued.state()
 
 

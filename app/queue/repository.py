@@ -11,7 +11,7 @@ from sqlalchemy.orm import Session
 
 from app.jobs.repository import JobRepository
 from app.jobs.states import State
-from app.models import Rig, Run
+from app.models import Approval, Rig, Run
 
 UNDOABLE = 20  # latest cancels that the queue shows
 RECENT = 200  # latest completed runs that expected times follow from
@@ -80,9 +80,11 @@ class QueueRepository:
         return [Earlier._make(row) for row in self.session.execute(latest)]
 
     def cancelled_in_queue(self, since: datetime) -> list[Run]:
-        """The latest runs that were cancelled after `since` and had never started."""
-        never = (Run.state == State.CANCELLED, Run.started_at.is_(None), Run.finished_at > since, Run.deleted_at.is_(None))
-        query = sa.select(Run).where(*never).order_by(Run.finished_at.desc()).limit(UNDOABLE)
+        """The latest runs on the list that were cancelled after `since` and had never started; not those that were rejected."""
+        rejected = sa.select(Approval.about_id).where(Approval.decision == "rejected")
+        never = (Run.state == State.CANCELLED, Run.started_at.is_(None), Run.finished_at > since)
+        shown = (Run.deleted_at.is_(None), Run.archived.is_(False), Run.id.not_in(rejected))
+        query = sa.select(Run).where(*never, *shown).order_by(Run.finished_at.desc()).limit(UNDOABLE)
         return list(self.session.scalars(query))
 
     def last_number(self) -> int:

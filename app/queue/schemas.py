@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, Field
 
 from app.runs.schemas import Person, RunOut
 from app.text import Storable
@@ -71,10 +71,8 @@ class QueueOut(BaseModel):
     worker_alive: bool
 
 
-class Move(BaseModel):
-    """Queued runs and their new place: before or after another queued run, or at the top or the bottom of the queue."""
-
-    model_config = ConfigDict(extra="forbid")
+class Move(Person):
+    """Queued runs, their new place (before or after another queued run, or at an end of the queue), and who moves them."""
 
     runs: Ids
     before: Storable | None = Field(None, max_length=36, description="id of a queued run")
@@ -82,10 +80,8 @@ class Move(BaseModel):
     to: Literal["top", "bottom"] | None = None
 
 
-class NewPriority(BaseModel):
-    """Queued runs and their new priority."""
-
-    model_config = ConfigDict(extra="forbid")
+class NewPriority(Person):
+    """Queued runs, their new priority, and the person who gives it."""
 
     runs: Ids
     priority: Priority = Field(description="2 urgent, 1 high, 0 normal, -1 low")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from sqlalchemy.orm import Session
 
-from app.control.service import Control, NotDriving
+from app.control.service import Control, NotDriving, NotYours
 from app.db import afterwards
 from app.jobs.aborts import ABORTED, Aborts
 from app.jobs.hold import Hold
@@ -15,10 +15,10 @@ from app.jobs.states import State
 from app.jobs.tables import QueueState
 from app.latch import Latch
 from app.models import Run
-from app.problems import Conflict
+from app.problems import Conflict, NotFound
 from app.queue.outlook import outlook
 from app.queue.placing import moved
-from app.queue.repository import QueueRepository
+from app.queue.repository import QueueRepository, Waiting
 from app.queue.schemas import CancelledOut, Move, QueueOut, Refusal
 from app.runs.job import RUNS
 from app.runs.order import Outcome
@@ -40,7 +40,10 @@ class QueueService:
         return outlook(self.session, self.rows, self._held(), limit)
 
     def move(self, asked: Move) -> None:
-        """Move queued runs as a block, in the order given. Raises Conflict for a run that does not wait any more."""
+        """Move queued runs as a block, in the order given.
+
+        Raises Conflict for a run that does not wait any more, and NotDriving for a run whose rig somebody else drives.
+        """
         given = [name for name in ("before", "after", "to") if getattr(asked, name) is not None]
         if len(given) != 1:
             fix = "give one of 'before', 'after' and 'to'"
@@ -48,22 +51,25 @@ class QueueService:
         self.hold.locked()
         line = self.rows.waiting()
         runs = list(dict.fromkeys(asked.runs))
-        self._check_waiting(runs, {one.id for one in line})
+        self._check_waiting(runs, line)
+        self._check_driving(runs, line, asked.by)
         others = [one for one in line if one.id not in set(runs)]
         index = 0 if asked.to == "top" else len(others)
         if anchor := asked.before or asked.after:
             places = {one.id: place for place, one in enumerate(others)}
             if anchor in runs:
                 raise RthsError(Issue(given[0], "needs a run that is not moved itself", anchor))
-            self._check_waiting([anchor], set(places))
+            self._check_waiting([anchor], others)
             index = places[anchor] + (asked.after is not None)
         beside = others[max(0, index - 1 if asked.after or asked.to == "bottom" else index)] if others else line[0]
         self.rows.place(moved(line, runs, index, beside.priority, self.rows.last_number()))
 
-    def prioritise(self, runs: Sequence[str], priority: int) -> None:
-        """Give queued runs a priority. Raises Conflict for a run that does not wait any more."""
+    def prioritise(self, runs: Sequence[str], priority: int, by: str) -> None:
+        """Give queued runs a priority. Raises Conflict for a run that does not wait any more, and NotDriving as `move`."""
         self.hold.locked()
-        self._check_waiting(runs, {one.id for one in self.rows.waiting()})
+        line = self.rows.waiting()
+        self._check_waiting(runs, line)
+        self._check_driving(runs, line, by)
         self.rows.prioritise(runs, priority)
 
     def cancel(self, runs: Sequence[str], by: str) -> CancelledOut:
@@ -71,21 +77,25 @@ class QueueService:
         self.hold.locked()  # first, as at a start: two requests that lock runs in opposite orders would block each other
         cancelled, refused = [], []
         for run in dict.fromkeys(runs):
-            job = self.jobs.rows.locked(run)
-            if job is None:
-                refused.append(Refusal(id=run, reason=f"There is no run {run}."))
-            elif job.state.ended:
-                refused.append(Refusal(id=run, reason=f"Run {job.number} has already ended: it is {job.state}."))
-            elif job.state is State.TO_APPROVE:
-                self.control.withdrawn(run, by)
-                self.jobs.cancel(run, by)
+            try:
+                self._cancel(run, by)
                 cancelled.append(run)
-            elif why := self._not_driving(job, by):
-                refused.append(Refusal(id=run, reason=why))
-            else:
-                self.jobs.cancel(run, by)
-                cancelled.append(run)
+            except (NotFound, Conflict) as error:
+                refused.append(Refusal(id=run, reason=str(error)))
         return CancelledOut(cancelled=cancelled, refused=refused)
+
+    def _cancel(self, run_id: str, by: str) -> None:
+        """Cancel one run. Raises NotFound, and Conflict where it has ended or the person may not cancel it."""
+        run = self.jobs.get(run_id)
+        try:
+            withdrawn = run.state is State.TO_APPROVE and self.control.withdraw(run_id, run.submitted_by, by)
+            if self.jobs.locked(run_id).state.ended:
+                raise Conflict(f"Run {run.number} has already ended: it is {run.state}.")
+            if not withdrawn:
+                self.control.check([run.rig_id], by)
+        except (NotDriving, NotYours) as error:
+            raise Conflict(f"Run {run.number}: {error}") from None
+        self.jobs.cancel(run_id, by)
 
     def hold_it(self, by: str, reason: str) -> None:
         """Hold the queue: no queued test starts; running tests go on."""
@@ -108,15 +118,12 @@ class QueueService:
         first = pressed[0]
         return QueueState(id=1, held=True, held_by=named(first.by), held_at=first.time, held_reason=ABORTED)
 
-    def _not_driving(self, run: Run, by: str) -> str:
-        """Why a person may not cancel a run: somebody else drives its rig. Empty where the person may."""
-        try:
-            self.control.check([run.rig_id], by)
-        except NotDriving as error:
-            return f"Run {run.number}: {error}"
-        return ""
+    def _check_driving(self, runs: Sequence[str], line: Sequence[Waiting], by: str) -> None:
+        """Raise NotDriving unless the person drives the rigs of all these runs: the order decides what moves a rig next."""
+        self.control.check([one.rig_id for one in line if one.id in set(runs)], by)
 
-    def _check_waiting(self, runs: Sequence[str], waiting: set[str]) -> None:
+    def _check_waiting(self, runs: Sequence[str], line: Sequence[Waiting]) -> None:
+        waiting = {one.id for one in line}
         for run in runs:
             if run not in waiting:
                 job = self.jobs.get(run)

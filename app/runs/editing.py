@@ -9,6 +9,7 @@ from functools import partial
 from sqlalchemy.orm import Session
 
 from app.db import afterwards
+from app.jobs.states import State
 from app.models import Run
 from app.problems import Conflict, NotFound
 from app.runs.edit_rows import EditRows
@@ -28,8 +29,12 @@ class RunEditing:
         self.rows, self.session = EditRows(session), session
 
     def change(self, run_id: str, change: RunChange) -> Run:
-        """Change name, tags, notes or shelf of a run. Raises NotFound, and Conflict where a run has not ended."""
+        """Change name, tags, notes or shelf of a run.
+
+        Raises NotFound, and Conflict for a shelf before the end of the run, or for anything while it waits for approval.
+        """
         run = self._get(run_id)
+        _check_decided(run)
         if change.name is not None:
             run.name = change.name
         if change.tags is not None:
@@ -114,7 +119,14 @@ def _shelve(run: Run, archived: bool) -> None:
     run.archived = archived
 
 
+def _check_decided(run: Run) -> None:
+    if run.state is State.TO_APPROVE:
+        why = "who approves it must find it as it was submitted"
+        raise Conflict(f"Run #{run.number} waits for approval: {why}. Change it afterwards, or withdraw it.")
+
+
 def _tag(run: Run, tags: Sequence[str]) -> None:
+    _check_decided(run)
     found = list(dict.fromkeys([*run.tags, *tags]))
     if len(found) > MOST_TAGS:
         raise Conflict(f"Run #{run.number} would have {len(found)} tags; the limit is {MOST_TAGS} of {LONGEST_TAG} characters.")
@@ -122,4 +134,5 @@ def _tag(run: Run, tags: Sequence[str]) -> None:
 
 
 def _untag(run: Run, tags: Sequence[str]) -> None:
+    _check_decided(run)
     run.tags = [tag for tag in run.tags if tag not in tags]

@@ -56,16 +56,17 @@ class Wanted(BaseModel):
 def submit(body: Annotated[Submission, Body()], runs: Runs, who: Who) -> Submitted:
     """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued.
 
-    An operator queues plans of the library only: `library` names the version, and the plan is that version.
+    An operator queues plans of the library only: `library` names a version that is not archived, and the whole plan is that
+    version, its pace and name included.
     """
     if (body.plan is None) == (body.plans is None):
         raise PlanError(Issue("plan", "needs either one plan as 'plan' or a list of plans as 'plans'"))
     if body.plans is None:
-        stored = runs.submit([body.plan], body.submitted_by, "", body.library, body.rig, body.priority)
+        plans, prefix = [body.plan], ""
     else:
-        stored = runs.submit(body.plans, body.submitted_by, library=body.library, rig=body.rig, priority=body.priority)
-    if who.role < Role.ENGINEER:
-        runs.check_of_library(stored)
+        plans, prefix = body.plans, "plans.{}"
+    as_kept = who.role < Role.ENGINEER
+    stored = runs.submit(plans, body.submitted_by, prefix, body.library, body.rig, body.priority, as_kept)
     return Submitted(runs=[RunOut.of(run) for run in stored])
 
 
@@ -81,20 +82,27 @@ def listed(wanted: Annotated[Wanted, Query()], runs: Runs) -> RunList:
 @allowed(Role.VIEWER)
 def one(run_id: str, runs: Runs) -> RunDetail:
     """A run with its plan and its measures."""
-    return RunDetail.of(runs.get(run_id))
+    run = runs.get(run_id)
+    return RunDetail.of(run, runs.undo_until(run))
 
 
 @router.post("/runs/{run_id}/cancel", responses=told(409))
 @allowed(Role.OPERATOR)
 def cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
-    """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored."""
+    """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored.
+
+    A test that waits for approval is withdrawn, by the person who submitted it only.
+    """
     return RunOut.of(runs.cancel(run_id, person.by))
 
 
 @router.post("/runs/{run_id}/undo-cancel", responses=told(409))
 @allowed(Role.OPERATOR)
 def undo_cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
-    """Undo the cancel of a queued test within 10 minutes: it is back at its place in the queue."""
+    """Undo the cancel of a queued test within 10 minutes: it is back at its place in the queue.
+
+    Where another person approves submissions and nobody has approved this test, it waits for approval.
+    """
     return RunOut.of(runs.undo_cancel(run_id, person.by))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,7 +25,7 @@ class RunOrder(Order):
     recording: Path
     settings: Settings
     approved: str = ""
-    """Digest of the plan that was approved; empty where no approval was needed."""
+    """Digest of the whole plan that was approved (`digest_of`); empty where no approval was needed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,3 +35,18 @@ class Outcome:
     summary: dict[str, Any]
     recording_sha256: str
     recording_size: int
+
+
+def digest_of(plan: dict[str, Any]) -> str:
+    """SHA-256 of a whole plan as stored, pace, name and notes included: what a person approves.
+
+    The digest of the engine covers what decides the result only.
+    """
+    return hashlib.sha256(json.dumps(plan, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+
+def is_approved(plan: dict[str, Any], digest: str) -> bool:
+    """Whether a plan is the one that was approved. The first approvals kept the digest of the engine."""
+    from rths_engine.planning.reading import read_plan
+
+    return digest in (digest_of(plan), read_plan(plan).digest)

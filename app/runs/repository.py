@@ -68,14 +68,11 @@ class RunRepository(JobRepository[Run]):
         query = sa.select(Run).where(Run.state.in_(states)).order_by(Run.number)
         return list(self.session.scalars(query))
 
-    def has_version(self, library_id: str, version: int) -> bool:
-        """Whether the library has this version of a plan."""
-        return self.version_digest(library_id, version) is not None
-
-    def version_digest(self, library_id: str, version: int | None) -> str | None:
-        """The digest of a version of a plan in the library; None where there is none."""
-        query = sa.select(PlanVersion.digest).join(LibraryPlan, LibraryPlan.number == PlanVersion.plan_number)
-        return self.session.scalar(query.where(LibraryPlan.id == library_id, PlanVersion.number == version))
+    def version(self, library_id: str, version: int) -> tuple[LibraryPlan, PlanVersion] | None:
+        """A plan in the library and one of its versions; None where there is none."""
+        query = sa.select(LibraryPlan, PlanVersion).join(PlanVersion, LibraryPlan.number == PlanVersion.plan_number)
+        found = self.session.execute(query.where(LibraryPlan.id == library_id, PlanVersion.number == version)).first()
+        return None if found is None else (found[0], found[1])
 
     @staticmethod
     def _conditions(wanted: Filter) -> Iterator[sa.ColumnElement[bool]]:

@@ -172,10 +172,12 @@ class RunDetail(RunOut):
         None, description="deadlines of the controller steps of a test in real time; docs/deadlines.md describes each key"
     )
     external: list[str] = Field([], description="what each external station of the plan is, as a sentence")
+    undo_until: datetime | None = Field(None, description="until when the cancel of the test can be undone; null: it can't be")
 
     @classmethod
-    def of(cls, run: Run) -> Self:
+    def of(cls, run: Run, undo_until: datetime | None = None) -> Self:
         out = super().of(run)
+        out.undo_until = undo_until
         if any(station.get("connection", {}).get("kind", "emulated") != "emulated" for station in run.plan["stations"]):
             out.external = sentences(validated(Plan, run.plan))
         return out

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import datetime
 from typing import Any
 
 from sqlalchemy.orm import Session
 
 from app.checking import Checked, checked
 from app.control.service import Control
-from app.jobs.service import JobService, Queue
+from app.jobs.service import UNDO, JobService, Queue, undoable
 from app.jobs.states import State
 from app.models import EMULATED, Rig, Run
-from app.problems import Conflict, Forbidden
+from app.problems import Conflict
 from app.rigs.service import RigService
+from app.runs.from_library import check_as_kept
 from app.runs.job import RUNS
-from app.runs.order import Outcome
+from app.runs.order import Outcome, digest_of
 from app.runs.repository import Filter, Page, RunRepository
 from app.runs.schemas import FromLibrary
 from rths_engine import __version__
@@ -42,14 +44,17 @@ class RunService:
         library: FromLibrary | None = None,
         rig: str = EMULATED,
         priority: int = 0,
+        as_kept: bool = False,
     ) -> list[Run]:
         """Check, store and queue all plans. Raises PlanError with every issue, and then stores nothing.
 
-        `library` is the version in the library that the plans were opened from; it is stored with the runs.
+        `library` is the version in the library that the plans were opened from; it is stored with the runs. With `as_kept`
+        the plans must be that version: raises Forbidden otherwise.
         """
         if not plans:
             raise PlanError(Issue("plans", "needs at least one plan", fix="add a plan"))
-        if library is not None and not self.runs.has_version(library.id, library.version):
+        kept = self.runs.version(library.id, library.version) if library else None
+        if library is not None and kept is None:
             fix, given = (
                 "open the plan in the library again, or leave out 'library'",
                 f"{library.id}, version {library.version}",
@@ -70,23 +75,15 @@ class RunService:
                 issues += [_under(prefix.format(index), issue) for issue in error.issues]
         if issues:
             raise PlanError(issues)
+        if as_kept:
+            check_as_kept(runs, kept, self.motions)
         if library is not None:
             for run in runs:
                 run.library_id, run.library_version = library.id, library.version
         self.jobs.submit(runs, submitted_by, State.TO_APPROVE if to_approve else State.QUEUED)
         for run in runs if to_approve else ():
-            self.control.ask_approval("run", run.id, run.digest, run.submitted_by)
+            self.control.ask_approval("run", run.id, digest_of(run.plan), run.submitted_by)
         return runs
-
-    def check_of_library(self, runs: Sequence[Run]) -> None:
-        """Raise Forbidden unless every run has the plan of the version in the library that it names."""
-        for run in runs:
-            kept = self.runs.version_digest(run.library_id, run.library_version) if run.library_id else None
-            if run.digest != kept:
-                raise Forbidden(
-                    "An operator queues plans of the library as they are. Choose a plan on the page Plans, "
-                    "or ask an engineer to queue this plan."
-                )
 
     def get(self, run_id: str) -> Run:
         """The run with this id. Raises NotFound."""
@@ -100,28 +97,40 @@ class RunService:
 
     def cancel(self, run_id: str, by: str) -> Run:
         """Cancel a queued run now; ask the worker to stop a running run. Raises IllegalTransition for a run that has ended."""
-        if self.get(run_id).state is State.TO_APPROVE:
-            self.control.withdrawn(run_id, by)
-        else:
-            self.control.check_run(run_id, by)
+        run = self.get(run_id)
+        if run.state is not State.TO_APPROVE or not self.control.withdraw(run_id, run.submitted_by, by):
+            self.control.check([run.rig_id], by)
         return self.jobs.cancel(run_id, by)
 
     def undo_cancel(self, run_id: str, by: str) -> Run:
         """Put a run back at its place in the queue that was cancelled there. Raises Conflict for any other run.
 
-        Its rig is checked as for a new run: meanwhile it may have been retired, or its capacities lowered.
+        Its rig is checked as for a new run: meanwhile it may have been retired, or its capacities lowered. A run that nobody
+        approved waits for approval, where the laboratory has this rule.
         """
         run = self.get(run_id)
         if run.deleted_at is not None or run.archived:
             shelf = "deleted" if run.deleted_at is not None else "archived"
             raise Conflict(f"Run {run.number} is {shelf}. Restore it first, then undo the cancel.")
-        self.control.check_run(run_id, by)
         asked = self.control.approval(run_id)
-        if asked is not None and asked.decision != "approved":
-            raise Conflict(f"Run {run.number} was never approved. Retry it: the new run then waits for approval.")
+        if asked is not None and asked.decision == "rejected":
+            raise Conflict(f"Run {run.number} was rejected by {asked.decided_by}. Change its plan, or retry it to ask anew.")
+        to_approve = self.control.approvals and (asked is None or asked.decision != "approved")
+        if not to_approve:
+            self.control.check([run.rig_id], by)
         if run.state is State.CANCELLED:
             self.rigs.check(self.plan_of(run), self.rigs.for_tests(run.rig_id))
-        return self.jobs.undo_cancel(run_id, by)
+        back = self.jobs.undo_cancel(run_id, by, State.TO_APPROVE if to_approve else State.QUEUED)
+        if to_approve:
+            self.control.ask_approval("run", run_id, digest_of(run.plan), by)
+        return back
+
+    def undo_until(self, run: Run) -> datetime | None:
+        """Until when the cancel of a run can be undone; None where it can't."""
+        if run.finished_at is None or not undoable(run) or run.deleted_at is not None or run.archived:
+            return None
+        asked = self.control.approval(run.id)
+        return None if asked is not None and asked.decision == "rejected" else run.finished_at + UNDO
 
     def retry(self, run_id: str, by: str) -> Run:
         """Queue the plan of a run that has ended again, on the same rig. Raises Conflict for a run that has not ended."""

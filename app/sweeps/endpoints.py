@@ -110,7 +110,10 @@ def results(
 @router.post("/{sweep_id}/cancel", responses=told(409))
 @allowed(Role.ENGINEER)
 def cancel(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
-    """Cancel a sweep. It stops within a second; the points done are kept, and `resume` executes the others."""
+    """Cancel a sweep. It stops within a second; the points done are kept, and `resume` executes the others.
+
+    A sweep that waits for approval is withdrawn, by the person who submitted it only.
+    """
     sweep = sweeps.cancel(sweep_id, person.by)
     return exports.out(sweep, sweeps.standing(sweep))
 

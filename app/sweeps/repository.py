@@ -52,9 +52,10 @@ class SweepRepository(JobRepository[SweepShard]):
         return self.session.scalar(sa.select(Sweep).where(Sweep.id == sweep_id))
 
     def lock(self, sweep: Sweep) -> None:
-        """Lock a sweep against other writers until the end of the transaction."""
+        """Lock a sweep against other writers until the end of the transaction, and read it as it is now."""
         change = sa.update(Sweep).where(Sweep.number == sweep.number).values(points=Sweep.points)
         self.session.execute(change, execution_options={"synchronize_session": False})
+        self.session.refresh(sweep)
 
     def listed(self, limit: int, offset: int) -> tuple[list[Sweep], int]:
         total = self.session.scalar(sa.select(sa.func.count()).select_from(Sweep)) or 0

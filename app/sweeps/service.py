@@ -174,13 +174,16 @@ class SweepService:
         return self.rows.standings([sweep.number])[sweep.number]
 
     def cancel(self, sweep_id: str, by: str) -> Sweep:
-        """Cancel a sweep: shards that wait end now, running shards end within a second. Raises Conflict where it has ended."""
+        """Cancel a sweep: shards that wait end now, running shards end within a second.
+
+        Raises Conflict where it has ended, and NotYours where it waits for approval and another person submitted it.
+        """
         sweep = self.get(sweep_id)
+        withdrawn = sweep.to_approve and self.control.withdraw(sweep.id, sweep.submitted_by, by)
         self.rows.lock(sweep)
         ids = self.rows.unfinished(sweep)
-        if sweep.to_approve:
+        if withdrawn:
             sweep.to_approve = False
-            self.control.withdrawn(sweep.id, by)
         elif not ids:
             raise Conflict(f"The sweep has already ended: it is {state(sweep, self.standing(sweep))}.")
         sweep.cancelled_by = named(by)

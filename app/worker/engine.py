@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from contextlib import ExitStack
 
-from app.runs.order import Outcome, RunOrder
+from app.runs.order import Outcome, RunOrder, digest_of, is_approved
 from app.worker import client
 from app.worker.child import Line, Refused
 from app.worker.room import room_for
@@ -52,10 +52,8 @@ def execute(order: RunOrder, line: Line) -> Outcome:
 
 def _check_approved(order: RunOrder) -> None:
     """Raise Refused unless the plan is the one that was approved."""
-    from rths_engine.planning.reading import read_plan
-
-    digest = read_plan(order.plan).digest
-    if digest != order.approved:
+    if not is_approved(order.plan, order.approved):
+        digest = digest_of(order.plan)
         raise Refused(f"The plan is not the one that was approved: its digest is {digest}, approved was {order.approved}.")
 
 

@@ -13,12 +13,13 @@ from app.models import EMULATED, RigControl
 from tests.app.conftest import app_of, plan
 
 CONTROL = f"/api/v1/control/{EMULATED}"
+RULES = {"one_driver": False, "approvals": False, "approvers": []}
 
 
 @pytest.fixture
 def driven(client: TestClient) -> TestClient:
     """The service of a laboratory with the rule, whose emulated laboratory Ana drives."""
-    assert client.put("/api/v1/rules", json={"one_driver": True}).status_code == 200
+    assert client.put("/api/v1/rules", json=RULES | {"one_driver": True}).status_code == 200
     assert act(client, "take", "Ana").json()["sentence"] == "Ana drives Emulated laboratory."
     return client
 
@@ -107,6 +108,19 @@ def test_the_control_ends_without_renewal(driven: TestClient) -> None:
         held.until -= timedelta(minutes=11)
     assert driver(driven) is None and act(driven, "renew", "Ana").status_code == 409
     assert act(driven, "take", "Bea").status_code == 200 and driver(driven) == "Bea"
+
+
+@pytest.mark.parametrize("left_out", [*RULES])
+def test_a_rule_that_is_left_out_is_refused_and_switches_nothing_off(driven: TestClient, left_out: str) -> None:
+    given = {name: value for name, value in RULES.items() if name != left_out}
+    refused = driven.put("/api/v1/rules", json=given)
+    assert refused.status_code == 422 and [one["where"] for one in refused.json()["errors"]] == [left_out]
+    assert driven.get("/api/v1/rules").json()["one_driver"]
+
+
+def test_without_accounts_names_are_free(driven: TestClient) -> None:
+    assert act(driven, "hand-over", "Ana", to="Somebody Else").json()["driver"] == "Somebody Else"
+    assert driven.put("/api/v1/rules", json=RULES | {"approvers": ["Bea", "Bea"]}).json()["approvers"] == ["Bea"]
 
 
 def test_bad_requests_say_what_is_wrong(client: TestClient) -> None:

@@ -181,9 +181,17 @@ def test_an_operator_queues_plans_of_the_library_and_no_others(person: Person) -
     assert operator.post(f"{V1}/runs", json={"plan": plan(), "library": library}).status_code == 201
     changed = operator.post(f"{V1}/runs", json={"plan": plan(duration=3.0), "library": library})
     assert changed.status_code == 403 and "as they are" in changed.json()["detail"]
+    for different in ({"pace": {"kind": "real_time", "factor": 1.0}}, {"name": "harmless"}, {"notes": "checked"}):
+        for body in ({"plan": plan(**different)}, {"plans": [plan(), plan(**different)]}):  # no digest sees these
+            refused = operator.post(f"{V1}/runs", json={**body, "library": library})
+            assert refused.status_code == 403 and f", in {next(iter(different))}." in refused.json()["detail"]
     assert operator.post(f"{V1}/runs", json={"plan": plan()}).status_code == 403
     durations = {run["duration_s"] for run in operator.get(f"{V1}/runs?limit=500").json()["runs"]}
     assert durations == {2.0}  # nothing of what was refused is stored
+    assert engineer.post(f"{V1}/library/plans/{kept['id']}/archive").status_code == 200
+    archived = operator.post(f"{V1}/runs", json={"plan": plan(), "library": library})
+    assert archived.status_code == 403 and "Checked plan, version 1, is archived" in archived.json()["detail"]
+    assert engineer.post(f"{V1}/runs", json={"plan": plan(), "library": library}).status_code == 201
 
 
 @pytest.mark.parametrize("path", ["/sign-in", "/sign-in/link", "/sign-in?to=//elsewhere.example"])

@@ -8,13 +8,16 @@ import sqlalchemy as sa
 from fastapi.testclient import TestClient
 
 from app.access import Role
+from app.accounts.service import AccountService
 from app.audit.tables import AuditEntry
+from app.db import unit_of_work
 from app.models import EMULATED
 from tests.app.conftest import app_of, plan
 from tests.app.people import PASSWORD, V1, Person, browser, lab, person, sign_in
 
 __all__ = ["browser", "lab", "person"]
 CONTROL = f"{V1}/control/{EMULATED}"
+RULES = {"one_driver": False, "approvals": False, "approvers": []}
 
 
 def entries(client: TestClient) -> list[AuditEntry]:
@@ -42,18 +45,40 @@ def test_only_engineers_and_administrators_read_the_log(person: Person) -> None:
 
 def test_the_account_drives_and_approves_whatever_name_a_request_gives(lab: TestClient, person: Person) -> None:
     head, driver, other = person(Role.ADMINISTRATOR, "Head"), person(Role.ENGINEER, "Dora"), person(Role.ENGINEER, "Otto")
-    assert other.put(f"{V1}/rules", json={"one_driver": True}).status_code == 403
-    assert head.put(f"{V1}/rules", json={"one_driver": True}).status_code == 200
+    assert other.put(f"{V1}/rules", json=RULES | {"one_driver": True}).status_code == 403
+    assert head.put(f"{V1}/rules", json=RULES | {"one_driver": True}).status_code == 200
     assert driver.post(f"{CONTROL}/take", json={"by": "Otto"}).json()["driver"] == "Dora"
     run = {"plan": plan(), "submitted_by": "Dora"}
     assert other.post(f"{V1}/runs", json=run).status_code == 409
     assert other.post(f"{CONTROL}/take-over", json={"reason": "now"}).status_code == 403
     assert driver.post(f"{V1}/runs", json=run).status_code == 201
-    assert head.put(f"{V1}/rules", json={"approvals": True, "approvers": ["Otto"]}).status_code == 200
+    assert head.put(f"{V1}/rules", json=RULES | {"approvals": True, "approvers": ["Otto"]}).status_code == 200
     waits = driver.post(f"{V1}/runs", json={**run, "submitted_by": "Otto"}).json()["runs"][0]
     assert (waits["state"], waits["submitted_by"]) == ("to approve", "Dora")
-    decision = {"digest": waits["digest"], "by": "Otto"}
+    (seen,) = [one for one in other.get(f"{V1}/approvals").json()["approvals"] if one["id"] == waits["id"]]
+    decision = {"digest": seen["digest"], "by": "Otto"}
     assert driver.post(f"{V1}/approvals/{waits['id']}/approve", json=decision).status_code == 403
     assert other.post(f"{V1}/approvals/{waits['id']}/approve", json=decision).json()["decided_by"] == "Otto"
     last = entries(lab)[-1]
     assert (last.who, last.role, last.signed_in, last.action) == ("Otto", "engineer", "session", "approvals.approve")
+
+
+def test_the_control_and_the_right_to_approve_go_to_accounts_that_may_operate(lab: TestClient, person: Person) -> None:
+    head, driver = person(Role.ADMINISTRATOR), person(Role.ENGINEER)
+    person(Role.OPERATOR, "Eng Neer")
+    person(Role.VIEWER, "Vic Wer")
+    gone = person(Role.OPERATOR, "Gone Away")
+    with unit_of_work(app_of(lab).state.sessions) as session:
+        AccountService(session).disable(AccountService(session).named("gone away"))
+    assert gone is not driver and head.put(f"{V1}/rules", json=RULES).status_code == 200
+    assert driver.post(f"{CONTROL}/take").status_code in {200, 409}
+    assert head.post(f"{CONTROL}/take-over", json={"reason": "a test"}).status_code == 200
+    for nobody in ("No Such Person", "Vic Wer", "Gone Away"):
+        refused = head.post(f"{CONTROL}/hand-over", json={"to": nobody})
+        assert refused.status_code == 422 and refused.json()["errors"][0]["where"] == "to", nobody
+        refused = head.put(f"{V1}/rules", json=RULES | {"approvals": True, "approvers": ["eng neer", nobody]})
+        assert refused.status_code == 422 and [one["where"] for one in refused.json()["errors"]] == ["approvers.1"]
+        assert not head.get(f"{V1}/rules").json()["approvals"]
+    assert head.post(f"{CONTROL}/hand-over", json={"to": " eng NEER"}).json()["driver"] == "Eng Neer"
+    kept = head.put(f"{V1}/rules", json=RULES | {"approvers": ["eng neer", "Eng Neer"]})
+    assert kept.json()["approvers"] == ["Eng Neer"]

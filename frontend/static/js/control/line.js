@@ -3,6 +3,7 @@
 import { api, explain } from "../api.js";
 import { el, renew } from "../dom.js";
 import { person } from "../person.js";
+import { keepingFocus } from "./focus.js";
 import { asked } from "./reason.js";
 
 /** @typedef {{rig_id: string, rig_name: string, driver: string | null, until: string | null, asked_by: string | null, yours: boolean, sentence: string}} Driven */
@@ -68,7 +69,8 @@ export function controlLine(host, wanted, { controls = true } = {}) {
     host.hidden = !one_driver;
     if (!one_driver) return OFF_MS;
     const chosen = rigs.filter(wanted);
-    renew(host, ...chosen.map((/** @type {Driven} */ rig) => line(rig, may_take_over)), ...(note ? [el("p", { class: "note" }, note)] : []));
+    const lines = chosen.map((/** @type {Driven} */ rig) => line(rig, may_take_over));
+    keepingFocus(host, () => renew(host, ...lines, ...(note ? [el("p", { class: "note" }, note)] : [])));
     const mine = rigs.filter((/** @type {Driven} */ { yours }) => yours);
     if (controls && mine.length && document.visibilityState === "visible" && Date.now() - renewed > RENEW_MS) {
       renewed = Date.now();

@@ -26,7 +26,7 @@ const acts = {
   /** @param {string} id */ top: (id) => move([id], { to: "top" }),
   /** @param {string} id */ cancel: (id) => cancel([id]),
   /** @param {string} id @param {number} priority */
-  priority: (id, priority) => change("/queue/priority", { runs: [id], priority }),
+  priority: (id, priority) => prioritise([id], priority),
   select: bulk,
 };
 
@@ -37,7 +37,10 @@ function step(id, by) {
 }
 
 /** @param {string[]} runs @param {object} place */
-const move = (runs, place) => change("/queue/order", { runs, ...place });
+const move = (runs, place) => change("/queue/order", { runs, ...place, by: person() });
+
+/** @param {string[]} runs @param {number} priority */
+const prioritise = (runs, priority) => change("/queue/priority", { runs, priority, by: person() });
 
 /** Send a change; its answer is the new queue. @param {string} path @param {object} data */
 async function change(path, data) {
@@ -179,7 +182,7 @@ byId("select-all").addEventListener("change", (/** @type {any} */ event) => {
 byId("bulk-top").addEventListener("click", () => move(selected(), { to: "top" }));
 byId("bulk-cancel").addEventListener("click", () => cancel(selected()));
 byId("bulk-priority").addEventListener("change", (/** @type {any} */ event) => {
-  change("/queue/priority", { runs: selected(), priority: Number(event.target.value) });
+  prioritise(selected(), Number(event.target.value));
   event.target.value = "";
 });
 byId("undo-list").addEventListener("click", (/** @type {any} */ event) => {

@@ -6,7 +6,7 @@ import { ended } from "./facts.js";
 /** The button that cancels a test which has not ended. @param {any} run @param {(button: HTMLButtonElement) => void} stop @returns {HTMLElement[]} */
 export function cancelling(run, stop) {
   if (ended(run.state)) return [];
-  const cancel = el("button", { type: "button", class: "quiet stop", "data-needs": "operator", on: { click: () => stop(cancel) } }, "Cancel this test");
+  const cancel = el("button", { type: "button", class: "quiet stop", "data-needs": "operator", on: { click: () => stop(cancel) } }, run.state === "to approve" ? "Withdraw this test" : "Cancel this test");
   return [cancel];
 }
 

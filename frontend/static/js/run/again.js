@@ -1,5 +1,5 @@
 // @ts-check
-// What can be done with a test that has ended: retry it, or undo a cancel in the queue.
+// What can be done with a test that has ended: retry it, or undo a cancel in the queue while that is possible.
 import { api, explain } from "../api.js";
 import { el } from "../dom.js";
 import { person } from "../person.js";
@@ -21,5 +21,6 @@ export function again(run, refused, changed) {
   const button = (/** @type {string} */ label, /** @type {() => void} */ click) =>
     el("button", { type: "button", class: "quiet", "data-needs": "operator", on: { click } }, label);
   const retry = button("Retry this test", act("retry", (one) => location.assign(`/runs/${one.id}`)));
-  return run.state === "cancelled" && !run.started_at ? [button("Undo the cancel", act("undo-cancel", changed)), retry] : [retry];
+  const undoable = run.undo_until && new Date(run.undo_until) > new Date();
+  return undoable ? [button("Undo the cancel", act("undo-cancel", changed)), retry] : [retry];
 }
