@@ -53,8 +53,10 @@ CONTROLS: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("library/save_dialog.js", 'POST "/library/plans"'): ((), ("new.html#keep",)),
     ("queue/approvals.js", "POST `/approvals/${one.id}/${what}`"): (
         ("POST /approvals/1/approve", "POST /approvals/1/reject"),
-        ("queue/approvals.js `Approve ", "queue/approvals.js `Reject ${called}`, on"),
+        ('queue/approvals.js button("Approve"',),
     ),
+    ("queue/approvals.js", "POST `/runs/${one.id}/cancel`"): ((), ("queue/approvals.js api.post(`/runs/",)),
+    ("queue/approvals.js", "POST `/sweeps/${one.id}/cancel`"): ((), ("queue/approvals.js api.post(`/sweeps/",)),
     ("queue/page.js", "POST path"): (
         tuple(f"POST /queue/{what}" for what in ("order", "priority", "hold", "release")),
         (

@@ -15,17 +15,29 @@ import { counted, paceWords, span } from "./words.js";
 const POLL_MS = 5000;
 const SHOWN = 8; // characters of a digest
 
-/** Send a decision, or a withdrawal. @param {string} path @param {string} done @param {object} [given] */
-async function decide(path, done, given) {
+/** Send a decision, or a withdrawal, and say what became of it. @param {Waiting} one @param {string} done @param {() => Promise<unknown>} send */
+async function change(one, done, send) {
   const refusal = byId("approvals-refusal");
   try {
-    await api.post(path, { by: person(), ...given });
+    await send();
     refusal.textContent = "";
-    toast(done);
+    toast(`${called(one)}: ${done}.`);
   } catch (error) {
     refusal.textContent = explain(error);
   }
   await show();
+}
+
+/** @param {Waiting} one @param {string} what @param {object} given */
+const decide = (one, what, given) => api.post(`/approvals/${one.id}/${what}`, { by: person(), ...given });
+
+/** @param {Waiting} one */
+const called = (one) => `${one.about === "run" ? "Run" : "Sweep"} ${one.number}, ${one.name}`;
+
+/** @param {Waiting} one */
+async function reject(one) {
+  const reason = await asked(`Reject ${called(one)}`, "Reason, which the submitter reads", "Reject the submission");
+  if (reason) await change(one, "rejected", () => decide(one, "reject", { reason }));
 }
 
 /** What a person reads before the decision. @param {Waiting} one */
@@ -36,28 +48,29 @@ function facts(one) {
   return el("small", {}, `${extent.join(", ")}. Submitted by ${one.asked_by} ${when(one.asked_at)}. Digest `, digest, ...plan);
 }
 
+/** What the person of this page may do about it. @param {Waiting} one */
+function buttons(one) {
+  /** @param {string} label @param {string} kind @param {string} needs @param {() => unknown} click */
+  const button = (label, kind, needs, click) =>
+    el("button", { type: "button", class: kind, "data-needs": needs, "aria-label": `${label.replace(" …", "")} ${called(one)}`, on: { click } }, label);
+  /** @param {() => Promise<unknown>} send */
+  const withdraw = (send) => () => change(one, "withdrawn", send);
+  const by = { by: person() };
+  if (one.own && one.about === "run") return [button("Withdraw", "quiet small", "operator", withdraw(() => api.post(`/runs/${one.id}/cancel`, by)))];
+  if (one.own) return [button("Withdraw", "quiet small", "engineer", withdraw(() => api.post(`/sweeps/${one.id}/cancel`, by)))];
+  if (one.refusal) return [];
+  const approve = () => change(one, "approved", () => decide(one, "approve", { digest: one.digest }));
+  return [button("Approve", "small", "operator", approve), button("Reject …", "quiet small", "operator", () => reject(one))];
+}
+
 /** @param {Waiting} one */
 function item(one) {
-  const called = `${one.about === "run" ? "Run" : "Sweep"} ${one.number}, ${one.name}`;
-  const reject = async () => {
-    const reason = await asked(`Reject ${called}`, "Reason, which the submitter reads", "Reject the submission");
-    if (reason) await decide(`/approvals/${one.id}/reject`, `${called}: rejected.`, { reason });
-  };
-  /** @param {string} label @param {string} kind @param {string} role @param {() => unknown} click */
-  const button = (label, kind, role, click) => el("button", { type: "button", class: kind, "data-needs": role, "aria-label": `${label.replace(" …", "")} ${called}`, on: { click } }, label);
-  const buttons = one.own
-    ? [button("Withdraw", "quiet small", one.about === "run" ? "operator" : "engineer", () => decide(`/${one.about}s/${one.id}/cancel`, `${called}: withdrawn.`))]
-    : one.refusal
-      ? []
-      : [
-          button("Approve", "small", "operator", () => decide(`/approvals/${one.id}/approve`, `${called}: approved.`, { digest: one.digest })),
-          button("Reject …", "quiet small", "operator", reject),
-        ];
+  const why = one.refusal ? [el("small", { class: "muted" }, one.refusal)] : [];
   return el(
     "li",
     {},
-    el("div", {}, el("a", { href: `/${one.about}s/${one.id}` }, called), facts(one), ...(one.refusal ? [el("small", { class: "muted" }, one.refusal)] : [])),
-    el("div", { class: "actions" }, ...buttons),
+    el("div", {}, el("a", { href: `/${one.about}s/${one.id}` }, called(one)), facts(one), ...why),
+    el("div", { class: "actions" }, ...buttons(one)),
   );
 }
 
