@@ -9,7 +9,8 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.config import Settings, is_form
-from app.problems import problem, too_large
+from app.pace import TooSlow, paced
+from app.problems import problem, too_large, too_slow
 
 # Chosen: 500 plans of 100 storeys have 65 000 objects and lists, 260 000 texts, and 12 levels; an object has 60 keys at most.
 DEEPEST, MOST_CONTAINERS, MOST_TEXTS, MOST_DIGITS, MOST_KEYS = 40, 100_000, 400_000, 400, 2000
@@ -23,6 +24,8 @@ _DIGITS = re.compile(rb"[0-9]{%d}" % (MOST_DIGITS + 1))
 class Bodies:
     """ASGI middleware that reads the body of a request without files up to its limit, and refuses JSON that is out of shape.
 
+    A body that trickles gets 408: app/pace.py.
+
     Forms with files pass: the framework writes them to disk and counts their bytes.
     """
 
@@ -34,11 +37,16 @@ class Bodies:
             await self.app(scope, receive, send)
             return
         kind = Headers(scope=scope).get("content-type", "")
+        receive = paced(receive)
         if is_form(kind):
             await self.app(scope, receive, send)
             return
         limit = self.limit(scope["path"], kind)
-        body = await _read(receive, limit)
+        try:
+            body = await _read(receive, limit)
+        except TooSlow as slow:
+            await too_slow(slow.detail)(scope, receive, send)
+            return
         if body is None:
             await too_large(limit)(scope, receive, send)
             return

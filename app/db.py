@@ -78,9 +78,20 @@ def connect(url: str) -> sa.Engine:
     return engine
 
 
+class Reopened(Session):
+    """A session that is opened anew in the process of a calculation: a service goes there with its session."""
+
+    def __reduce__(self) -> tuple[Callable[[str], Session], tuple[str]]:
+        return _reopened, (self.get_bind().engine.url.render_as_string(hide_password=False),)
+
+
+def _reopened(url: str) -> Session:
+    return sessions(connect(url))()
+
+
 def sessions(engine: sa.Engine) -> sessionmaker[Session]:
     """The factory of sessions; their rows stay readable after a commit."""
-    return sessionmaker(engine, expire_on_commit=False)
+    return sessionmaker(engine, class_=Reopened, expire_on_commit=False)
 
 
 def now(session: Session) -> datetime:

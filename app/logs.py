@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from datetime import UTC, datetime
 
+from app.repeats import Bounded
+
 TEXT, JSON = "text", "json"
 FORMATS = (TEXT, JSON)
 LEVELS = ("debug", "info", "warning", "error")
@@ -43,11 +45,13 @@ def about(**names: str) -> Iterator[None]:
 def configure(form: str, level: str, **always: str) -> None:
     """Write the events of this program and of its libraries to standard error; `always` names stand on every line.
 
+    Refusals and warnings that repeat are counted instead: app/repeats.py.
+
     Processes that this process starts write likewise: they call `inherit`.
     """
     _always.update(always)
     os.environ.update({FORMAT_KEY: form, LEVEL_KEY: level})
-    handler = logging.StreamHandler(sys.stderr)
+    handler = Bounded(sys.stderr, fields)
     handler.setFormatter(JsonLines() if form == JSON else TextLines())
     logging.root.handlers[:] = [handler]
     logging.root.setLevel(level.upper())

@@ -122,7 +122,7 @@ def _statuses(method: str, path: str, operation: dict[str, Any]) -> Iterator[int
     if "{" in path:
         yield 404
     if "requestBody" in operation:
-        yield from (400, 413, 415, 422)
+        yield from (400, 408, 413, 415, 422)
     elif any(one["in"] == "query" for one in operation.get("parameters", [])):
         yield 422
 

@@ -30,6 +30,7 @@ TITLES = {
     404: "Not found",
     405: "Method not allowed",
     409: "Conflict",
+    408: "Request timeout",
     413: "Payload too large",
     415: "Unsupported media type",
     421: "Misdirected request",
@@ -98,6 +99,13 @@ def _disk_error(_: Request, error: Exception) -> Response:
         raise error
     log.error("the disk is full: %s", error)
     return storage_full(f"The disk of the service is full. Nothing was stored; what is stored stays readable. {FIX}.")
+
+
+def too_slow(why: str) -> Response:
+    """The response 408 to a request whose body comes too slowly. The connection is closed after it."""
+    answer = problem(408, f"{why}. Send the request again, over a faster connection.")
+    answer.headers["Connection"] = "close"
+    return answer
 
 
 def too_large(limit: int) -> Response:

@@ -11,9 +11,10 @@ An endpoint without a database returns it, and the process makes the JSON:
     def predict(plan: PlanData) -> Response:
         return Calculated(STABILITY, predicted, plan)
 
-An endpoint that gathers rows first does the same: its session ends before the calculation begins. A function that makes a
-file returns `Made`. A coroutine that goes on with the result awaits `of_request(request, STABILITY, predicted, plan)`; an
-endpoint in a thread takes the dependency `Calculating` and calls `calculate(STABILITY, predicted, plan)`.
+An endpoint that reads rows passes its service: the process has a session of its own (app/calculations/orders.py), and that of
+the request ends before the calculation begins. A function that makes a body returns `Made`; one that writes a large download
+is given to `CalculatedFile`. An endpoint that goes on with the result takes the dependency `Calculating` and calls
+`calculate(STABILITY, predicted, plan)`. What each route costs at most is declared in tests/app/bounds.py.
 
 The errors that the function raises are raised in the web process: NotFound, Conflict and RthsError are answered as ever.
 A calculation that exceeds its processor time or its memory is refused with 422 and the bound. Waiting for a place is bounded

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import functools
+import tempfile
+import uuid
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, ParamSpec, TypeVar
+from pathlib import Path
+from typing import Annotated, Any, Concatenate, ParamSpec, TypeVar
 
 import anyio.from_thread
 from fastapi import Depends, Request
 from pydantic_core import to_json
-from starlette.responses import Response
+from starlette.responses import FileResponse, Response
 from starlette.types import Receive, Scope, Send
 
 from app.access import PERSON, SignedIn
 from app.calculations.bound import Bound
-from app.calculations.calculations import Calculations, ClientLeft
+from app.calculations.calculations import Calculations, ClientLeft, Reply, result
+from app.calculations.orders import Here, order
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -36,15 +40,43 @@ class Calculated(Response):
 
     def __init__(self, bound: Bound, function: Callable[P, Any], /, *arguments: P.args, **named: P.kwargs):
         super().__init__()
-        self.bound, self.function = bound, functools.partial(function, *arguments, **named)
+        self.bound, self.ordered = bound, order(bound, made_by, (functools.partial(function, *arguments, **named),), {})
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         try:
-            made = await _of(scope, receive, self.bound, made_by, self.function)
+            made: Made = result(self.bound, await _reply(scope, receive, self.bound, self.ordered))
         except ClientLeft:
             return
         headers = {**made.headers, **{name.decode(): text.decode() for name, text in self.raw_headers if name == b"set-cookie"}}
         await Response(made.content, self.status_code, headers, made.media_type, self.background)(scope, receive, send)
+
+
+class CalculatedFile(Response):
+    """A download that a calculation writes: `write(path, ...)` in its process. The file is removed when it was sent."""
+
+    def __init__(
+        self,
+        bound: Bound,
+        name: str,
+        media_type: str,
+        write: Callable[Concatenate[Path, P], None],
+        /,
+        *arguments: P.args,
+        **named: P.kwargs,
+    ):
+        super().__init__()
+        self.bound, self.name, self.kind = bound, name, media_type
+        self.path = Path(tempfile.gettempdir()) / f"download-{uuid.uuid4()}"
+        self.ordered = order(bound, write, (self.path, *arguments), named)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            result(self.bound, await _reply(scope, receive, self.bound, self.ordered))
+            await FileResponse(self.path, media_type=self.kind, filename=self.name)(scope, receive, send)
+        except ClientLeft:
+            return
+        finally:
+            self.path.unlink(missing_ok=True)
 
 
 class Calculator:
@@ -53,14 +85,13 @@ class Calculator:
     def __init__(self, request: Request):
         self.request = request
 
+    def __reduce__(self) -> tuple[type[Here], tuple[()]]:
+        return Here, ()
+
     def __call__(self, bound: Bound, function: Callable[P, T], /, *arguments: P.args, **named: P.kwargs) -> T:
-        call = functools.partial(of_request, self.request, bound, function, *arguments, **named)
-        return anyio.from_thread.run(call)
-
-
-async def of_request(request: Request, bound: Bound, function: Callable[P, T], /, *arguments: P.args, **named: P.kwargs) -> T:
-    """The result of a calculation for the client of a request; see Calculations.do."""
-    return await _of(request.scope, request.receive, bound, function, *arguments, **named)
+        ordered = order(bound, function, arguments, named)
+        found: T = result(bound, anyio.from_thread.run(_reply, self.request.scope, self.request.receive, bound, ordered))
+        return found
 
 
 def made_by(function: Callable[[], Any]) -> Made:
@@ -77,15 +108,13 @@ def calculator(request: Request) -> Calculator:
 Calculating = Annotated[Calculator, Depends(calculator)]
 
 
-async def _of(
-    scope: Scope, receive: Receive, bound: Bound, function: Callable[P, T], /, *arguments: P.args, **named: P.kwargs
-) -> T:
+async def _reply(scope: Scope, receive: Receive, bound: Bound, ordered: bytes) -> Reply:
     async def left() -> None:
         while (await receive())["type"] != "http.disconnect":
             pass
 
     calculations: Calculations = scope["app"].state.calculations
-    return await calculations.do(client_of(scope), left, bound, function, *arguments, **named)
+    return await calculations.reply(client_of(scope), left, bound, ordered)
 
 
 def client_of(scope: Scope) -> str:

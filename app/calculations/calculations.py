@@ -9,6 +9,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any, ParamSpec, TypeVar
 
 from app.calculations.bound import Bound
+from app.calculations.orders import order
 from app.calculations.processes import Died, Processes, shared
 from app.calculations.turns import Turns
 from app.calculations.wire import Said
@@ -17,6 +18,7 @@ from rths_engine.foundation.errors import Issue, RthsError
 
 P = ParamSpec("P")
 T = TypeVar("T")
+Reply = tuple[Said, bytes]
 
 
 class ClientLeft(Unavailable):
@@ -45,8 +47,12 @@ class Calculations:
 
         Raises what the function raises, RthsError beyond a bound, Unavailable without a place or an answer, and ClientLeft.
         """
-        order = pickle.dumps((function, arguments, named, bound.seconds, bound.megabytes), pickle.HIGHEST_PROTOCOL)
-        work = asyncio.ensure_future(self._done(client, bound, order))
+        found: T = result(bound, await self.reply(client, left, bound, order(bound, function, arguments, named)))
+        return found
+
+    async def reply(self, client: str, left: Callable[[], Awaitable[object]], bound: Bound, ordered: bytes) -> Reply:
+        """The reply of a process to an order, for `result`. Raises as `do`, except what the function raises."""
+        work = asyncio.ensure_future(self._done(client, bound, ordered))
         gone = asyncio.ensure_future(left())
         try:
             await asyncio.wait({work, gone}, return_when=asyncio.FIRST_COMPLETED)
@@ -56,24 +62,28 @@ class Calculations:
             for task in (work, gone):
                 task.cancel()
             await asyncio.gather(work, gone, return_exceptions=True)
-        found: T = work.result()
-        return found
+        return work.result()
 
-    async def _done(self, client: str, bound: Bound, order: bytes) -> Any:
+    async def _done(self, client: str, bound: Bound, ordered: bytes) -> Reply:
         turns = self.long if bound.long else self.short
         async with turns.turn(client):
             try:
                 async with asyncio.timeout(bound.patience_s):
-                    kind, body = await self.processes.ask(order)
+                    return await self.processes.ask(ordered)
             except TimeoutError:
                 late = f"The {bound.noun} did not answer within {bound.patience_s:g} s. The machine is busy: try again later."
                 raise Unavailable(late) from None
             except Died as died:
                 raise _exceeded(bound, died) from None
-        found = pickle.loads(body)
-        if kind == Said.RAISED:
-            raise _exceeded(bound) if isinstance(found, MemoryError) else found
-        return found
+
+
+def result(bound: Bound, reply: Reply) -> Any:
+    """What a process replied: the result of its function. Raises what the function raised."""
+    kind, body = reply
+    found = pickle.loads(body)
+    if kind == Said.RAISED:
+        raise _exceeded(bound) if isinstance(found, MemoryError) else found
+    return found
 
 
 def _exceeded(bound: Bound, died: Died | None = None) -> Exception:

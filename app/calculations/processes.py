@@ -24,6 +24,14 @@ PREPARED = (
     "app.stability.service",
     "app.calculations.answer",
     "app.preflight.calculation:load",
+    "app.measured.endpoints",
+    "app.measured.batch_endpoints",
+    "app.motions.endpoints",
+    "app.compare.endpoints",
+    "app.library.endpoints",
+    "app.sweeps.analysis_endpoints",
+    "app.publishing.endpoints",
+    "app.publishing.run_endpoints",
 )
 """What the server loads before the first calculation needs it, in this order: modules, and functions that load more."""
 DIED = "The process of the calculations ended unexpectedly. Try again in a moment."

@@ -18,8 +18,11 @@ _open: dict[str, set[asyncio.Transport]] = {}
 class Bounded(AutoHTTPProtocol):  # type: ignore[misc,valid-type]
     """The protocol of a connection. An address that has MOST_OF_ADDRESS connections gets no more, so that others get theirs.
 
-    A connection whose first request is not complete after FIRST_REQUEST_S is closed.
+    A connection whose first request is not complete after FIRST_REQUEST_S is closed, and so is one on which the head of a
+    later request, or a body that nobody reads any more, trickles for as long.
     """
+
+    _due: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:
         """Take the connection, or close it at once."""
@@ -33,9 +36,24 @@ class Bounded(AutoHTTPProtocol):  # type: ignore[misc,valid-type]
         _open[address] = known | {transport}
         asyncio.get_running_loop().call_later(FIRST_REQUEST_S, self._close_without_request)
 
+    def data_received(self, data: bytes) -> None:
+        """Take what came; between requests, a whole head must follow in time."""
+        super().data_received(data)
+        if self._due is None and self.cycle is not None and self.cycle.response_complete:
+            self._due = asyncio.get_running_loop().call_later(FIRST_REQUEST_S, self._close_without_next, self.cycle)
+
+    def _close_without_next(self, last: Any) -> None:
+        self._due = None
+        if self.cycle is last:
+            self._close()
+
     def _close_without_request(self) -> None:
-        idle = self.cycle is None and self.transport is not None and not self.transport.is_closing()
-        if idle and self.transport.get_protocol() is self:  # else it became a websocket
+        if self.cycle is None:
+            self._close()
+
+    def _close(self) -> None:
+        there = self.transport is not None and not self.transport.is_closing()
+        if there and self.transport.get_protocol() is self:  # else it became a websocket
             self.transport.close()
 
 

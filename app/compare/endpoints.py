@@ -2,36 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated
 
 from fastapi import APIRouter, Query
 from fastapi.responses import Response
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculated, Made
+from app.calculations.bound import Bound
 from app.compare.dependency import Comparisons
 from app.compare.schemas import CandidateOut, ComparisonOut, PreviousOut
+from app.compare.service import CompareService
 from app.compare.signals import Shown
 from app.openapi import file, told
 
 router = APIRouter(prefix="/api/v1/compare", tags=["compare"])
+COMPARISON = Bound("comparison", seconds=60, megabytes=4000, mend="compare fewer or shorter recordings")
 Items = Annotated[
     list[str], Query(description="2 to 20 items, `run:ID` or `recording:ID`, with commas or repeated", max_length=100)
 ]
 Seconds = Annotated[float | None, Query(allow_inf_nan=False)]
 
 
-@router.get("", responses=told(404, 409))
+@router.get("", response_model=ComparisonOut, responses=told(404, 409, 503))
 @allowed(Role.VIEWER)
-def compare(items: Items, comparisons: Comparisons, reference: Annotated[str, Query(max_length=80)] = "") -> ComparisonOut:
+def compare(items: Items, comparisons: Comparisons, reference: Annotated[str, Query(max_length=80)] = "") -> Response:
     """Compare runs and imported recordings: the plan fields that differ, and measures with differences to the reference.
 
     The reference is the first item, or the one named by `reference`. `notes` says in words what an overlay of curves does not
     show, such as excitations that differ.
     """
-    return comparisons.compare(items, reference)
+    return Calculated(COMPARISON, comparisons.compare, items, reference)
 
 
-@router.get("/signals", response_class=Response, responses=file("application/octet-stream") | told(404, 409))
+@router.get("/signals", response_class=Response, responses=file("application/octet-stream") | told(404, 409, 503))
 @allowed(Role.VIEWER)
 def signals(
     items: Items,
@@ -50,8 +55,11 @@ def signals(
     value of at most `points` equal parts) or `samples` (every n-th sample, for loops). With `from_start`, the times of an
     imported recording count from its first sample.
     """
-    body = comparisons.signals(items, Shown(station, floor, from_s, to_s, points, from_start))
-    return Response(body, media_type="application/octet-stream")
+    return Calculated(COMPARISON, _signals, comparisons, items, Shown(station, floor, from_s, to_s, points, from_start))
+
+
+def _signals(comparisons: CompareService, items: Sequence[str], shown: Shown) -> Made:
+    return Made(comparisons.signals(items, shown), "application/octet-stream")
 
 
 @router.get("/candidates")

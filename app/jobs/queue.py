@@ -29,6 +29,10 @@ class DurableQueue:
     def __init__(self, engine: sa.Engine):
         self.client = DBOSClient(system_database_engine=engine, application_name=APPLICATION)
 
+    def __reduce__(self) -> tuple[type[None], tuple[()]]:
+        """A calculation gets None: its process queues nothing."""
+        return type(None), ()
+
     def enqueue(self, session: Session, kind: Kind[Any, Any, Any], ids: Sequence[str]) -> None:
         """Queue a turn for each id: the id of a job, or of a further turn of an ordered kind."""
         for job_id in ids:

@@ -7,10 +7,12 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query, Request
 from fastapi import Path as InPath
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import PlainTextResponse, Response
+from fastapi.responses import Response
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculated, Made
+from app.calculations.bound import Bound
 from app.library.dependency import Comparisons, KeptPlans
 from app.library.repository import Wanted
 from app.library.schemas import (
@@ -27,6 +29,7 @@ from app.library.schemas import (
     SavedOut,
     VersionDetail,
 )
+from app.library.service import LibraryService
 from app.openapi import file, told
 from app.plans.dependency import Plans
 from app.runs.schemas import Asking
@@ -34,6 +37,8 @@ from app.text import PersonName
 
 router = APIRouter(prefix="/api/v1/library", tags=["library of plans"])
 YAML: dict[str, Any] = {"requestBody": {"required": True, "content": {"application/yaml": {"schema": {"type": "string"}}}}}
+TEXT = Bound("YAML of the plan", seconds=20, megabytes=2000, mend="read the plan as JSON")
+DIFFERENCES = Bound("comparison of the plans", seconds=20, megabytes=2000, mend="compare shorter plans")
 NumberOfVersion = Annotated[int, InPath(ge=1, le=10**6, description="number of the version, from 1")]
 
 
@@ -124,13 +129,12 @@ def version(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> Version
 @router.get(
     "/plans/{plan_id}/versions/{version}/plan.yaml",
     response_class=Response,
-    responses=file("application/yaml") | told(422),
+    responses=file("application/yaml") | told(422, 503),
 )
 @allowed(Role.VIEWER)
-def text(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> PlainTextResponse:
+def text(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> Response:
     """One version of a plan as YAML."""
-    headers = {"Content-Disposition": f'attachment; filename="{plan_id}-version-{version}.yaml"'}
-    return PlainTextResponse(plans.yaml(plan_id, version), media_type="application/yaml", headers=headers)
+    return Calculated(TEXT, _text, plans, plan_id, version)
 
 
 @router.post("/plans/{plan_id}/duplicate", status_code=201, responses=told(409))
@@ -166,12 +170,17 @@ def runs(
     return plans.runs(plan_id, limit, offset)
 
 
-@router.get("/differences", responses=told(404))
+@router.get("/differences", response_model=DifferencesOut, responses=told(404, 503))
 @allowed(Role.VIEWER)
 def differences(
     comparisons: Comparisons,
     first: Annotated[str, Query(max_length=120)],
     second: Annotated[str, Query(max_length=120)],
-) -> DifferencesOut:
+) -> Response:
     """The fields in which two plans differ. Each plan is `version:ID:NUMBER`, `run:ID`, `draft:ID` or `template:NAME`."""
-    return comparisons.differences(first, second)
+    return Calculated(DIFFERENCES, comparisons.differences, first, second)
+
+
+def _text(plans: LibraryService, plan_id: str, version: int) -> Made:
+    headers = {"Content-Disposition": f'attachment; filename="{plan_id}-version-{version}.yaml"'}
+    return Made(plans.yaml(plan_id, version).encode(), "application/yaml", headers)

@@ -10,13 +10,13 @@ from fastapi.responses import PlainTextResponse, Response
 from app.access import Role, allowed
 from app.measured.dependency import Batches
 from app.measured.schemas import BatchList, BatchOut, BatchSummary
-from app.openapi import file
+from app.openapi import file, told
 from app.text import PersonName, Storable
 
 router = APIRouter(prefix="/api/v1/recordings/batches", tags=["recordings"])
 
 
-@router.post("", status_code=201)
+@router.post("", status_code=201, responses=told(503))
 @allowed(Role.ENGINEER)
 def add(
     batches: Batches,

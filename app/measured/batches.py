@@ -4,26 +4,31 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from datetime import UTC, datetime
 from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import BinaryIO
 
 from app.db import afterwards
+from app.measured import calculation
 from app.measured.batch_rows import BatchRows
+from app.measured.calculation import BATCH, Given, Made
+from app.measured.raw_files import Upload
 from app.measured.schemas import BatchOut, BatchSummary
-from app.measured.service import NOBODY, MeasuredService, read_mapping, storable
+from app.measured.service import MAPPING, NOBODY, MeasuredService, read_mapping, storable
 from app.models import ImportBatch, MeasuredRecording
 from app.problems import NotFound
+from app.store.filed import MEASURED
 from app.text import cleaned
 from rths_engine.foundation.errors import Issue, MeasuredError
-from rths_engine.recordings.batches import Archive, Item, Limits, Row, listing, run
-from rths_engine.recordings.measured import Mapping, Measured
+from rths_engine.recordings.batches import Archive, Limits, Row, listing
+from rths_engine.recordings.measured import Mapping
 
 # docs/decisions/0028
 MOST_FILES = 200
 UNPACKED = 2  # times the largest request: bytes of all files of the archives of a batch
-SECONDS = 300.0  # for one batch; files that are not read by then are refused
 
 
 class BatchService:
@@ -39,22 +44,29 @@ class BatchService:
         The files are read and written before the first change of a row, so that the database is not locked meanwhile. Raises
         MeasuredError, and stores nothing, where the mapping or an archive is not valid.
         """
-        work = _Work(self.recordings, read_mapping(mapping), imported_by.strip() or NOBODY)
+        by = imported_by.strip() or NOBODY
+        read = self.recordings.calculate(MAPPING, read_mapping, mapping)
         with ExitStack() as stack:
-            stack.callback(work.clear)
-            items = work.items(self._opened(given, stack))
-            found = run(items, work.mapping, work.keep, trust_mapping, SECONDS)
-            work.settle(found.rows)
-            rows = [cleaned(work.added(index, row)) for index, row in enumerate(found.rows)]
+            uploads = [*self._received(self._opened(given, stack), stack)]
+            scratch = TemporaryDirectory(prefix=".batch-", dir=self.recordings.store.scratch(MEASURED))
+            folder = Path(stack.enter_context(scratch))
+            files = [_given(*one) for one in uploads]
+            found, made = self.recordings.calculate(BATCH, calculation.batch, files, read, trust_mapping, folder)
+            ready = {index: self._written(made[index], read, by) for index, row in enumerate(found.rows) if row.imported}
+            for index, row in enumerate(found.rows):
+                upload = uploads[index][1]
+                if row.facts is not None and isinstance(upload, Upload):
+                    self.recordings.keep(upload, storable(row.name))
+            rows = [cleaned(self._added(row, ready.get(index))) for index, row in enumerate(found.rows)]
             batch = ImportBatch(
                 id=str(uuid.uuid4()),
-                mapping=work.mapping.as_dict(),
+                mapping=read.as_dict(),
                 trust_mapping=trust_mapping,
                 reference=found.reference,
                 imported=found.imported,
                 refused=len(rows) - found.imported,
                 rows=rows,
-                imported_by=work.imported_by,
+                imported_by=by,
                 imported_at=datetime.now(UTC),
             )
             self.rows.add(batch)
@@ -100,67 +112,35 @@ class BatchService:
             raise MeasuredError(Issue("files", problem, str(len(files)), "import fewer files at a time"))
         return files
 
-
-class _Work:
-    """The files that one batch stores: raw files, recordings and their rows, until the rows are added."""
-
-    def __init__(self, recordings: MeasuredService, mapping: Mapping, imported_by: str):
-        self.recordings, self.mapping, self.imported_by = recordings, mapping, imported_by
-        self.raw: set[str] = set()
-        self.written: dict[int, MeasuredRecording] = {}
-
-    def items(self, files: Sequence[tuple[str, BinaryIO | Archive]]) -> Iterator[Item]:
-        """Each file, stored under its checksum when it is its turn."""
+    def _received(
+        self, files: Sequence[tuple[str, BinaryIO | Archive]], stack: ExitStack
+    ) -> Iterator[tuple[str, Upload | tuple[Issue, ...]]]:
+        """Each file in a file of its own, or why it cannot be unpacked."""
         for name, source in files:
             try:
-                if isinstance(source, Archive):
-                    with source.open(name) as stream:
-                        sha256, size = self.recordings.raw_files.keep(stream)
-                else:
-                    sha256, size = self.recordings.raw_files.keep(source)
+                with source.open(name) if isinstance(source, Archive) else nullcontext(source) as stream:
+                    upload = stack.enter_context(self.recordings.raw_files.received(stream))
             except MeasuredError as error:
-                yield Item(name, refused=error.issues)
+                yield name, tuple(error.issues)
                 continue
-            self.raw.add(sha256)
-            yield Item(name, size, sha256, partial(self.recordings.raw_files.table, sha256, storable(name)))
+            yield name, upload
 
-    def keep(self, index: int, item: Item, measured: Measured) -> None:
-        """Write the recording of a file; its row is added later."""
-        self.written[index] = self.recordings.written(measured, self.mapping, self.imported_by)
-        self.written[index].filename = storable(item.name)
+    def _written(self, made: Made, mapping: Mapping, by: str) -> MeasuredRecording:
+        """The row of the recording of a file, which is not added yet; its file is removed where the transaction fails."""
+        recording = self.recordings.written(made, mapping, by)
+        recording.filename = storable(recording.filename)
+        afterwards(self.recordings.session, "after_rollback", partial(self.recordings.discard, recording.id))
+        return recording
 
-    def settle(self, found: Sequence[Row]) -> None:
-        """Delete the raw files that cannot be read; those that can be read are deleted if the transaction fails."""
-        readable = {row.sha256 for row in found if row.facts is not None}
-        for sha256 in self.raw & readable:
-            if self.recordings.rows.raw(sha256) is None:
-                afterwards(self.recordings.session, "after_rollback", partial(self.recordings.raw_files.remove, sha256))
-        self.raw -= readable
-        self._forget()
-
-    def added(self, index: int, row: Row) -> dict[str, object]:
-        """The row of the table of a file; the rows of its raw file and of its recording are added.
-
-        A refused file that can be read stays stored for a day, so that it can be imported alone.
-        """
-        rows = self.recordings.rows
-        recording = self.written.get(index) if row.imported else None
-        if row.facts is not None:
-            rows.keep_raw(row.sha256, row.size, storable(row.name))
+    def _added(self, row: Row, recording: MeasuredRecording | None) -> dict[str, object]:
+        """The row of the table of a file. A refused file that can be read stays stored, so that it can be imported alone."""
         if recording is not None:
-            afterwards(self.recordings.session, "after_rollback", partial(self.recordings.discard, recording.id))
-            rows.add(recording)
-            del self.written[index]
+            self.recordings.rows.add(recording)
         return {**listing.as_dict(row), "recording": recording.id if recording is not None else None}
 
-    def clear(self) -> None:
-        """Delete the recordings that were not added, and the raw files that were not settled and that no row needs."""
-        for recording in self.written.values():
-            self.recordings.discard(recording.id)
-        self._forget()
 
-    def _forget(self) -> None:
-        for sha256 in self.raw:
-            if self.recordings.rows.raw(sha256) is None:
-                self.recordings.raw_files.remove(sha256)
-        self.raw.clear()
+def _given(name: str, upload: Upload | tuple[Issue, ...]) -> Given:
+    """A file for the calculation."""
+    if isinstance(upload, Upload):
+        return Given(name, storable(name), upload.path, upload.size, upload.sha256)
+    return Given(name, storable(name), refused=upload)

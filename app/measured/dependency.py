@@ -6,14 +6,15 @@ from typing import Annotated
 
 from fastapi import Depends
 
+from app.calculations.answer import Calculating
 from app.dependencies import Configured, OneSession, OneStore
 from app.measured.batches import UNPACKED, BatchService
 from app.measured.service import MeasuredService
 
 
-def measured_service(session: OneSession, store: OneStore) -> MeasuredService:
+def measured_service(session: OneSession, store: OneStore, calculate: Calculating) -> MeasuredService:
     """The service of measured recordings in the session of the request."""
-    return MeasuredService(session, store)
+    return MeasuredService(session, store, calculate)
 
 
 Recordings = Annotated[MeasuredService, Depends(measured_service)]

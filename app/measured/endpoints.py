@@ -8,7 +8,9 @@ from fastapi import APIRouter, Body, File, Query, UploadFile
 from fastapi.responses import FileResponse, PlainTextResponse, Response
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculated
 from app.measured import shown
+from app.measured.calculation import LARGE_READING
 from app.measured.dependency import Recordings
 from app.measured.schemas import EarlierMapping, Import, Preview, RecordingDetail, RecordingList, RecordingOut, Uploaded
 from app.openapi import file, told
@@ -17,7 +19,7 @@ router = APIRouter(prefix="/api/v1/recordings", tags=["recordings"])
 Seconds = Annotated[float | None, Query(allow_inf_nan=False)]
 
 
-@router.post("/files", status_code=201)
+@router.post("/files", status_code=201, responses=told(503))
 @allowed(Role.ENGINEER)
 def upload(recordings: Recordings, file: Annotated[UploadFile, File()]) -> Uploaded:
     """Upload a file of measurements; the response proposes a mapping.
@@ -27,11 +29,11 @@ def upload(recordings: Recordings, file: Annotated[UploadFile, File()]) -> Uploa
     return recordings.upload(file.file, file.filename or "")
 
 
-@router.get("/files/{sha256}")
+@router.get("/files/{sha256}", response_model=Uploaded, responses=told(404, 409, 422, 503))
 @allowed(Role.VIEWER)
-def uploaded(sha256: str, recordings: Recordings) -> Uploaded:
+def uploaded(sha256: str, recordings: Recordings) -> Response:
     """An uploaded file, with its columns and the proposed mapping."""
-    return recordings.uploaded(sha256)
+    return Calculated(recordings.bound(sha256), recordings.uploaded, sha256)
 
 
 @router.get("/roles")
@@ -48,17 +50,17 @@ def mappings(recordings: Recordings) -> dict[str, list[EarlierMapping]]:
     return {"mappings": recordings.mappings()}
 
 
-@router.post("/preview", responses=told(404))
+@router.post("/preview", response_model=dict[str, Any], responses=told(404, 409, 503))
 @allowed(Role.ENGINEER)
-def preview(asked: Annotated[Preview, Body()], recordings: Recordings) -> dict[str, Any]:
+def preview(asked: Annotated[Preview, Body()], recordings: Recordings) -> Response:
     """Read an uploaded file by a mapping: decimated channels, the findings of the checks, and lags. Nothing is stored.
 
     With `from_s` and `to_s`, the channels show that part of the time, and lags are not computed.
     """
-    return recordings.preview(asked)
+    return Calculated(recordings.bound(asked.file), recordings.preview, asked)
 
 
-@router.post("", status_code=201, responses=told(404))
+@router.post("", status_code=201, responses=told(404, 409, 503))
 @allowed(Role.ENGINEER)
 def add(asked: Annotated[Import, Body()], recordings: Recordings) -> RecordingDetail:
     """Import an uploaded file by a mapping. The mapping is JSON, or YAML as a string."""
@@ -84,11 +86,11 @@ def one(recording_id: str, recordings: Recordings) -> RecordingDetail:
     return RecordingDetail.model_validate(recordings.get(recording_id))
 
 
-@router.get("/{recording_id}/preview", responses=told(409))
+@router.get("/{recording_id}/preview", response_model=dict[str, Any], responses=told(409, 503))
 @allowed(Role.VIEWER)
-def channels(recording_id: str, recordings: Recordings, from_s: Seconds = None, to_s: Seconds = None) -> dict[str, Any]:
+def channels(recording_id: str, recordings: Recordings, from_s: Seconds = None, to_s: Seconds = None) -> Response:
     """The channels of a recording in the units shown: all of its time, or a part of it, decimated to its extremes."""
-    return recordings.channels(recording_id, shown.Part(from_s, to_s))
+    return Calculated(LARGE_READING, recordings.channels, recording_id, shown.Part(from_s, to_s))
 
 
 @router.get("/{recording_id}/recording.h5", response_class=FileResponse, responses=file("application/x-hdf5") | told(409))

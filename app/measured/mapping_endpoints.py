@@ -22,7 +22,7 @@ def listed(recordings: Recordings) -> SavedMappingList:
     return SavedMappingList(mappings=[SavedMappingOut.model_validate(one) for one in recordings.saved.listed()])
 
 
-@router.post("", status_code=201, responses=told(404, 409))
+@router.post("", status_code=201, responses=told(404, 409, 503))
 @allowed(Role.ENGINEER)
 def save(asked: Annotated[NewMapping, Body()], recordings: Recordings) -> SavedMappingOut:
     """Save a mapping under a name. It is proposed again for every file with the layout of `file`.

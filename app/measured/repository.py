@@ -29,6 +29,13 @@ class MeasuredRepository:
         newer = {"filename": filename, "uploaded_at": row["uploaded_at"]}
         self.session.execute(insert.on_conflict_do_update(index_elements=["sha256"], set_=newer))
 
+    def held(self, sha256: str) -> bool:
+        """Hold the place of a file without row until the end of the transaction; returns whether it has none."""
+        row = {"sha256": sha256, "size": 0, "filename": "", "uploaded_at": datetime.now(UTC)}
+        insert = INSERT[self.session.get_bind().dialect.name](RawFile.__table__).values(row)
+        found = self.session.execute(insert.on_conflict_do_nothing(index_elements=["sha256"]))
+        return bool(found.rowcount)  # type: ignore[attr-defined]
+
     def raw(self, sha256: str) -> RawFile | None:
         return self.session.get(RawFile, sha256, populate_existing=True)
 

@@ -8,11 +8,12 @@ from datetime import UTC, datetime
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
+from app.measured.calculation import FileRead
 from app.measured.mapping_rows import MappingRows
 from app.models import SavedMapping
 from app.problems import Conflict, NotFound
 from rths_engine.foundation.errors import Issue, MeasuredError
-from rths_engine.recordings.measured import Mapping, Table, check, fingerprint, mapping_yaml
+from rths_engine.recordings.measured import Mapping, mapping_yaml
 
 
 class SavedMappings:
@@ -21,18 +22,14 @@ class SavedMappings:
     def __init__(self, session: Session):
         self.session, self.rows = session, MappingRows(session)
 
-    def save(self, name: str, mapping: Mapping, table: Table, saved_by: str) -> SavedMapping:
-        """Save a mapping for files of the layout of `table`.
-
-        Raises MeasuredError where the mapping is incomplete or does not fit the table, Conflict where the name is taken.
-        """
-        check(table, mapping)
+    def save(self, name: str, mapping: Mapping, file: FileRead, saved_by: str) -> SavedMapping:
+        """Save a mapping, which fits a file, for files of its layout. Raises Conflict where the name is taken."""
         saved = SavedMapping(
             id=str(uuid.uuid4()),
             name=self._free(name),
-            layout=fingerprint(table),
-            format=table.format,
-            columns=[{"name": one.name, "unit": one.unit} for one in table.columns],
+            layout=file.layout,
+            format=file.format,
+            columns=file.columns,
             mapping={**mapping.as_dict(), "title": ""},
             saved_by=saved_by,
             saved_at=datetime.now(UTC),
@@ -46,9 +43,9 @@ class SavedMappings:
     def listed(self) -> list[SavedMapping]:
         return self.rows.listed()
 
-    def fitting(self, table: Table) -> list[SavedMapping]:
-        """The mappings that were saved for files of the layout of `table`, newest first."""
-        return self.rows.listed(fingerprint(table))
+    def fitting(self, layout: str) -> list[SavedMapping]:
+        """The mappings that were saved for files of a layout, newest first."""
+        return self.rows.listed(layout)
 
     def get(self, mapping_id: str) -> SavedMapping:
         saved = self.rows.get(mapping_id)

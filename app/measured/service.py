@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import uuid
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -12,10 +13,13 @@ from typing import Any, BinaryIO
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
-from app import contents
+from app.calculations.answer import Calculator
+from app.calculations.bound import Bound
+from app.calculations.orders import Here
 from app.db import afterwards
-from app.measured import shown
-from app.measured.raw_files import RawFiles
+from app.measured import calculation, shown
+from app.measured.calculation import FileRead, Made, bound_of
+from app.measured.raw_files import RawFiles, Upload
 from app.measured.repository import MeasuredRepository
 from app.measured.saved_mappings import SavedMappings
 from app.measured.schemas import EarlierMapping, Import, NewMapping, Preview, SavedMappingOut, Uploaded
@@ -26,87 +30,88 @@ from app.store.filed import MEASURED, Filed, of_measured
 from app.text import refuse_unstorable
 from rths_engine import __version__
 from rths_engine.foundation import files
-from rths_engine.foundation.errors import MeasuredError
-from rths_engine.recordings.measured import Mapping, Measured, Table, examine, fingerprint, guess, imported, mapping_yaml, save
+from rths_engine.recordings.measured import Mapping, mapping_yaml
 from rths_engine.recordings.opening import load
 
 KEPT_UNUSED = timedelta(days=1)  # a file from which nothing is imported
 EARLIER = 200  # imports among which a mapping is looked for
 NOBODY = "unnamed"
+MAPPING = Bound("reading of the mapping", seconds=10, megabytes=1000, mend="use fewer columns", where="mapping")
+HERE = Here()
 
 
 class MeasuredService:
     """Rules of measured recordings: upload, preview, import and remove. No SQL, no HTTP."""
 
-    def __init__(self, session: Session, store: Store):
-        self.session, self.store = session, store
+    def __init__(self, session: Session, store: Store, calculate: Calculator | Here = HERE):
+        self.session, self.store, self.calculate = session, store, calculate
         self.rows, self.raw_files = MeasuredRepository(session), RawFiles(store)
         self.saved = SavedMappings(session)
 
     def upload(self, stream: BinaryIO, filename: str) -> Uploaded:
         """Store a file that can be read. Raises MeasuredError for any other file, and stores nothing of it."""
         name = storable(filename)
-        sha256, size = self.raw_files.keep(stream)
-        if self.rows.raw(sha256) is None:
-            afterwards(self.session, "after_rollback", lambda: self.raw_files.remove(sha256))
-        table = self.raw_files.table(sha256, name)
-        self.rows.keep_raw(sha256, size, name)
+        with self.raw_files.received(stream) as upload:
+            found = self.calculate(bound_of(upload.size), calculation.facts, upload.path, name)
+            self.keep(upload, name)
         for old in self.rows.abandoned(datetime.now(UTC) - KEPT_UNUSED):
             self._forget_raw(old)
-        return self._described(sha256, size, name, table)
+        return self._described(upload.sha256, upload.size, name, found)
+
+    def keep(self, upload: Upload, filename: str) -> None:
+        """Store an uploaded file with its row, or nothing of it where the transaction fails."""
+        afterwards(self.session, "after_rollback", lambda: self.raw_files.remove_unused(self.session, upload.sha256))
+        self.raw_files.keep(self.session, upload, filename)
+
+    def bound(self, sha256: str) -> Bound:
+        """The bound for reading an uploaded file. Raises NotFound."""
+        return bound_of(self._raw(sha256).size)
 
     def uploaded(self, sha256: str) -> Uploaded:
         raw = self._raw(sha256)
-        return self._described(sha256, raw.size, raw.filename, self.raw_files.table(sha256, raw.filename))
+        path = self.raw_files.verified(sha256, raw.filename)
+        return self._described(sha256, raw.size, raw.filename, calculation.facts(path, raw.filename))
 
     def preview(self, asked: Preview) -> dict[str, Any]:
         """The channels by a mapping, decimated, with all findings. Raises MeasuredError for a mapping that does not fit."""
         raw, mapping = self._raw(asked.file), read_mapping(asked.mapping)
-        found = examine(self.raw_files.table(raw.sha256, raw.filename), mapping)
-        return shown.examined(found, mapping, shown.Part(asked.from_s, asked.to_s))
+        path = self.raw_files.verified(raw.sha256, raw.filename)
+        return calculation.previewed(path, raw.filename, mapping, shown.Part(asked.from_s, asked.to_s))
 
     def save_mapping(self, asked: NewMapping) -> SavedMapping:
         """Save a mapping under a name for files of the layout of an uploaded file."""
-        raw, mapping = self._raw(asked.file), read_mapping(asked.mapping)
-        table = self.raw_files.table(raw.sha256, raw.filename)
-        return self.saved.save(asked.name, mapping, table, asked.saved_by.strip() or NOBODY)
+        raw = self._raw(asked.file)
+        mapping = self.calculate(MAPPING, read_mapping, asked.mapping)
+        path = self.raw_files.verified(raw.sha256, raw.filename)
+        found = self.calculate(bound_of(raw.size), calculation.facts, path, raw.filename, mapping)
+        return self.saved.save(asked.name, mapping, found, asked.saved_by.strip() or NOBODY)
 
     def import_(self, asked: Import) -> MeasuredRecording:
         """Write the recording, then its row. Raises MeasuredError with every error."""
-        raw, mapping = self._raw(asked.file), read_mapping(asked.mapping)
-        measured = imported(self.raw_files.table(raw.sha256, raw.filename), mapping, raw.filename, raw.sha256)
+        raw = self._raw(asked.file)
+        mapping = self.calculate(MAPPING, read_mapping, asked.mapping)
         name = asked.name.strip() or mapping.title or raw.filename
-        recording = self.written(replace(measured, title=name), mapping, asked.imported_by)
+        given = self.raw_files.verified(raw.sha256, raw.filename), raw.filename, raw.sha256
+        with files.temporary(self.store.scratch(MEASURED) / "recording.h5") as target:
+            made = self.calculate(bound_of(raw.size), calculation.recording, *given, mapping, name, target)
+            recording = self.written(made, mapping, asked.imported_by)
         afterwards(self.session, "after_rollback", lambda: self.discard(recording.id))
         if not self.rows.locked_raw(raw.sha256):
             raise NotFound(f"The file {raw.filename} is no longer stored. Upload it again.")
         self.rows.add(recording)
         return recording
 
-    def written(self, measured: Measured, mapping: Mapping, imported_by: str) -> MeasuredRecording:
-        """The row of a recording, which is not added yet; the file of the recording is written."""
+    def written(self, made: Made, mapping: Mapping, imported_by: str) -> MeasuredRecording:
+        """The row of a recording, which is not added yet; the file of the recording is stored."""
         recording_id = str(uuid.uuid4())
-        path = self.store.scratch(MEASURED) / f"{recording_id}.h5"
-        save(path, measured)
-        sha256, size = files.checksum(path), path.stat().st_size
-        self.store.put(path, of_measured(recording_id), sha256)
+        self.store.put(made.path, of_measured(recording_id), made.row["sha256"])
         return MeasuredRecording(
             id=recording_id,
-            name=measured.title,
-            test=measured.test,
-            raw_sha256=measured.source_sha256,
-            filename=measured.source,
             mapping=mapping.as_dict(),
-            channels=[shown.described(channel) for channel in measured.channels],
-            warnings=[warning.as_dict() for warning in measured.warnings],
-            dt_s=measured.dt,
-            start_s=measured.start,
-            samples=measured.samples,
             imported_by=imported_by.strip() or NOBODY,
             imported_at=datetime.now(UTC),
             code_version=__version__,
-            sha256=sha256,
-            size=size,
+            **made.row,
         )
 
     def get(self, recording_id: str) -> MeasuredRecording:
@@ -172,34 +177,18 @@ class MeasuredService:
 
     def _forget_raw(self, sha256: str) -> None:
         if self.rows.forget_raw(sha256):
-            afterwards(self.session, "after_commit", lambda: self.raw_files.remove(sha256))
+            afterwards(self.session, "after_commit", lambda: self.raw_files.remove_unused(self.session, sha256))
 
-    def _described(self, sha256: str, size: int, filename: str, table: Table) -> Uploaded:
+    def _described(self, sha256: str, size: int, filename: str, found: FileRead) -> Uploaded:
         return Uploaded(
             sha256=sha256,
             size=size,
             filename=filename,
-            **contents.of(table),
-            columns=[shown.column(one) for one in table.columns],
-            layout=fingerprint(table),
-            saved=[SavedMappingOut.model_validate(one) for one in self.saved.fitting(table)],
-            mappings=[one for one in self.mappings() if _fits(one.mapping, table)],
-            **_guessed(table),
+            layout=found.layout,
+            saved=[SavedMappingOut.model_validate(one) for one in self.saved.fitting(found.layout)],
+            mappings=[one for one in self.mappings() if _fits(one.mapping, [column["name"] for column in found.columns])],
+            **found.shown,
         )
-
-
-def _guessed(table: Table) -> dict[str, Any]:
-    try:
-        found = guess(table)
-    except MeasuredError as error:
-        return {"guess": None, "reasons": {}, "doubtful": [], "left_out": {}, "notes": [*table.notes, f"{error}."]}
-    explained = {
-        "reasons": found.reasons,
-        "doubtful": list(found.doubtful),
-        "left_out": found.left_out,
-        "notes": list(found.notes),
-    }
-    return {"guess": found.mapping.as_dict(), **explained}
 
 
 def read_mapping(given: dict[str, Any] | str) -> Mapping:
@@ -209,9 +198,9 @@ def read_mapping(given: dict[str, Any] | str) -> Mapping:
     return mapping
 
 
-def _fits(mapping: dict[str, Any], table: Table) -> bool:
+def _fits(mapping: dict[str, Any], names: Sequence[str]) -> bool:
     wanted = [one[name] for one in mapping["channels"] for name in ("column", "time") if one.get(name) is not None]
-    return all(one in table.names or (isinstance(one, int) and one <= len(table.columns)) for one in wanted)
+    return all(one in names or (isinstance(one, int) and one <= len(names)) for one in wanted)
 
 
 def filed(recording: MeasuredRecording) -> Filed:

@@ -8,12 +8,15 @@ from fastapi import APIRouter, File, Form, UploadFile
 from fastapi.responses import Response
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculated, Calculating
+from app.calculations.bound import Bound
 from app.motions.dependency import Motions
 from app.motions.schemas import MotionFile
-from app.motions.service import preview
+from app.motions.service import MotionService, preview
 from app.openapi import told
 
 router = APIRouter(prefix="/api/v1/motions", tags=["ground motions"])
+RECORD = Bound("reading of the record", seconds=20, megabytes=2000, mend="shorten the record", where="file")
 Text = Annotated[str, Form(max_length=200)]
 
 
@@ -24,10 +27,11 @@ def listed(motions: Motions) -> dict[str, Any]:
     return {"motions": motions.listed()}
 
 
-@router.post("", status_code=201)
+@router.post("", status_code=201, responses=told(503))
 @allowed(Role.ENGINEER)
 def upload(
     motions: Motions,
+    calculate: Calculating,
     file: Annotated[UploadFile, File()],
     unit: Text = "",
     dt: Text = "",
@@ -38,20 +42,20 @@ def upload(
 
     `channel` is the name or the number of an acceleration channel, if the file has several.
     """
-    return motions.add(motions.read(file.file.read(), file.filename or "", unit, dt, channel, name))
+    return motions.add(calculate(RECORD, motions.read, file.file.read(), file.filename or "", unit, dt, channel, name))
 
 
-@router.post("/contents")
+@router.post("/contents", response_model=MotionFile, responses=told(503))
 @allowed(Role.VIEWER)
-def contents(motions: Motions, file: Annotated[UploadFile, File()]) -> MotionFile:
+def contents(motions: Motions, file: Annotated[UploadFile, File()]) -> Response:
     """What stands in a file: its acceleration channels, its header, and what the header states beside what was read.
 
     `asks` lists what the file does not state. Nothing is stored.
     """
-    return motions.contents(file.file.read(), file.filename or "")
+    return Calculated(RECORD, motions.contents, file.file.read(), file.filename or "")
 
 
-@router.post("/preview")
+@router.post("/preview", response_model=dict[str, Any], responses=told(503))
 @allowed(Role.VIEWER)
 def look(
     motions: Motions,
@@ -60,9 +64,9 @@ def look(
     dt: Text = "",
     channel: Text = "",
     name: Text = "",
-) -> dict[str, Any]:
+) -> Response:
     """Read a ground motion and return its samples and response spectrum. Nothing is stored."""
-    return preview(motions.read(file.file.read(), file.filename or "", unit, dt, channel, name))
+    return Calculated(RECORD, _looked_at, motions, file.file.read(), file.filename or "", unit, dt, channel, name)
 
 
 @router.get("/{name}")
@@ -72,11 +76,11 @@ def one(name: str, motions: Motions) -> dict[str, Any]:
     return motions.summary(name)
 
 
-@router.get("/{name}/preview")
+@router.get("/{name}/preview", response_model=dict[str, Any], responses=told(422, 503))
 @allowed(Role.VIEWER)
-def shown(name: str, motions: Motions) -> dict[str, Any]:
+def shown(name: str, motions: Motions) -> Response:
     """Samples and response spectrum of a ground motion, for plots."""
-    return motions.preview(name)
+    return Calculated(RECORD, motions.preview, name)
 
 
 @router.delete("/{name}", status_code=204, response_class=Response, responses=told(422))
@@ -84,3 +88,7 @@ def shown(name: str, motions: Motions) -> dict[str, Any]:
 def remove(name: str, motions: Motions) -> None:
     """Delete a ground motion that was uploaded. Bundled ground motions cannot be deleted."""
     motions.remove(name)
+
+
+def _looked_at(motions: MotionService, *file: Any) -> dict[str, Any]:
+    return preview(motions.read(*file))

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
-from fastapi.responses import FileResponse, PlainTextResponse, Response, StreamingResponse
+from fastapi.responses import FileResponse, PlainTextResponse, Response
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.access import Role, Scope, Who, allowed
+from app.calculations.answer import Calculated, CalculatedFile, Made
+from app.calculations.bound import Bound
+from app.config import Settings
 from app.dependencies import Configured
 from app.jobs.states import State
 from app.openapi import file, told
@@ -16,11 +20,14 @@ from app.runs.dependency import Runs
 from app.runs.exports import csv_parts, measures_text, recording_path
 from app.runs.repository import Filter, Page
 from app.runs.schemas import Asking, RunDetail, RunList, RunOut, Submission, Submitted
+from app.runs.service import RunService
 from app.times import InUtc
 from rths_engine.foundation.errors import Issue, PlanError
 from rths_engine.planning import plan_yaml
 
 router = APIRouter(prefix="/api/v1", tags=["runs"])
+CSV = Bound("CSV file", seconds=300, megabytes=2000, mend="download the recording as HDF5", long=True)
+YAML = Bound("YAML of the plan", seconds=20, megabytes=2000, mend="read the plan as JSON")
 
 
 class Wanted(BaseModel):
@@ -124,13 +131,11 @@ def recording_hdf5(run_id: str, runs: Runs, configured: Configured) -> FileRespo
     )
 
 
-@router.get("/runs/{run_id}/recording.csv", response_class=StreamingResponse, responses=file("text/csv") | told(409))
+@router.get("/runs/{run_id}/recording.csv", response_class=FileResponse, responses=file("text/csv") | told(409, 422, 503))
 @allowed(Role.VIEWER)
-def recording_csv(run_id: str, runs: Runs, configured: Configured) -> StreamingResponse:
+def recording_csv(run_id: str, runs: Runs, configured: Configured) -> Response:
     """The recording of a run as CSV."""
-    run = runs.get(run_id)
-    headers = {"Content-Disposition": f'attachment; filename="{run.id}.csv"'}
-    return StreamingResponse(csv_parts(recording_path(run, configured)), media_type="text/csv", headers=headers)
+    return CalculatedFile(CSV, f"{run_id}.csv", "text/csv", _write_csv, runs, run_id, configured)
 
 
 @router.get("/runs/{run_id}/measures.csv", response_class=PlainTextResponse, responses=file("text/csv") | told(409))
@@ -142,10 +147,19 @@ def measures_csv(run_id: str, runs: Runs) -> PlainTextResponse:
     return PlainTextResponse(measures_text(run), media_type="text/csv", headers=headers)
 
 
-@router.get("/runs/{run_id}/plan.yaml", response_class=Response, responses=file("application/yaml"))
+@router.get("/runs/{run_id}/plan.yaml", response_class=Response, responses=file("application/yaml") | told(422, 503))
 @allowed(Role.VIEWER)
-def plan_text(run_id: str, runs: Runs) -> PlainTextResponse:
+def plan_text(run_id: str, runs: Runs) -> Response:
     """The plan of a run as YAML."""
+    return Calculated(YAML, _plan_text, runs, run_id)
+
+
+def _plan_text(runs: RunService, run_id: str) -> Made:
     run = runs.get(run_id)
     headers = {"Content-Disposition": f'attachment; filename="{run.id}.yaml"'}
-    return PlainTextResponse(plan_yaml.write(runs.plan_of(run)), media_type="application/yaml", headers=headers)
+    return Made(plan_yaml.write(runs.plan_of(run)).encode(), "application/yaml", headers)
+
+
+def _write_csv(path: Path, runs: RunService, run_id: str, configured: Settings) -> None:
+    with path.open("wb") as file:
+        file.writelines(csv_parts(recording_path(runs.get(run_id), configured)))

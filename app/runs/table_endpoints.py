@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import csv
-import io
-from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Request
-from fastapi.responses import StreamingResponse
+from fastapi import APIRouter, Depends, Query
+from fastapi.responses import FileResponse, Response
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.access import Role, allowed
-from app.db import unit_of_work
+from app.calculations.answer import CalculatedFile
+from app.calculations.bound import Bound
 from app.dependencies import OneSession
 from app.openapi import file
 from app.runs.shelves import Shelf
@@ -20,6 +20,7 @@ from app.runs.table import RunTableService, Wanted
 from app.runs.table_schemas import ColumnList, RunTable
 
 router = APIRouter(prefix="/api/v1", tags=["runs"])
+TABLE = Bound("table of runs", seconds=120, megabytes=2000, mend="filter the runs or choose fewer columns", long=True)
 
 
 class Chosen(BaseModel):
@@ -73,29 +74,17 @@ def page(chosen: Annotated[ChosenPage, Query()], table: Table) -> RunTable:
     return table.page(chosen.wanted(), chosen.limit, chosen.offset)
 
 
-@router.get("/runs/table.csv", response_class=StreamingResponse, responses=file("text/csv"))
+@router.get("/runs/table.csv", response_class=FileResponse, responses=file("text/csv"))
 @allowed(Role.VIEWER)
-def export(request: Request, chosen: Annotated[Chosen, Query()], table: Table) -> StreamingResponse:
+def export(chosen: Annotated[Chosen, Query()], table: Table) -> Response:
     """The run table with chosen columns as CSV: all runs that the filter keeps, at most 100 000."""
     wanted = chosen.wanted()
     table.page(wanted, 1, 0)  # a bad filter is refused before the first line
-    headers = {"Content-Disposition": 'attachment; filename="runs.csv"'}
-    return StreamingResponse(_lines(request, wanted), media_type="text/csv", headers=headers)
+    return CalculatedFile(TABLE, "runs.csv", "text/csv", _write, table, wanted)
 
 
-def _lines(request: Request, wanted: Wanted) -> Iterator[str]:
-    with unit_of_work(request.app.state.sessions) as session:
-        text = io.StringIO()
-        writer = csv.writer(text)
-        for number, row in enumerate(RunTableService(session).export(wanted)):
+def _write(path: Path, table: RunTableService, wanted: Wanted) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        for row in table.export(wanted):
             writer.writerow(["; ".join(cell) if isinstance(cell, list) else cell for cell in row])
-            if number % 200 == 0:
-                yield _taken(text)
-        yield _taken(text)
-
-
-def _taken(text: io.StringIO) -> str:
-    found = text.getvalue()
-    text.seek(0)
-    text.truncate()
-    return found

@@ -37,6 +37,10 @@ class Store(ABC):
         """Move a complete local file to `key`. A failure leaves no part of it there; `sha256` saves reading it back."""
 
     @abstractmethod
+    def has(self, key: str) -> bool:
+        """Whether there is a file at `key`."""
+
+    @abstractmethod
     def delete(self, key: str) -> None:
         """Delete a file; without effect where there is none."""
 

@@ -34,6 +34,9 @@ class FolderStore(Store):
         private.like(target, self.root)
         files.sync(target.parent)
 
+    def has(self, key: str) -> bool:
+        return (self.root / key).is_file()
+
     def delete(self, key: str) -> None:
         (self.root / key).unlink(missing_ok=True)
 

@@ -38,6 +38,10 @@ class RemoteStore(Store):
         self._cache, self._numbers = cache, itertools.count()
         self._mirrors: dict[str, Mirror] = {}
 
+    def __reduce__(self) -> tuple[type[RemoteStore], tuple[str, Path, str, int]]:
+        """A store of its own for the process of a calculation, with the same local copies."""
+        return RemoteStore, (self.where, self._cache, self.endpoint, self.copies.limit)
+
     @cached_property
     def files(self) -> Any:
         """The file system of fsspec, opened when it is first needed, and root, the path within it."""
@@ -86,6 +90,9 @@ class RemoteStore(Store):
             self.copies.trim()
         else:
             path.unlink()
+
+    def has(self, key: str) -> bool:
+        return bool(self._do(lambda: self.files.exists(self._path(key))))
 
     def delete(self, key: str) -> None:
         def gone() -> None:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Query
 from fastapi.responses import Response
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculated, Made
 from app.openapi import PlanData, told
 from app.runs.schemas import Asking, RunOut
 from app.sweeps import exports
 from app.sweeps.dependency import Sweeps
+from app.sweeps.preview import ANALYSIS, EXAMINATION
 from app.sweeps.schemas import (
     PlanField,
     PlanFields,
@@ -24,6 +27,7 @@ from app.sweeps.schemas import (
     SweepOut,
     SweepSubmission,
 )
+from app.sweeps.service import SweepService
 from app.sweeps.shown import inputs_of
 from rths_engine.foundation.part import validated
 from rths_engine.planning.plan import Plan
@@ -52,11 +56,11 @@ def schema() -> dict[str, Any]:
     return Definition.model_json_schema()
 
 
-@router.post("/fields")
+@router.post("/fields", response_model=PlanFields, responses=told(503))
 @allowed(Role.VIEWER)
-def fields(plan: Annotated[PlanData, Body()]) -> PlanFields:
+def fields(plan: Annotated[PlanData, Body()]) -> Response:
     """List the numbers of a plan that a sweep can vary, each with path, label, unit, value and bounds."""
-    return PlanFields(fields=[PlanField(**one.as_dict()) for one in numbers(validated(Plan, plan))])
+    return Calculated(EXAMINATION, _fields, plan)
 
 
 @router.post("", status_code=201)
@@ -87,7 +91,7 @@ def one(sweep_id: str, sweeps: Sweeps) -> SweepDetail:
     return exports.detail(sweep, sweeps.standing(sweep))
 
 
-@router.get("/{sweep_id}/results", response_model=ResultsOut, responses=FILES)
+@router.get("/{sweep_id}/results", response_model=ResultsOut, responses=FILES | told(503))
 @allowed(Role.VIEWER)
 def results(
     sweep_id: str,
@@ -103,8 +107,7 @@ def results(
 
     `sort` is the key of a column, or `point`; points without a value come last. `status` leaves only these points.
     """
-    sweep = sweeps.get(sweep_id)
-    return exports.results(sweeps.table(sweep, sort, order == "desc", status), sweep, format, offset, limit)
+    return Calculated(ANALYSIS, _results, sweeps, sweep_id, sort, order == "desc", status, format, offset, limit)
 
 
 @router.post("/{sweep_id}/cancel", responses=told(409))
@@ -153,3 +156,21 @@ def point(sweep_id: str, point: int, sweeps: Sweeps) -> PointOut:
 def run(sweep_id: str, point: int, sweeps: Sweeps, person: Asking) -> RunOut:
     """Queue the plan of a point as an ordinary run, whose recording has the full histories."""
     return RunOut.of(sweeps.run_point(sweep_id, point, person.by))
+
+
+def _fields(plan: Any) -> PlanFields:
+    return PlanFields(fields=[PlanField(**one.as_dict()) for one in numbers(validated(Plan, plan))])
+
+
+def _results(
+    sweeps: SweepService,
+    sweep_id: str,
+    sort: str,
+    descending: bool,
+    status: Sequence[str],
+    form: str,
+    offset: int,
+    limit: int | None,
+) -> Made:
+    sweep = sweeps.get(sweep_id)
+    return exports.results(sweeps.table(sweep, sort, descending, status), sweep, form, offset, limit)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from datetime import UTC, datetime
 
-from fastapi.responses import Response
-
+from app.calculations.answer import Made
 from app.jobs.states import State
 from app.models import Sweep
 from app.sweeps.repository import Standing, age
@@ -62,7 +61,7 @@ def detail(sweep: Sweep, standing: Standing) -> SweepDetail:
     )
 
 
-def results(table: Table, sweep: Sweep, form: str, offset: int, limit: int | None) -> Response:
+def results(table: Table, sweep: Sweep, form: str, offset: int, limit: int | None) -> Made:
     """A page of results; without `limit`, all of them."""
     page = table.taken(slice(offset, None if limit is None else offset + limit))
     if form == "json":
@@ -74,11 +73,11 @@ def results(table: Table, sweep: Sweep, form: str, offset: int, limit: int | Non
             points=sweep.points,
         )
         body = {**found.__dict__, "columns": [one.model_dump() for one in found.columns]}
-        return Response(json.dumps(body), media_type="application/json")
+        return Made(json.dumps(body).encode(), "application/json")
     headers = {"Content-Disposition": f'attachment; filename="sweep-{sweep.id}.{form}"'}
     if form == "csv":
-        return Response(csv_text(page), media_type="text/csv", headers=headers)
-    return Response(arrow_bytes(page), media_type=ARROW, headers=headers)
+        return Made(csv_text(page).encode(), "text/csv; charset=utf-8", headers)
+    return Made(arrow_bytes(page), ARROW, headers)
 
 
 def _unverified(standing: Standing) -> list[str]:

@@ -23,6 +23,7 @@ LEAST = 10  # points that are examined however long they take
 FIRST = 5  # invalid and unstable points that are listed
 SEED = 0  # of the sample of points
 EXAMINATION = Bound("examination of the sweep", seconds=20, megabytes=2000, mend="vary fewer fields or use fewer points")
+ANALYSIS = Bound("analysis of the sweep", seconds=60, megabytes=3000, mend="ask for a page of its results")
 
 
 @dataclass
