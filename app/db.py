@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, ClassVar, Literal
@@ -120,8 +121,28 @@ def migrate(url: str) -> None:
     command.upgrade(alembic_config(url), "head")
 
 
+def check_exists(url: str) -> None:
+    """Raise RthsError where there is no database of this program; changes nothing. PostgreSQL says so itself."""
+    path = Path(url.removeprefix("sqlite:///"))
+    if url.startswith("sqlite") and not _has_schema(path):
+        fix = "give the data folder of a control room with --data, or make one with 'rths migrate' or 'rths serve'"
+        raise RthsError(Issue("data", "has no database", str(path.parent), fix))
+
+
+def _has_schema(path: Path) -> bool:
+    """Whether a SQLite file is a database that was migrated, read without a change of the file."""
+    try:
+        with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as connection:
+            return connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'alembic_version'").fetchone() is not None
+    except sqlite3.OperationalError:  # there is no such file
+        return False
+    except sqlite3.DatabaseError:  # it is damaged, which whoever opens it says
+        return True
+
+
 def check_schema(url: str) -> None:
     """Raise RthsError unless the schema of the database is the one of this program."""
+    check_exists(url)
     found, known = schemas(url)
     _refuse_newer(found, known)
     if found != known[0]:

@@ -15,7 +15,6 @@ from app.audit.tables import AuditHead
 from app.jobs import queue
 from app.moving.places import seeded
 from app.moving.rows import Rows, tables
-from rths_engine.foundation.errors import Issue, RthsError
 
 
 def take(url: str, path: Path) -> None:
@@ -24,9 +23,8 @@ def take(url: str, path: Path) -> None:
     SQLite copies its own file, also while others write. PostgreSQL shows every table at one moment, and each row is copied.
     """
     if url.startswith("sqlite"):
+        db.check_exists(url)
         source = Path(url.removeprefix("sqlite:///"))
-        if not source.exists():
-            raise RthsError(Issue("data", "has no database", str(source), "give the data folder of a control room"))
         with closing(sqlite3.connect(f"file:{source}?mode=ro", uri=True)) as there, closing(sqlite3.connect(path)) as here:
             there.backup(here)
             here.execute("pragma journal_mode=delete")  # one file

@@ -8,6 +8,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import IO
 
@@ -44,10 +45,11 @@ def using(settings: Settings) -> IO[str]:
 
 @contextmanager
 def source(settings: Settings) -> Iterator[Place]:
-    """The place that is moved; nothing of it is changed. Raises RthsError while a service or a worker uses it.
+    """The place that is moved; nothing of it is changed. Raises RthsError where it is none, or in use by a service or a worker.
 
     A database of SQLite is copied first, and the copy brought to the newest schema.
     """
+    db.check_exists(settings.url)
     with _unused(settings), tempfile.TemporaryDirectory(prefix="rths-move-") as folder:
         url = settings.url
         if url.startswith("sqlite"):
@@ -75,7 +77,8 @@ def target(settings: Settings) -> Iterator[Place]:
             yield place
 
 
-def seeded() -> set[str]:
+@cache
+def seeded() -> frozenset[str]:
     """Names of the tables in which every new database has rows."""
     with tempfile.TemporaryDirectory(prefix="rths-move-") as folder:
         url = f"sqlite:///{folder}/new.sqlite"
@@ -83,7 +86,7 @@ def seeded() -> set[str]:
         queue.migrate(url)
         engine = db.connect(url)
         rows = Rows(engine)
-        found = {one.name for one in tables() if rows.count(one)}
+        found = frozenset(one.name for one in tables() if rows.count(one))
         engine.dispose()
     return found
 
@@ -114,8 +117,6 @@ def _busy(problem: str, place: str) -> RthsError:
 
 
 def _copied(path: Path, folder: Path) -> Path:
-    if not path.exists():
-        raise RthsError(Issue("--from", "has no database", str(path), "give the data folder of a control room"))
     copy = folder / "rths.sqlite"
     with closing(sqlite3.connect(f"file:{path}?mode=ro", uri=True)) as there, closing(sqlite3.connect(copy)) as here:
         there.backup(here)

@@ -189,16 +189,35 @@ def test_a_damaged_file_is_named_and_left_out_of_the_backup(lab: TestClient, mad
     assert list(again.manifest.damaged) == [key] and key not in again.manifest.files
 
 
-def test_the_commands_say_what_they_did(lab: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_commands_say_what_they_did(
+    lab: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
+) -> None:
     data = str(settings_of(lab).data)
     assert main(["backup", str(tmp_path / "backups"), "--data", data]) == 0
-    folder = capsys.readouterr().out.splitlines()[0]
+    folder, counted = capsys.readouterr().out.splitlines()
+    (tmp_path / "new").mkdir(mode=0o755)  # a folder that no service has opened
     assert main(["restore", folder, "--data", str(tmp_path / "new")]) == 0
-    assert "The audit log ends with entry" in capsys.readouterr().out
+    assert not [one for one in (tmp_path / "new", *(tmp_path / "new").rglob("*")) if one.stat().st_mode & 0o077]
+    assert "is closed to them now" in caplog.text
+    restored = capsys.readouterr().out
+    assert "The audit log ends with entry" in restored
+    assert counted.partition(" (")[0] in restored  # the same numbers of rows and files
     assert main(["verify", "--data", str(tmp_path / "new")]) == 0
     assert "0 are not" in capsys.readouterr().out
     assert main(["restore", folder, "--data", str(tmp_path / "new")]) == 2
     assert "overwrites nothing" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [["verify"], ["backup", "TO"], ["migrate-store", "--to", "TO"]])
+def test_a_folder_that_no_service_has_opened_is_no_source_and_stays_empty(
+    command: list[str], tmp_path: Path, made: Made, capsys: pytest.CaptureFixture[str]
+) -> None:
+    empty, to = tmp_path / "empty", str(tmp_path / "to")
+    empty.mkdir()
+    named = "--from" if command[0] == "migrate-store" else "--data"
+    assert main([*(to if one == "TO" else one for one in command), named, str(empty)]) == 2
+    assert "has no database" in capsys.readouterr().err and list(empty.iterdir()) == []
+    restore(Settings(data=empty), made.folder, quiet)
 
 
 @pytest.mark.skipif(bool(postgres.missing()), reason=str(postgres.missing()))

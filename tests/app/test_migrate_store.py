@@ -77,8 +77,10 @@ def test_files_of_an_earlier_version_move_to_postgresql_and_a_store_and_back(dat
         assert client.get(f"/api/v1/runs/{new}").json()["number"] == 1 + max(one["number"] for one in found["runs"].values())
     assert waiting(f"sqlite:///{folder / 'rths.sqlite'}") < waiting(database, "dbos.")
     back = tmp_path / "back"
+    back.mkdir()  # a folder that no service has opened
     source = ["--from-database", database, "--from-store", STORE]
     assert main(["migrate-store", *source, "--to", str(back)]) == 0
+    assert not [one for one in back.rglob("*") if one.stat().st_mode & 0o077]
     with TestClient(create_app(Settings(data=back, embedded_worker=False, local_sign_in=True)), ADDRESS, client=HERE) as client:
         again = listed(client)
         again["runs"].pop(new)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import json
+import re
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 from typing import Any
 
 import pytest
 import sqlalchemy as sa
 from fastapi.testclient import TestClient
 from prometheus_client.parser import text_string_to_metric_families
+from ruamel.yaml import YAML
 
 from app import db, disk, metrics
 from app.events.tables import Event, EventKind
@@ -19,6 +23,8 @@ from app.jobs.tables import WorkerHeartbeat
 from app.monitoring import checks, collected, endpoints, reporting
 from tests.app.conftest import app_of, plan
 from tests.browser.service import until
+
+OPERATION = Path(__file__).parents[2] / "docs" / "operation"
 
 
 def checked(client: TestClient) -> tuple[int, dict[str, Any]]:
@@ -183,6 +189,39 @@ def test_jobs_workers_and_disk_are_reported(beating: TestClient) -> None:
     assert (sample(beating, "rths_queue_oldest_seconds", kind="run") or -1) >= 0
     assert sample(beating, "rths_workers_alive") == 1 and sample(beating, "rths_workers_tests_at_a_time") == 3
     assert (sample(beating, "rths_disk_free_bytes") or 0) > 0 and sample(beating, "rths_database_up") == 1
+
+
+def named_metrics(text: str) -> set[str]:
+    """Names of metrics in expressions of Prometheus."""
+    found = re.findall(r"\b(?:rths|process)_[a-z_]+\b", text)
+    return {re.sub(r"_(bucket|sum|count|total)$", "", one) for one in found}
+
+
+@pytest.fixture
+def known(beating: TestClient) -> set[str]:
+    """Names of the metrics that a service and a worker report."""
+    reporting.report(app_of(beating).state.sessions, "one")
+    families = text_string_to_metric_families(beating.get("/metrics").text)
+    return {family.name.removesuffix("_total") for family in families}
+
+
+def test_every_metric_of_the_dashboard_and_of_the_alerts_is_reported(known: set[str]) -> None:
+    dashboard = json.loads((OPERATION / "rths-grafana.json").read_text(encoding="utf-8"))
+    panels = dashboard["panels"]
+    assert len({one["id"] for one in panels}) == len(panels) > 20 and dashboard["uid"] and dashboard["schemaVersion"]
+    sources = {f"${{{one['name']}}}" for one in dashboard["templating"]["list"] if one["type"] == "datasource"}
+    expressions = []
+    for panel in panels:
+        place, targets = panel["gridPos"], panel.get("targets", [])
+        assert place["x"] + place["w"] <= 24 and (targets or panel["type"] == "row"), panel["title"]
+        assert len({one["refId"] for one in targets}) == len(targets), panel["title"]
+        assert all(one["datasource"]["uid"] in sources for one in targets), panel["title"]
+        expressions += [one["expr"] for one in targets]
+    alerts = YAML(typ="safe").load((OPERATION / "rths-alerts.yaml").read_text(encoding="utf-8"))
+    expressions += [rule["expr"] for group in alerts["groups"] for rule in group["rules"]]
+    for expression in expressions:
+        names = named_metrics(expression)
+        assert names <= known and (names or expression.startswith("up{")), expression
 
 
 def test_an_abort_is_timed(client: TestClient) -> None:

@@ -43,7 +43,7 @@ def test_a_worker_does_not_start_on_an_older_database(url: str, tmp_path: Path, 
 
 def test_a_worker_does_not_start_without_a_database(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["worker", "--data", str(tmp_path)]) == 2
-    assert "database = none" in (told := capsys.readouterr().err) and "rths migrate" in told
+    assert "has no database" in (told := capsys.readouterr().err) and "rths migrate" in told
 
 
 def test_nothing_of_this_version_starts_on_a_newer_database(
