@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hmac
 from typing import Any
-from urllib.parse import quote
 
 from fastapi.routing import iter_route_contexts
 from sqlalchemy.exc import SQLAlchemyError
@@ -12,7 +11,7 @@ from starlette._utils import get_route_path
 from starlette.applications import Starlette
 from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection
-from starlette.responses import RedirectResponse, Response
+from starlette.responses import Response
 from starlette.routing import Match, compile_path
 from starlette.types import ASGIApp, Receive, Send
 from starlette.types import Scope as Connection
@@ -92,7 +91,7 @@ class Gate:
         except SQLAlchemyError:
             return _silent()
         if person is None:
-            return _sign_in(scope)
+            return _sign_in()
         scope[PERSON] = person
         ACTING.set(person)
         if person.role < access.who:
@@ -153,14 +152,8 @@ def _bearer(headers: Headers) -> str:
     return token if kind.lower() == "bearer" else ""
 
 
-def _sign_in(scope: Connection) -> Response:
-    """The answer to a request without credentials: a page leads to the sign-in page and back, anything else gets 401."""
-    headers = Headers(scope=scope)
-    page = "text/html" in headers.get("accept", "") and not scope["path"].startswith("/api/")
-    if scope.get("method") == "GET" and page and "hx-request" not in headers:
-        query = scope["query_string"].decode("latin-1")
-        back = f"{scope['path']}?{query}" if query else scope["path"]
-        return RedirectResponse(f"/sign-in?to={quote(back, safe='')}", 303)
+def _sign_in() -> Response:
+    """The answer to a request without credentials, which pages/error_pages.py turns into the sign-in page for people."""
     answer = problem(401, SIGN_IN)
     answer.headers["WWW-Authenticate"] = "Bearer"
     return answer

@@ -70,6 +70,7 @@ from app.pages.audit import router as audit_page
 from app.pages.batches import router as batches_page
 from app.pages.compare import router as compare_page
 from app.pages.diagnoses import router as diagnoses_page
+from app.pages.error_pages import ErrorPages
 from app.pages.help import router as help_page
 from app.pages.lab import router as lab_page
 from app.pages.league import router as league_page
@@ -197,6 +198,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.add_middleware(Head)
     app.add_middleware(Guard, settings=configured)
     app.add_middleware(Observed)
+    app.add_middleware(ErrorPages)
     return app
 
 

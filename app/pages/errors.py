@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Coroutine
 from typing import Any
 
@@ -16,7 +15,6 @@ from app.pages.rendering import page
 from app.problems import NotFound
 from rths_engine.foundation.errors import RthsError
 
-log = logging.getLogger(__name__)
 UNPROCESSABLE = "Unprocessable content: the address is not valid"
 
 
@@ -36,7 +34,7 @@ register_url_convertor("page", PagePath())
 
 
 class PageRoute(APIRoute):
-    """A route that shows its errors as pages; the application's handlers answer with JSON."""
+    """A route that shows what is wrong with its address as a page. Every other error becomes a problem, for people a page."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         answer = super().get_route_handler()
@@ -50,17 +48,13 @@ class PageRoute(APIRoute):
                 return error_page(request, 422, UNPROCESSABLE, str(error))
             except RequestValidationError as error:
                 return error_page(request, 422, UNPROCESSABLE, "; ".join(map(_sentence, error.errors())))
-            except Exception:
-                log.exception("the page %s failed", request.url.path)
-                detail = "The service could not make this page and wrote the error to its log. Running tests are not affected."
-                return error_page(request, 500, "Internal server error", detail)
 
         return answered
 
 
-def error_page(request: Request, status: int, title: str, detail: str) -> HTMLResponse:
-    """A page that describes an error."""
-    return page(request, "error.html", status, title=title, detail=detail)
+def error_page(request: Request, status: int, title: str, detail: str, again: str = "") -> HTMLResponse:
+    """A page that describes an error, with a link to try the address `again`."""
+    return page(request, "error.html", status, title=title, detail=detail, again=again)
 
 
 def _sentence(detail: Any) -> str:

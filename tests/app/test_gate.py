@@ -74,7 +74,10 @@ def test_a_page_leads_a_stranger_to_the_sign_in_page_and_back(stranger: TestClie
     answer = stranger.get("/runs?q=a b&page=2", headers=PAGE)
     assert (answer.status_code, answer.headers["location"]) == (303, "/sign-in?to=%2Fruns%3Fq%3Da%2520b%26page%3D2")
     assert stranger.get("/lab", headers=PAGE | {"hx-request": "true"}).status_code == 401  # a part of a page
-    assert stranger.get("/api/docs", headers=PAGE).status_code == 401
+    assert stranger.get("/api/docs", headers=PAGE).headers["location"] == "/sign-in?to=%2Fapi%2Fdocs"
+    assert stranger.head("/runs", headers=PAGE).headers["location"] == "/sign-in?to=%2Fruns"
+    assert stranger.post("/sign-out", headers=PAGE).headers["location"] == "/sign-in"  # nothing to come back to
+    assert stranger.get("/runs", headers={"accept": "application/json, text/html;q=0.5"}).status_code == 401
 
 
 @pytest.mark.parametrize(

@@ -112,3 +112,6 @@ def test_a_viewer_sees_no_control_of_a_higher_role(page: Page) -> None:
     expect(page.get_by_text("Only an administrator changes these settings.")).to_be_visible()
     expect(page.get_by_label("Address line")).to_be_disabled()
     whole(page)
+    page.goto("/audit")
+    expect(page.get_by_role("heading", name="Forbidden")).to_be_visible()
+    whole(page)

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+import html
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+import httpx
+import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
+from sqlalchemy.exc import OperationalError
 
 from app import pages
+from app.access import LOCAL, Role
 from app.config import Settings
+from app.main import create_app
 from app.pages import rendering
+from app.problems import MEDIA_TYPE, TITLES, Conflict
 from app.runs.dependency import run_service
+from tests.app.conftest import ADDRESS, HERE
+
+BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"
 
 
 def _pages_alone(data: Path) -> FastAPI:
@@ -24,13 +36,69 @@ def _broken() -> None:
     raise RuntimeError("the disk is gone")
 
 
-def test_a_failure_of_the_service_is_a_page_that_keeps_its_cause_to_the_log(tmp_path: Path) -> None:
-    app = _pages_alone(tmp_path)
-    app.dependency_overrides[run_service] = _broken
-    answer = TestClient(app).get("/runs/1")
-    assert answer.status_code == 500
-    assert "<h1>Internal server error</h1>" in answer.text
-    assert "the disk is gone" not in answer.text
+def _silent() -> None:
+    raise OperationalError("select 1", None, Exception("no connection"))
+
+
+def _contested() -> None:
+    raise Conflict("The run is being changed.")
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> FastAPI:
+    return create_app(Settings(tmp_path_factory.mktemp("whole"), embedded_worker=False, local_sign_in=True))
+
+
+def _asked(app: FastAPI, method: str, path: str, accept: str, **more: Any) -> httpx.Response:
+    client = TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False)
+    answer: httpx.Response = client.request(method, path, headers={"accept": accept, **more.get("headers", {})})
+    return answer
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status", "more"),
+    [
+        ("GET", "/nowhere/at-all", 404, {}),
+        ("GET", "/api/v1/nowhere", 404, {}),
+        ("DELETE", "/api/v1/runs", 405, {}),
+        ("POST", "/queue", 405, {}),
+        ("POST", "/api/v1/runs", 413, {"headers": {"content-length": "20000000000"}}),
+        ("POST", "/sign-out", 403, {"headers": {"origin": "http://elsewhere.example"}}),
+        ("GET", "/runs", 421, {"headers": {"host": "elsewhere.example"}}),
+    ],
+)
+def test_an_error_is_a_page_for_people_and_a_problem_for_programs(
+    whole: FastAPI, method: str, path: str, status: int, more: Any
+) -> None:
+    shown, read = _asked(whole, method, path, BROWSER, **more), _asked(whole, method, path, "*/*", **more)
+    assert (shown.status_code, read.status_code) == (status, status)
+    assert "text/html" in shown.headers["content-type"] and f"<h1>{TITLES[status]}</h1>" in shown.text
+    assert (
+        "unsafe" not in shown.headers["content-security-policy"]
+        and "script-src 'self'" in shown.headers["content-security-policy"]
+    )
+    assert ("Open the Lab" in shown.text) == (status not in {403, 413, 421})  # refused before the gate: nobody is known
+    if path != "/nowhere/at-all":  # pages answer with pages
+        assert read.headers["content-type"] == MEDIA_TYPE and read.json()["status"] == status
+        assert html.escape(read.json()["detail"], quote=True).replace("&#x27;", "&#39;") in shown.text
+        assert shown.headers["vary"] == "Accept" and shown.headers.get("allow") == read.headers.get("allow")
+
+
+def test_a_role_that_is_too_low_is_told_on_a_page(whole: FastAPI, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.gate.LOCAL", replace(LOCAL, role=Role.VIEWER))
+    answer = _asked(whole, "GET", "/audit", BROWSER)
+    assert answer.status_code == 403 and "It needs the role engineer" in answer.text
+    assert 'data-role="viewer"' in answer.text and "Open the Lab" in answer.text
+
+
+@pytest.mark.parametrize(("fault", "status"), [(_broken, 500), (_silent, 503), (_contested, 409)])
+def test_a_failure_behind_a_page_is_a_page_that_keeps_its_cause_to_the_log(whole: FastAPI, fault: Any, status: int) -> None:
+    whole.dependency_overrides[run_service] = fault
+    answer = _asked(whole, "GET", "/runs/1?x=1", BROWSER)
+    assert answer.status_code == status and f"<h1>{TITLES[status]}</h1>" in answer.text
+    assert ('<a href="/runs/1?x=1" class="button">Try again</a>' in answer.text) == (status >= 500)
+    assert answer.headers.get("retry-after") == ("5" if status == 503 else None)
+    assert "the disk is gone" not in answer.text and "no connection" not in answer.text
 
 
 def test_a_page_allows_no_script_but_the_services_own(tmp_path: Path) -> None:
