@@ -22,8 +22,8 @@ function row(session) {
     "tr",
     {},
     el("td", {}, called(session.browser)),
-    el("td", {}, session.address),
-    el("td", {}, when(session.seen_at)),
+    el("td", { "data-label": "Address" }, session.address),
+    el("td", { "data-label": "Last used" }, when(session.seen_at)),
     el("td", {}, session.present ? "this browser" : end),
   );
 }

@@ -14,9 +14,9 @@ function row(token) {
     "tr",
     {},
     el("td", {}, token.name),
-    el("td", {}, token.scopes.join(", ")),
-    el("td", {}, when(token.expires_at)),
-    el("td", {}, token.used_at ? when(token.used_at) : "never"),
+    el("td", { "data-label": "Scopes" }, token.scopes.join(", ")),
+    el("td", { "data-label": "Expires" }, when(token.expires_at)),
+    el("td", { "data-label": "Last used" }, token.used_at ? when(token.used_at) : "never"),
     el("td", {}, revoke),
   );
 }

@@ -7,7 +7,8 @@ import { facts, line } from "./words.js";
 
 /** @typedef {import("./words.js").Entry} Entry */
 
-const LIMIT = 50;
+const NARROW = "(max-width: 760px)"; // css/audit.css shows entries as cards
+const LIMIT = matchMedia(NARROW).matches ? 20 : 50;
 const CHECKED_AT_ONCE = 20_000; // entries; a longer chain is checked when asked for
 const FIELDS = ["who", "action", "run", "since", "until"];
 const form = byId("filter");
@@ -27,7 +28,7 @@ function row(entry) {
     el("td", {}, el("time", { datetime: entry.at }, when(entry.at))),
     el("td", {}, entry.who || "–", entry.role && el("small", { class: "muted" }, entry.role)),
     el("td", {}, entry.action),
-    el("td", { class: "about" }, about(entry)),
+    el("td", { class: entry.run || entry.about ? "about" : "about none" }, about(entry)),
     el("td", { class: "details" }, el("details", {}, el("summary", {}, line(entry)), el("dl", {}, ...facts(entry).flatMap(names)))),
   );
 }

@@ -23,8 +23,8 @@ function row(account) {
     "tr",
     {},
     el("td", {}, account.name),
-    el("td", {}, role),
-    el("td", {}, state),
+    el("td", { "data-label": "Role" }, role),
+    el("td", { "data-label": "State" }, state),
     el(
       "td",
       { class: "nowrap" },

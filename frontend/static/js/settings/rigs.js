@@ -21,8 +21,8 @@ function row(rig) {
     "tr",
     {},
     el("td", { class: "name" }, rig.name, el("small", { class: "muted" }, kindWords(rig))),
-    el("td", {}, ...(rig.actuators.length ? rig.actuators.map((one, index) => el("div", {}, actuatorWords(one, index))) : ["not limited"])),
-    el("td", {}, `${rig.running} running, ${rig.queued} waiting`),
+    el("td", { "data-label": "Actuators: stroke, velocity, force" }, ...(rig.actuators.length ? rig.actuators.map((one, index) => el("div", {}, actuatorWords(one, index))) : ["not limited"])),
+    el("td", { "data-label": "Tests" }, `${rig.running} running, ${rig.queued} waiting`),
     el(
       "td",
       { "data-needs": "administrator" },
