@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextvars import ContextVar
 from dataclasses import dataclass
+from datetime import datetime
 from enum import Enum
 from typing import Annotated, Any, Literal, TypeVar
 
@@ -16,6 +17,8 @@ from app.roles import ROLE_OF, SCOPE_OF, Role, Scope
 __all__ = [
     "ACTING",
     "ANYONE",
+    "ENDED",
+    "LEADS",
     "LOCAL",
     "PERSON",
     "ROLE_OF",
@@ -34,6 +37,8 @@ __all__ = [
 ]
 
 DECLARED = "__access__"
+ENDED = "rths.ended"  # key of an ASGI scope: the credential ended while the websocket was open
+LEADS = "rths.leads"  # key of an ASGI scope: whether the address leads to a route
 PERSON = "rths.person"  # key of an ASGI scope: the SignedIn that the gate has let through
 
 Declared = TypeVar("Declared", bound=Callable[..., Any])
@@ -86,7 +91,7 @@ class SignedIn:
     """The person behind a request: name and role of the account, and how the person signed in.
 
     `how` is local (without an account, on this computer), session (in a browser) or token (a program); `credential_id` names
-    the session or the token, and only a token has `scopes`.
+    the session or the token, `until` when it expires, and only a token has `scopes`.
     """
 
     name: str
@@ -95,10 +100,16 @@ class SignedIn:
     account_id: str = ""
     credential_id: str = ""
     scopes: frozenset[Scope] | None = None
+    until: datetime | None = None
 
     def may(self, access: Access) -> bool:
         """Whether the scopes of an API token allow an address. Other people have no scopes."""
         return self.scopes is None or bool(self.scopes & access.scopes)
+
+    @property
+    def queues_any_plan(self) -> bool:
+        """Whether the person may queue any plan, and not only plans of the library as they are."""
+        return self.role >= Role.ENGINEER and (self.scopes is None or Scope.SUBMIT in self.scopes)
 
     def named(self, typed: str) -> str:
         """The name to store with what this person does: of the account, or as typed where there are no accounts."""

@@ -16,12 +16,12 @@ from starlette.routing import Match, compile_path
 from starlette.types import ASGIApp, Receive, Send
 from starlette.types import Scope as Connection
 
-from app.access import ACTING, LOCAL, PERSON, Access, Open, Role, Scope, SignedIn, declared
+from app.access import ACTING, LEADS, LOCAL, PERSON, Access, Open, Role, Scope, SignedIn, declared
 from app.config import LOOPBACK, Settings
+from app.open_sockets import NOT_ALLOWED, OpenSocket, OpenSockets
 from app.problems import problem
 
 KEPT = 4096  # addresses whose declaration is remembered
-NOT_ALLOWED = 4403
 FORWARDED = ("forwarded", "x-forwarded-for", "x-real-ip")
 SIGN_IN = "Sign in at /sign-in, or send an API token in the header `Authorization: Bearer TOKEN`: docs/accounts.md."
 UNKNOWN = Access(Role.VIEWER, frozenset(Scope))  # an address that leads nowhere: only who is signed in learns that
@@ -36,7 +36,7 @@ class Gate:
     def __init__(self, app: ASGIApp, settings: Settings):
         self.app, self.settings = app, settings
         self._places: list[Place] = []
-        self._known: dict[tuple[str, str, str], tuple[Match, Access | None]] = {}
+        self._known: dict[tuple[str, str, str], tuple[Match, Access | None, bool]] = {}
 
     async def __call__(self, scope: Connection, receive: Receive, send: Send) -> None:
         if scope["type"] not in {"http", "websocket"}:
@@ -48,11 +48,21 @@ class Gate:
         if refusal is None and match is Match.NONE:
             refusal = problem(404, f"There is nothing at {scope['path']}.")
         if refusal is None:
-            await self.app(scope, receive, send)
+            await self._let_in(scope, access, receive, send)
         elif scope["type"] == "http":
             await refusal(scope, receive, send)
         else:
             await _close(access, receive, send)
+
+    async def _let_in(self, scope: Connection, access: Access | None, receive: Receive, send: Send) -> None:
+        """Pass a request on; a websocket of a person only as long as the credential holds."""
+        person: SignedIn | None = scope.get(PERSON)
+        if scope["type"] == "http" or access is None or person is None or person.how == "local":
+            await self.app(scope, receive, send)
+            return
+        sockets: OpenSockets = scope["app"].state.sockets
+        with sockets.held(OpenSocket(person, access, scope, receive, send)) as socket:
+            await socket.serve(self.app)
 
     def _access(self, scope: Connection) -> tuple[Match, Access | None]:
         """Whether the address leads to a route, and the declaration of that route."""
@@ -63,8 +73,10 @@ class Gate:
                 self._places = places(scope["app"])
             if len(self._known) >= KEPT:
                 self._known.clear()
-            found = self._known[key] = self._looked_up(*key)
-        return found
+            leads = any(place.match("", "", key[2]) is not Match.NONE for place in self._places if place.named)
+            found = self._known[key] = (*self._looked_up(*key), leads)
+        scope[LEADS] = found[2]
+        return found[:2]
 
     def _looked_up(self, kind: str, method: str, path: str) -> tuple[Match, Access | None]:
         partial = None
@@ -124,9 +136,10 @@ class Place:
         self.methods = set(context.methods or ())
         self.path = f"{context.path.rstrip('/')}/{{path:path}}" if mounted else context.path
         self.pattern = compile_path(self.path)[0]
+        self.named = not self.path.startswith("/{")  # and not the page that takes any address
 
     def match(self, kind: str, method: str, path: str) -> Match:
-        if self.kind not in {"", kind} or not self.pattern.match(path):
+        if (self.kind and kind and self.kind != kind) or not self.pattern.match(path):
             return Match.NONE
         return Match.FULL if not self.methods or method in self.methods else Match.PARTIAL
 

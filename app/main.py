@@ -65,6 +65,7 @@ from app.notifications.dispatcher import Dispatcher
 from app.notifications.endpoints import router as notifications
 from app.notifications.webhook_endpoints import router as webhooks
 from app.observing import Observed
+from app.open_sockets import OpenSockets
 from app.pages.accounts import router as accounts_page
 from app.pages.audit import router as audit_page
 from app.pages.batches import router as batches_page
@@ -124,6 +125,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.writing = asyncio.Semaphore(WRITERS)
     app.state.reading = asyncio.Semaphore(READERS)
     app.state.throttle = Throttle()
+    app.state.sockets = OpenSockets()
     app.state.audience = Audience(lambda: app.state.sessions, configured)
     app.state.desk = Desk(configured.url)
     problems.install(app)
@@ -210,7 +212,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     statements.watch(engine)
     app.state.sessions = db.sessions(engine)
     app.state.monitor = Monitor(Collected(settings, app.state.sessions, app.state.hub, KINDS))
-    app.state.credentials = Credentials(app.state.sessions)
+    app.state.credentials = Credentials(app.state.sessions, app.state.sockets)
     app.state.credentials.start()
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(_purge, app)

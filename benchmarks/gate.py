@@ -48,7 +48,7 @@ def main() -> None:
         migrate(settings.url)
         engine = connect(settings.url)
         app = create_app(settings)
-        app.state.credentials = Credentials(sessions(engine))
+        app.state.credentials = Credentials(sessions(engine), app.state.sockets)
         with unit_of_work(sessions(engine)) as session:
             account = AccountService(session).add("Ana Ruiz", Role.VIEWER, "three long words")
             key, _ = SigningIn(session).start(account, "127.0.0.1", "benchmark")

@@ -26,7 +26,7 @@ router = APIRouter(prefix="/api/v1/accounts", tags=["accounts"])
 
 
 @router.get("")
-@allowed(Role.ADMINISTRATOR)
+@allowed(Role.ADMINISTRATOR, tokens=False)
 def listed(accounts: Accounts) -> AccountList:
     """List all accounts."""
     return AccountList(accounts=[_out(one) for one in accounts.listed()])
@@ -42,7 +42,10 @@ def add(asked: Annotated[NewAccount, Body()], accounts: Accounts) -> LinkMade:
 @router.patch("/{account_id}", responses=told(409))
 @allowed(Role.ADMINISTRATOR, tokens=False)
 def change(account_id: str, asked: Annotated[AccountChange, Body()], accounts: Accounts, browser: OneBrowser) -> AccountOut:
-    """Change the role of an account, or disable or enable it. Sessions and API tokens of a disabled account end at once."""
+    """Change the role of an account, or disable or enable it.
+
+    Disabling ends all sessions, API tokens and links of the account at once and for good.
+    """
     account = accounts.get(account_id)
     if asked.role is not None:
         accounts.give_role(account, Role[asked.role.upper()])
@@ -60,14 +63,14 @@ def password_link(account_id: str, accounts: Accounts) -> LinkMade:
 
 
 @router.get("/{account_id}/tokens")
-@allowed(Role.ADMINISTRATOR)
+@allowed(Role.ADMINISTRATOR, tokens=False)
 def tokens(account_id: str, accounts: Accounts, signing: Signing) -> TokenList:
     """List the API tokens of an account. Keys are not shown."""
     return TokenList(tokens=[TokenOut.model_validate(one) for one in signing.tokens(accounts.get(account_id).id)])
 
 
 @router.delete("/{account_id}/tokens/{token_id}", status_code=204, response_class=Response)
-@allowed(Role.ADMINISTRATOR)
+@allowed(Role.ADMINISTRATOR, tokens=False)
 def revoke(account_id: str, token_id: str, signing: Signing, browser: OneBrowser) -> None:
     """Revoke an API token of an account."""
     signing.revoke(account_id, token_id)

@@ -1,6 +1,7 @@
 """Credentials that were verified lately, in memory: Abort and live views need no database.
 
-A revoked credential is forgotten at once in this process, and within RENEW_S in the other ones.
+A credential that has ended is forgotten at once in this process, and within RENEW_S in the other ones; its open websockets
+close at the same moment.
 """
 
 from __future__ import annotations
@@ -10,9 +11,12 @@ import logging
 import threading
 import time
 from collections import OrderedDict
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from typing import Literal
 
 from sqlalchemy.exc import SQLAlchemyError
@@ -22,7 +26,8 @@ from app.access import Role, Scope, SignedIn
 from app.accounts.keys import sha256
 from app.accounts.repository import AccountRows
 from app.db import unit_of_work
-from app.models import Account, AccountSession, ApiToken
+from app.models import AccountSession, ApiToken
+from app.open_sockets import OVER, OpenSockets, Standing
 
 log = logging.getLogger(__name__)
 How = Literal["session", "token"]
@@ -39,20 +44,20 @@ TOGETHER = 500  # keys of one query
 class _Known:
     how: How
     person: SignedIn
-    until: datetime
     checked: float
     used: bool = False
 
     def holds(self, age_s: float) -> bool:
         """Whether the credential was verified within `age_s` and has not expired since."""
-        return time.monotonic() - self.checked < age_s and datetime.now(UTC) < self.until
+        until = self.person.until
+        return time.monotonic() - self.checked < age_s and (until is None or datetime.now(UTC) < until)
 
 
 class Credentials:
     """Finds the person behind a session or an API token: in memory, or else in the database by threads of its own."""
 
-    def __init__(self, maker: sessionmaker[Session]):
-        self._maker = maker
+    def __init__(self, maker: sessionmaker[Session], sockets: OpenSockets):
+        self._maker, self._sockets = maker, sockets
         self._known: OrderedDict[str, _Known] = OrderedDict()
         self._lock = threading.Lock()
         self._threads = ThreadPoolExecutor(2, thread_name_prefix="rths-credentials")
@@ -83,12 +88,26 @@ class Credentials:
         return await asyncio.get_running_loop().run_in_executor(self._threads, self._verified, how, hidden)
 
     def forget(self, account_id: str, credential_id: str | None = None) -> None:
-        """Forget all credentials of an account, or one of them."""
+        """Forget all credentials of an account, or one of them, and look again who of the account may stay connected."""
         with self._lock:
             for hidden, known in list(self._known.items()):
                 person = known.person
                 if person.account_id == account_id and credential_id in {None, person.credential_id}:
                     del self._known[hidden]
+        with suppress(RuntimeError):  # the service stops
+            self._threads.submit(self._quietly, partial(self.look_again, account_id))
+
+    def look_again(self, account_id: str | None = None) -> None:
+        """Verify the credentials of the open websockets, of one account or of all, and close those that have ended."""
+        self._sockets.expire()
+        for how, table in TABLES.items():
+            ids, now = self._sockets.credentials(how, account_id), datetime.now(UTC)
+            for first in range(0, len(ids), TOGETHER):
+                some = ids[first : first + TOGETHER]
+                with unit_of_work(self._maker) as session:
+                    rows = {row.id: row for row in AccountRows(session).with_ids(table, some)}
+                    found = {one: _standing(how, rows.get(one), now) for one in some}
+                self._sockets.settle(how, found)
 
     def renew(self) -> None:
         """Verify everything in memory again, and store when sessions and tokens were used last."""
@@ -112,7 +131,7 @@ class Credentials:
             found = {row.key_sha256: row for row in AccountRows(session).with_keys(TABLES[how], keys)}
             for hidden in used & found.keys():
                 _touch(found[hidden], now)
-            valid = {hidden: _known(how, row, begun) for hidden, row in found.items() if _holds(row, now)}
+            valid = {hidden: _Known(how, _signed_in(how, row), begun) for hidden, row in found.items() if _holds(row, now)}
         with self._lock:
             for hidden in keys:
                 self._known.pop(hidden, None)
@@ -122,10 +141,14 @@ class Credentials:
 
     def _keep(self) -> None:
         while not self._closing.wait(RENEW_S):
-            try:
-                self.renew()
-            except SQLAlchemyError as error:
-                log.warning("credentials are not verified again: %s", error)
+            self._quietly(self.renew)
+            self._quietly(self.look_again)
+
+    def _quietly(self, verify: Callable[[], None]) -> None:
+        try:
+            verify()
+        except SQLAlchemyError as error:
+            log.warning("credentials are not verified again: %s", error)
 
 
 def _touch(row: AccountSession | ApiToken, now: datetime) -> None:
@@ -142,12 +165,16 @@ def _holds(row: AccountSession | ApiToken, now: datetime) -> bool:
     return isinstance(row, ApiToken) or (row.ended_at is None and now - row.seen_at < IDLE)
 
 
-def _known(how: How, row: AccountSession | ApiToken, checked: float) -> _Known:
+def _standing(how: How, row: AccountSession | ApiToken | None, now: datetime) -> Standing:
+    """Whose a credential is, or why it is nobody's any longer."""
+    if row is not None and _holds(row, now):
+        return Standing(_signed_in(how, row))
+    return Standing(None, "the account is disabled" if row is not None and row.account.disabled_at else OVER[how])
+
+
+def _signed_in(how: How, row: AccountSession | ApiToken) -> SignedIn:
+    """The person of a valid credential."""
     until = row.expires_at if isinstance(row, ApiToken) else min(row.expires_at, row.seen_at + IDLE)
     scopes = frozenset(Scope(scope) for scope in row.scopes) if isinstance(row, ApiToken) else None
-    return _Known(how, signed_in(row.account, how, row.id, scopes), until, checked)
-
-
-def signed_in(account: Account, how: How, credential_id: str, scopes: frozenset[Scope] | None = None) -> SignedIn:
-    """The person of an account."""
-    return SignedIn(account.name, Role[account.role.upper()], how, account.id, credential_id, scopes)
+    account = row.account
+    return SignedIn(account.name, Role[account.role.upper()], how, account.id, row.id, scopes, until)

@@ -51,7 +51,9 @@ def sign_out(who: Who, signing: Signing, browser: OneBrowser, response: Response
 def read_link(asked: Annotated[LinkIn, Body()], accounts: Accounts) -> LinkOut:
     """Tell what a one-time link is for. The link stays valid."""
     account = accounts.linked(asked.key).account
-    return LinkOut(makes="password" if account else "first administrator", name=account.name if account else "")
+    if account is None:
+        return LinkOut(makes="first administrator", name="", replaces=False)
+    return LinkOut(makes="password", name=account.name, replaces=account.password is not None)
 
 
 @router.post("/sign-in/link", status_code=204, response_class=Response, responses=told(404, 409, 503))
@@ -81,9 +83,9 @@ def change_password(
 ) -> None:
     """Change the own password. All other sessions of the account end; API tokens stay."""
     account = accounts.get(_own(who))
-    browser.throttle.check(account.key, browser.address, known=True)
-    if not passwords.matches(asked.present, account.password):
-        browser.throttle.failed(account.key, browser.address, known=True)
+    with browser.throttle.attempt(account.key, browser.address, known=True) as attempt:
+        attempt.correct = passwords.matches(asked.present, account.password)
+    if not attempt.correct:
         raise RthsError(Issue("present", "is not the present password"))
     accounts.give_password(account, asked.password)
     signing.end_all(account.id, but=who.credential_id)

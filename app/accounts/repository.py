@@ -66,6 +66,13 @@ class AccountRows:
         query = sa.select(AccountSession).where(AccountSession.account_id == account_id, *going)
         return self.session.scalars(query.order_by(AccountSession.seen_at.desc())).all()
 
+    def end_everything(self, account_id: str, now: datetime) -> None:
+        """End the sessions of an account, and remove its API tokens and links."""
+        going = (AccountSession.account_id == account_id, AccountSession.ended_at.is_(None))
+        self.session.execute(sa.update(AccountSession).where(*going).values(ended_at=now))
+        self.session.execute(sa.delete(ApiToken).where(ApiToken.account_id == account_id))
+        self.forget_links(account_id, now)
+
     def used_before(self, account_id: str, address: str) -> bool:
         """Whether an account has signed in from an address."""
         query = sa.select(AccountSession.id).where(AccountSession.account_id == account_id, AccountSession.address == address)
@@ -82,4 +89,9 @@ class AccountRows:
     def with_keys(self, table: Keyed, keys: Sequence[str]) -> Iterable[AccountSession | ApiToken]:
         """The sessions or API tokens with these stored keys, their accounts included."""
         query: sa.Select[Any] = sa.select(table).where(table.key_sha256.in_(keys))
+        yield from self.session.scalars(query)
+
+    def with_ids(self, table: Keyed, ids: Sequence[str]) -> Iterable[AccountSession | ApiToken]:
+        """The sessions or API tokens with these ids, their accounts included."""
+        query: sa.Select[Any] = sa.select(table).where(table.id.in_(ids))
         yield from self.session.scalars(query)

@@ -49,6 +49,7 @@ class LinkOut(BaseModel):
 
     makes: Literal["first administrator", "password"]
     name: str = Field(description="name of the account; empty for the first administrator")
+    replaces: bool = Field(description="whether the account has a password already, which the new one replaces")
 
 
 class NewPassword(_In):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import unicodedata
 import uuid
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
@@ -11,12 +10,11 @@ from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
 from app.access import Role
-from app.accounts import keys, passwords
+from app.accounts import keys, names, passwords
 from app.accounts.repository import AccountRows
 from app.models import Account, AccountLink
 from app.models.accounts import key_of
 from app.problems import Conflict, NotFound
-from rths_engine.foundation.errors import Issue, RthsError
 
 LINK_HOLDS = timedelta(hours=24)
 LINK_PATH = "/sign-in/link#"  # browsers send nothing behind #, so that no log holds the key
@@ -51,9 +49,7 @@ class AccountService:
 
     def add(self, name: str, role: Role, password: str | None = None) -> Account:
         """Add an account, which signs in once it has a password. Raises Conflict where the name is taken."""
-        name = unicodedata.normalize("NFKC", name).strip()
-        if not name or not name.isprintable():
-            raise RthsError(Issue("name", "needs at least one character, and printable characters only", name))
+        name = names.checked(name)
         if self.rows.keyed(key_of(name)):
             raise Conflict(f"The name {name} belongs to another account. Choose another name.")
         hashed = passwords.hashed(password) if password is not None else None
@@ -78,11 +74,18 @@ class AccountService:
         account.role = role.name.lower()
 
     def disable(self, account: Account) -> None:
-        """End all sessions and API tokens of an account, and refuse its sign-in. Raises Conflict for the last administrator."""
+        """End all sessions, API tokens and links of an account for good, and refuse its sign-in.
+
+        Raises Conflict for the last administrator.
+        """
         self._keep_one(account)
         account.disabled_at = account.disabled_at or datetime.now(UTC)
+        self.rows.end_everything(account.id, datetime.now(UTC))
 
     def enable(self, account: Account) -> None:
+        """Let the owner of a disabled account sign in again, by the password. What was open before stays ended."""
+        if account.disabled_at is not None:
+            self.rows.end_everything(account.id, datetime.now(UTC))  # also what began at the moment of the disabling
         account.disabled_at = None
 
     def give_password(self, account: Account, password: str) -> None:

@@ -38,12 +38,11 @@ class SigningIn:
         key = key_of(name)
         account = self.rows.keyed(key)
         known = account is not None and self.rows.used_before(account.id, address)
-        throttle.check(key, address, known)
-        correct = passwords.matches(password, account.password if account else None)
-        if account is None or not correct or account.disabled_at:
-            throttle.failed(key, address, known)
+        with throttle.attempt(key, address, known) as attempt:
+            matches = passwords.matches(password, account.password if account else None)
+            attempt.correct = matches and account is not None and account.disabled_at is None
+        if account is None or not attempt.correct:
             raise Refused(REFUSED)
-        throttle.succeeded(key, address)
         return account
 
     def start(self, account: Account, address: str, browser: str) -> tuple[str, AccountSession]:
@@ -89,7 +88,9 @@ class SigningIn:
         beyond = [scope for scope in wanted if ROLE_OF[scope] > Role[account.role.upper()]]
         if beyond:
             problem = f"goes beyond the role {account.role}: it needs the role {ROLE_OF[beyond[0]].name.lower()}"
-            raise RthsError(Issue("scopes", problem, beyond[0].value, "leave it out"))
+            library = beyond[0] is Scope.SUBMIT and Role[account.role.upper()] is Role.OPERATOR
+            fix = "leave it out: the scope operate queues plans of the library" if library else "leave it out"
+            raise RthsError(Issue("scopes", problem, beyond[0].value, fix))
         if len(self.tokens(account.id)) >= MOST_TOKENS:
             raise Conflict(f"{account.name} has {MOST_TOKENS} API tokens. Revoke one first.")
         now, key = datetime.now(UTC), keys.new_key(keys.PREFIX)

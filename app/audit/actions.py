@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 PREFIX = "/api/v1/"
@@ -18,6 +19,7 @@ CALCULATIONS = frozenset(
         "/api/v1/plans/read",
         "/api/v1/plans/write",
         "/api/v1/recordings/preview",
+        "/api/v1/sign-in/link/read",  # each time its page is opened; the link stays valid
         "/api/v1/runs/{run_id}/designsafe.zip",
         "/api/v1/runs/{run_id}/designsafe/check",
         "/api/v1/stability",
@@ -26,6 +28,14 @@ CALCULATIONS = frozenset(
     }
 )
 """Addresses whose POST requests change nothing that matters later. A new address is recorded until it stands here."""
+UNKNOWN = "unknown address"  # of a request that leads nowhere: whatever was typed there, a secret perhaps, is not kept
+LEFT_OUT = "left out"
+KEY = re.compile(r"rths_[\w-]*|(?<![\w-])[\w-]{43}(?![\w-])")  # forms of the keys of app/accounts/keys.py
+
+
+def without_keys(path: str) -> str:
+    """An address without what has the form of a secret key."""
+    return KEY.sub(LEFT_OUT, path)
 
 
 def changes(method: str, route: Any) -> bool:
@@ -36,6 +46,8 @@ def changes(method: str, route: Any) -> bool:
 def action(route: Any, path: str) -> str:
     """The action of a request: `runs.cancel`, `runs.annotations.add`; for an address without a route its first word."""
     name = str(getattr(route, "name", "") or "")
+    if path == UNKNOWN:
+        return "unknown"
     if not name:
         return area_of(path)
     words = [word for word in _path(route).removeprefix(PREFIX).strip("/").split("/") if word and "{" not in word]

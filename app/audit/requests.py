@@ -15,12 +15,14 @@ from sqlalchemy.orm import Session
 from starlette.routing import BaseRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.access import PERSON, SignedIn
+from app.access import ENDED, LEADS, PERSON, SignedIn
 from app.audit import actions, given
 from app.audit.log import Acting, AuditLog
 from app.audit.recorder import Recorder, Waiting
 
 RECORDED, GIVEN, REQUEST = "audit_recorded", "audit_given", "audit request"
+CHANGED = "audit changed rows"
+CHANGING = frozenset({"INSERT", "UPDATE", "DELETE"})
 REFUSED = frozenset({401, 403})
 REFUSED_SOCKET = frozenset({4401, 4403})
 MOST_MADE = 500
@@ -41,7 +43,14 @@ async def given_in(request: Request) -> dict[str, Any]:
 def watch(session: Session) -> list[dict[str, Any]]:
     """The rows that the session of a request adds, as they are flushed: those with an id of their own."""
     made: list[dict[str, Any]] = []
-    session.info[REQUEST] = True
+    session.info[REQUEST], session.info[CHANGED] = True, 0
+
+    def executed(_: Any, cursor: Any, statement: str, *__: Any) -> None:
+        if statement.lstrip()[:6].upper() in CHANGING:
+            counted = "RETURNING" not in statement and cursor.rowcount >= 0
+            session.info[CHANGED] += cursor.rowcount if counted else 1
+
+    sa.event.listen(session, "after_begin", lambda _, __, begun: sa.event.listen(begun, "after_cursor_execute", executed))
     sa.event.listen(session, "after_flush", lambda flushed, _: made.extend(_made(flushed)))
     return made
 
@@ -57,7 +66,9 @@ def record(session: Session, request: Request, made: list[dict[str, Any]]) -> No
     if not actions.changes(request.method, route):
         return
     session.flush()
-    more = {"made": made[:MOST_MADE], "made_in_all": len(made)} if made else {}
+    more: dict[str, Any] = {"made": made[:MOST_MADE], "made_in_all": len(made)} if made else {}
+    if not session.info[CHANGED]:
+        more["rows_changed"] = 0  # nothing was to be done, or files only
     AuditLog(session).add(*_entry(request.scope, route, **more))
     request.scope["state"][RECORDED] = True
 
@@ -76,7 +87,7 @@ class Recording:
         async def seen(message: Message) -> None:
             if message["type"] in {"http.response.start", "websocket.http.response.start"}:
                 self._answered(scope, message["status"])
-            elif message["type"] == "websocket.close" and message.get("code") in REFUSED_SOCKET:
+            elif message["type"] == "websocket.close" and message.get("code") in REFUSED_SOCKET and ENDED not in scope:
                 self._answered(scope, 403)
             await send(message)
 
@@ -106,10 +117,12 @@ def _entry(scope: Scope, route: BaseRoute | None, **more: Any) -> tuple[Acting, 
     kept: dict[str, Any] = scope["state"].get(GIVEN) or {}
     if "status" in more and PERSON not in scope:
         kept = {}  # what a stranger types as a name may be a password
-    details = {"method": scope.get("method", "websocket"), "path": scope["path"], "address": _address(scope), **more}
+    known = route is not None or scope.get(LEADS, False)
+    path = actions.without_keys(scope["path"]) if known else actions.UNKNOWN
+    details = {"method": scope.get("method", "websocket"), "path": path, "address": _address(scope), **more}
     if kept:
         details["given"] = kept
-    what = actions.action(route, scope["path"]), actions.about(scope.get("path_params") or {})
+    what = actions.action(route, path), actions.without_keys(actions.about(scope.get("path_params") or {}))
     return _acting(scope, kept, more.get("made") or []), *what, details
 
 

@@ -25,9 +25,14 @@ class Account(Base):
     disabled_at: Mapped[datetime | None]
 
 
+def tidy(name: str) -> str:
+    """A name with one space between its words and none around them, and one form of each letter (NFKC)."""
+    return " ".join(unicodedata.normalize("NFKC", name).split())
+
+
 def key_of(name: str) -> str:
-    """The key of a name: equal for names that differ only in case, in spaces around them or in forms of the same letter."""
-    return unicodedata.normalize("NFKC", name).strip().casefold()[:240]
+    """The key of a name: equal for names that differ only in case, in spaces or in forms of the same letter."""
+    return tidy(name).casefold()[:240]
 
 
 class AccountSession(Base):

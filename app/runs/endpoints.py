@@ -59,12 +59,12 @@ class Wanted(BaseModel):
 
 
 @router.post("/runs", status_code=201, responses=told(409))
-@allowed(Role.OPERATOR, Scope.SUBMIT)
+@allowed(Role.OPERATOR, Scope.SUBMIT, Scope.OPERATE)
 def submit(body: Annotated[Submission, Body()], runs: Runs, who: Who) -> Submitted:
     """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued.
 
-    An operator queues plans of the library only: `library` names a version that is not archived, and the whole plan is that
-    version, its pace and name included.
+    An operator, or an API token without the scope `submit`, queues plans of the library only: `library` names a version that is
+    not archived, and the whole plan is that version, its pace and name included.
     """
     if (body.plan is None) == (body.plans is None):
         raise PlanError(Issue("plan", "needs either one plan as 'plan' or a list of plans as 'plans'"))
@@ -72,7 +72,7 @@ def submit(body: Annotated[Submission, Body()], runs: Runs, who: Who) -> Submitt
         plans, prefix = [body.plan], ""
     else:
         plans, prefix = body.plans, "plans.{}"
-    as_kept = who.role < Role.ENGINEER
+    as_kept = not who.queues_any_plan
     stored = runs.submit(plans, body.submitted_by, prefix, body.library, body.rig, body.priority, as_kept)
     return Submitted(runs=[RunOut.of(run) for run in stored])
 

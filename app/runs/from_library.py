@@ -11,6 +11,7 @@ from app.problems import Forbidden
 from rths_engine.foundation.errors import RthsError
 from rths_engine.parts.ground_motions import MotionLibrary
 
+WHO = "An operator, or an API token without the scope submit,"
 HOW = "Choose a plan on the page Plans, or ask an engineer to queue this plan."
 
 
@@ -20,11 +21,11 @@ def check_as_kept(runs: Sequence[Run], kept: tuple[LibraryPlan, PlanVersion] | N
     The digest of a plan would not do: it leaves out what does not change the result, such as the pace at which a rig moves.
     """
     if kept is None:
-        raise Forbidden(f"An operator queues plans of the library as they are, and no version of the library is named. {HOW}")
+        raise Forbidden(f"{WHO} queues plans of the library as they are, and no version of the library is named. {HOW}")
     plan, version = kept
     called = f"{plan.name}, version {version.number}"
     if plan.archived_at is not None:
-        raise Forbidden(f"An operator queues plans that are in use, and {called}, is archived. {HOW}")
+        raise Forbidden(f"{WHO} queues plans that are in use, and {called}, is archived. {HOW}")
     try:
         whole = checked(version.plan, motions).plan.as_dict()
     except RthsError as error:
@@ -32,7 +33,7 @@ def check_as_kept(runs: Sequence[Run], kept: tuple[LibraryPlan, PlanVersion] | N
     for run in runs:
         if different := _different(run.plan, whole):
             how = f"This plan differs from {called}, in {different}"
-            raise Forbidden(f"An operator queues plans of the library as they are. {how}. {HOW}")
+            raise Forbidden(f"{WHO} queues plans of the library as they are. {how}. {HOW}")
 
 
 def _different(plan: dict[str, Any], kept: dict[str, Any]) -> str:

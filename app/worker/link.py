@@ -16,9 +16,9 @@ from typing import Any
 from websockets.exceptions import ConnectionClosedError, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from app.gate import NOT_ALLOWED
 from app.live.frames import FrameStore
 from app.live.uplink import FRAME_HEADER
+from app.open_sockets import NOT_ALLOWED
 from app.worker.stopping import Stopper
 from app.worker.trust import context
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
@@ -12,14 +13,18 @@ import sqlalchemy as sa
 from fastapi.testclient import TestClient
 
 from app.access import Role
-from app.accounts import passwords
+from app.accounts import names, passwords
 from app.accounts.service import AccountService
+from app.accounts.throttle import Throttle
 from app.config import Settings
 from app.db import unit_of_work
 from app.main import create_app
 from app.models import AccountLink, AccountSession
+from app.problems import Unavailable
+from rths_engine.foundation.errors import RthsError
 from tests.app.conftest import ADDRESS, HERE, app_of, plan
 from tests.app.people import COOKIE, PASSWORD, V1, Person, browser, lab, name_of, person, sign_in
+from tests.browser.service import until
 
 __all__ = ["browser", "lab", "person"]  # fixtures
 
@@ -31,7 +36,11 @@ def test_the_first_administrator_is_made_by_a_link_that_works_once(tmp_path: Pat
             path, _ = AccountService(session).link()
         key = path.partition("#")[2]
         assert fresh.post(f"{V1}/sign-in/link/read", json={"key": old.partition("#")[2]}).status_code == 404  # replaced
-        assert fresh.post(f"{V1}/sign-in/link/read", json={"key": key}).json() == {"makes": "first administrator", "name": ""}
+        assert fresh.post(f"{V1}/sign-in/link/read", json={"key": key}).json() == {
+            "makes": "first administrator",
+            "name": "",
+            "replaces": False,
+        }
         short = fresh.post(f"{V1}/sign-in/link", json={"key": key, "name": "Ana Ruiz", "password": "short"})
         assert short.status_code == 422 and "12 to 200 characters" in short.json()["detail"] and "short" not in short.text[60:]
         assert fresh.post(f"{V1}/sign-in/link", json={"key": key, "name": " ", "password": PASSWORD}).status_code == 422
@@ -152,6 +161,8 @@ def test_a_disabled_account_is_out_at_once(person: Person, browser: Callable[...
     assert browser().get(f"{V1}/account", headers=program).status_code == 401
     assert administrator.post(f"{path}/password-link").status_code == 409
     assert administrator.patch(path, json={"disabled": False}).json()["disabled_at"] is None
+    assert engineer.get(f"{V1}/account").status_code == 401  # a session that was stolen does not come back
+    assert browser().get(f"{V1}/account", headers=program).status_code == 401
     assert sign_in(browser(), name).status_code == 204
 
 
@@ -218,6 +229,68 @@ def test_a_hash_is_computed_for_unknown_names_too(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(passwords, "_NOBODYS", [])
     assert not passwords.matches(PASSWORD, None) and passwords.matches(PASSWORD, "stored")
     assert seen == ["of nobody", "stored"]
+
+
+def test_guesses_at_the_same_time_are_as_few_as_one_after_another(
+    person: Person, browser: Callable[..., TestClient], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name, looked_at = name_of(person(Role.VIEWER)), []
+    all_sent = threading.Event()
+
+    def slow(password: str, stored: str | None) -> bool:
+        looked_at.append(password)
+        all_sent.wait(30)
+        return password == PASSWORD
+
+    monkeypatch.setattr(passwords, "matches", slow)
+    guesser = browser("198.51.100.1")
+    with ThreadPoolExecutor(20) as together:
+        sent = [together.submit(sign_in, guesser, name, "a wrong guess") for _ in range(20)]
+        until(lambda: sum(one.done() for one in sent), lambda done: done == 15)  # refused before a hash is computed
+        all_sent.set()
+        assert sorted(one.result().status_code for one in sent) == [401] * 5 + [429] * 15
+    assert len(looked_at) == 5 and sign_in(guesser, name).status_code == 429
+    owner = browser("192.0.2.1")
+    assert [sign_in(owner, name).status_code for _ in range(7)] == [204] * 7  # given back
+    present = {"present": "a wrong password", "password": "another password"}
+    assert [owner.post(f"{V1}/account/password", json=present).status_code for _ in range(6)] == [422] * 5 + [429]
+
+
+def test_an_attempt_that_was_not_looked_at_does_not_count() -> None:
+    throttle = Throttle()
+    for _ in range(40):
+        with pytest.raises(Unavailable), throttle.attempt("ana", "192.0.2.1", False):
+            raise Unavailable("busy")
+    with throttle.attempt("ana", "192.0.2.1", False):
+        assert throttle._under_way.total() == 3
+    assert not throttle._under_way
+
+
+def test_names_that_look_like_others_or_like_the_program_are_refused(person: Person) -> None:
+    refused = person(Role.ADMINISTRATOR).post(f"{V1}/accounts", json={"name": "Service"})
+    assert refused.status_code == 422 and refused.json()["errors"][0]["where"] == "name"
+    for name in ("Local  Administrator", "\u200bAna", "\u3164", "\u0410na Ruiz", "Ana\ufe0f", " ", "Wor\nker\x00"):
+        with pytest.raises(RthsError, match="name"):
+            names.checked(name)
+    assert names.checked("Jos\u00e9  \u674e") == "Jos\u00e9 \u674e"
+
+
+def test_names_that_differ_in_spaces_are_one_name(person: Person, browser: Callable[..., TestClient]) -> None:
+    administrator = person(Role.ADMINISTRATOR, "One  Space\u00a0Only")
+    assert name_of(administrator) == "One Space Only"
+    assert administrator.post(f"{V1}/accounts", json={"name": "one space   only"}).status_code == 409
+    assert sign_in(browser(), " one   space only ").status_code == 204
+    assert administrator.post(f"{V1}/accounts", json={"name": "\u041e\u043b\u044c\u0433\u0430 \u674e"}).status_code == 201
+
+
+def test_the_page_of_a_link_knows_whether_a_password_is_replaced(person: Person, browser: Callable[..., TestClient]) -> None:
+    administrator = person(Role.ADMINISTRATOR)
+    made = administrator.post(f"{V1}/accounts", json={"name": "Quite New"}).json()
+    for replaces in (False, True):
+        key = made["path"].partition("#")[2]
+        assert browser().post(f"{V1}/sign-in/link/read", json={"key": key}).json()["replaces"] is replaces
+        assert browser().post(f"{V1}/sign-in/link", json={"key": key, "password": PASSWORD}).status_code == 204
+        made = administrator.post(f"{V1}/accounts/{made['account']['id']}/password-link").json()
 
 
 def test_guessing_is_slowed_down_and_the_owner_still_signs_in(person: Person, browser: Callable[..., TestClient]) -> None:

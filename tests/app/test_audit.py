@@ -20,6 +20,8 @@ from fastapi.testclient import TestClient
 from sqlalchemy.orm import Session, sessionmaker
 
 from app import db
+from app.accounts import keys
+from app.accounts.service import AccountService
 from app.audit import actions, given
 from app.audit.chain import EMPTY, Head, canonical
 from app.audit.check import check
@@ -232,6 +234,47 @@ def test_secrets_never_reach_the_log(client: TestClient) -> None:
     assert asked(client, action="webhooks")[0]["details"]["given"] == {"by": "Ana"}
     with app_of(client).state.sessions() as session:
         assert not [one for one in session.scalars(sa.select(AuditEntry)) if "hush" in one.details]
+
+
+def test_a_key_in_an_address_never_reaches_the_log(client: TestClient) -> None:
+    key, token = keys.new_key(), keys.new_key(keys.PREFIX)
+    stranger = TestClient(app_of(client), ADDRESS, client=("192.0.2.7", 1))
+    for path in (
+        f"/x/{token}",
+        f"/sign-in/link/{key}",
+        f"/api/v1/{token}",
+        f"/api/v1/runs/{token}/cancel",
+        f"/api/v1/rigs/{key}",
+    ):
+        assert stranger.post(path).status_code in {401, 405}
+        client.delete(path)
+    client.post(f"/api/v1/control/{token}/release", json={})
+    found = asked(client, action="refused")
+    assert {one["details"]["path"] for one in found} == {
+        "unknown address",
+        "/api/v1/runs/left out/cancel",
+        "/api/v1/rigs/left out",
+    }
+    assert {one["action"] for one in found} == {"refused.unknown", "refused.runs", "refused.rigs"}
+    with app_of(client).state.sessions() as session:
+        for one in session.scalars(sa.select(AuditEntry)):
+            assert (
+                key not in f"{one.details} {one.about} {one.action}"
+                and token[9:] not in f"{one.details} {one.about} {one.action}"
+            )
+
+
+def test_a_request_that_changed_no_row_says_so_and_a_link_that_is_looked_at_is_not_recorded(client: TestClient) -> None:
+    run = client.post("/api/v1/runs", json={"plan": plan(), "submitted_by": "Ana"}).json()["runs"][0]["id"]
+    for runs in (["none"], [run]):
+        client.post("/api/v1/runs/bulk", json={"action": "tag", "tags": ["damper"], "runs": runs}).raise_for_status()
+    done, nothing = asked(client, action="runs.bulk")
+    assert nothing["details"]["rows_changed"] == 0 and "rows_changed" not in done["details"]
+    assert all("rows_changed" not in one["details"] for one in asked(client, action="runs.submit"))
+    with db.unit_of_work(app_of(client).state.sessions) as session:
+        key = AccountService(session).link()[0].partition("#")[2]
+    assert client.post("/api/v1/sign-in/link/read", json={"key": key}).status_code == 200
+    assert not asked(client, action="sign-in")
 
 
 @pytest.mark.parametrize(

@@ -45,15 +45,17 @@ def test_a_token_does_what_its_scopes_say_within_the_role(person: Person, browse
     reader = program(browser, token_of(engineer))
     assert reader.get(f"{V1}/runs").status_code == 200
     refused = reader.post(f"{V1}/runs", json={"plan": plan()})
-    assert refused.status_code == 403 and "scope submit" in refused.json()["detail"]
+    assert refused.status_code == 403 and "operate or submit" in refused.json()["detail"]
     submitter = program(browser, token_of(engineer, Scope.SUBMIT))
     assert submitter.post(f"{V1}/runs", json={"plan": plan()}).status_code == 201
     assert submitter.get(f"{V1}/runs").status_code == 403
     assert submitter.post(f"{V1}/abort").status_code == 200  # with every token
     beyond = engineer.post(f"{V1}/account/tokens", json={"name": "x", "scopes": ["administer"]})
     assert beyond.status_code == 422 and "needs the role administrator" in beyond.json()["detail"]
-    for path in ("/account/tokens", "/account/sessions"):
-        assert reader.get(f"{V1}{path}").status_code == 403  # a token makes no tokens
+    administers = program(browser, token_of(person(Role.ADMINISTRATOR), *Scope))
+    for path in ("/account/tokens", "/account/sessions", "/accounts", "/accounts/none/tokens"):
+        for one in (reader, administers):
+            assert one.get(f"{V1}{path}").status_code == 403  # a token makes no tokens, and manages no accounts
     with unit_of_work(app_of(lab).state.sessions) as session:
         stored = session.scalars(sa.select(ApiToken)).all()
         assert all(len(row.key_sha256) == 64 and "rths_" not in str(vars(row)) for row in stored)
@@ -174,7 +176,7 @@ def test_what_is_stored_carries_the_name_of_the_account(person: Person) -> None:
     assert name in cancelled.json()["reason"]
 
 
-def test_an_operator_queues_plans_of_the_library_and_no_others(person: Person) -> None:
+def test_an_operator_queues_plans_of_the_library_and_no_others(person: Person, browser: Browser) -> None:
     engineer, operator = person(Role.ENGINEER), person(Role.OPERATOR)
     kept = engineer.post(f"{V1}/library/plans", json={"plan": plan(), "name": "Checked plan"}).json()
     library = {"id": kept["id"], "version": 1}
@@ -186,6 +188,13 @@ def test_an_operator_queues_plans_of_the_library_and_no_others(person: Person) -
             refused = operator.post(f"{V1}/runs", json={**body, "library": library})
             assert refused.status_code == 403 and f", in {next(iter(different))}." in refused.json()["detail"]
     assert operator.post(f"{V1}/runs", json={"plan": plan()}).status_code == 403
+    refused = operator.post(f"{V1}/account/tokens", json={"name": "x", "scopes": ["submit"]})
+    assert refused.status_code == 422 and "scope operate queues plans of the library" in refused.json()["detail"]
+    for who in (operator, engineer):  # a token with the scope operate does as an operator does
+        queues = program(browser, token_of(who, Scope.OPERATE))
+        assert queues.post(f"{V1}/runs", json={"plan": plan(), "library": library}).status_code == 201
+        assert queues.post(f"{V1}/runs", json={"plan": plan(duration=3.0), "library": library}).status_code == 403
+        assert queues.post(f"{V1}/runs", json={"plan": plan(duration=3.0)}).status_code == 403
     durations = {run["duration_s"] for run in operator.get(f"{V1}/runs?limit=500").json()["runs"]}
     assert durations == {2.0}  # nothing of what was refused is stored
     assert engineer.post(f"{V1}/library/plans/{kept['id']}/archive").status_code == 200

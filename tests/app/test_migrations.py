@@ -14,7 +14,7 @@ from alembic.script import ScriptDirectory
 from app import db
 from app.cli.main import main
 from tests.app import postgres
-from tests.app.rows_of_revisions import Snapshot, common, fill, lost, snapshot
+from tests.app.rows_of_revisions import Snapshot, common, fill, lost, reflected, snapshot
 
 REVISIONS = [one.revision for one in ScriptDirectory.from_config(db.alembic_config("")).walk_revisions()][::-1]
 
@@ -51,6 +51,25 @@ def _walk(config: Config, engine: sa.Engine) -> None:
     for revision in REVISIONS[1:]:
         command.upgrade(config, revision)
         assert lost(common(stood[revision], oldest), snapshot(engine)) == [], f"up to {revision}"
+
+
+def test_names_of_accounts_with_more_spaces_stay_apart(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'rths.sqlite'}"
+    config, engine = db.alembic_config(url), db.connect(url)
+    command.upgrade(config, "0029")
+    fill(engine)
+    account = reflected(engine).tables["account"]
+    with engine.begin() as connection:
+        first = dict(connection.execute(sa.select(account)).mappings().one())
+        for number, name in enumerate(("Ola  Operator", "Ola Operator", "Eng\t Neer")):
+            row = {**first, "id": f"{number}", "name": name, "key": name.casefold()}
+            connection.execute(sa.insert(account), row)
+    command.upgrade(config, "0030")
+    with engine.connect() as connection:
+        found = {row.id: (row.name, row.key) for row in connection.execute(sa.select(account))}
+    engine.dispose()
+    assert found["0"] == ("Ola Operator (2)", "ola operator (2)") and found["1"] == ("Ola Operator", "ola operator")
+    assert found["2"] == ("Eng Neer", "eng neer")
 
 
 def test_an_earlier_schema_is_taken_only_after_saying_what_it_loses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

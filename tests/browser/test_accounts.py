@@ -14,6 +14,7 @@ from app.accounts.service import AccountService
 from app.config import Settings
 from app.db import unit_of_work
 from app.main import create_app
+from tests.app.conftest import plan
 from tests.app.people import PASSWORD
 from tests.browser.conftest import visit
 from tests.browser.service import free_port, until
@@ -81,6 +82,35 @@ def test_a_person_signs_in_by_the_keyboard_manages_the_account_and_signs_out(pag
     page.wait_for_url("**/sign-in")
     page.goto("/account")
     expect(page).to_have_url(f"{page.url.partition('/sign-in')[0]}/sign-in?to=%2Faccount")
+
+
+def test_an_open_page_says_that_the_session_has_ended_and_goes_on_after_a_new_sign_in(page: Page, lab: tuple[str, str]) -> None:
+    def enter() -> None:
+        done = page.context.request.post(f"{lab[0]}/api/v1/sign-in", data={"name": "Ana Ruiz", "password": PASSWORD})
+        assert done.status == 204
+
+    enter()
+    queued = page.context.request.post(f"{lab[0]}/api/v1/runs", data={"plan": plan()}).json()["runs"][0]
+    visit(page, f"/runs/{queued['id']}")
+    assert page.context.request.post(f"{lab[0]}/api/v1/sign-out").status == 204
+    notice = page.locator(".signed-out")
+    expect(notice).to_contain_text("You are signed out: your session has ended.")
+    expect(page.locator("#link")).to_have_text("No live data: your session has ended")
+    bar = page.get_by_role("region", name="Abort")
+    expect(bar.get_by_role("link", name="Sign in to abort")).to_be_visible()
+    whole(page)
+    assert page.url.endswith(f"/runs/{queued['id']}")  # nothing of the page is lost
+    enter()  # in another tab
+    expect(notice).to_have_count(0)
+    expect(bar).to_be_hidden()
+    expect(page.locator("#link")).to_have_text("")
+    page.context.request.post(f"{lab[0]}/api/v1/sign-out")
+    notice.get_by_role("link", name="Sign in and return to this page").press("Enter")
+    expect(page.get_by_label("Name")).to_be_focused()
+    page.keyboard.type("Ana Ruiz")
+    page.keyboard.press("Tab")
+    page.keyboard.type(f"{PASSWORD}\n")
+    page.wait_for_url(f"**/runs/{queued['id']}")
 
 
 def test_a_link_chooses_the_password_and_signs_in_once(page: Page, lab: tuple[str, str]) -> None:

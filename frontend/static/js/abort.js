@@ -1,9 +1,10 @@
 // @ts-check
 // The bar on every page while a test runs, or while the service does not say whether one runs. Abort asks for a second press,
 // then stops all tests and holds the queue; the bar says which workers have acknowledged and whether the hold is recorded.
-import { api, explain } from "./api.js";
+import { ApiError, api, explain } from "./api.js";
 import { byId, el, renew } from "./dom.js";
 import { person } from "./person.js";
+import { signInLink } from "./signed_out.js";
 
 const PERIOD_MS = 1500;
 const CONFIRM_MS = 5000;
@@ -45,7 +46,8 @@ button.addEventListener("click", async () => {
     document.dispatchEvent(new Event("aborted"));
   } catch (error) {
     following = false;
-    note.textContent = `Not acknowledged: ${explain(error)} Press Abort again.`;
+    if (signedOut(error)) renew(note, "Not acknowledged: you are signed out. ", signInLink("Sign in"), ", then press Abort again.");
+    else note.textContent = `Not acknowledged: ${explain(error)} Press Abort again.`;
   }
 });
 
@@ -85,11 +87,15 @@ async function refresh() {
     button.disabled = !total;
   } catch (error) {
     names.textContent = "Whether a test runs is not known. ";
-    if (!following) note.textContent = explain(error);
+    if (signedOut(error)) renew(note, "You are signed out: ", signInLink("Sign in to abort"));
+    else if (!following) note.textContent = explain(error);
     bar.hidden = button.disabled = false;
   }
   setTimeout(refresh, PERIOD_MS);
 }
+
+/** @param {unknown} error */
+const signedOut = (error) => error instanceof ApiError && error.status === 401;
 
 /** @param {{id: string, number: number, name: string}} run */
 const link = (run) => el("a", { href: `/runs/${run.id}`, title: run.name }, `#${run.number} ${run.name}`);

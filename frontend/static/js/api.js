@@ -1,7 +1,10 @@
 // @ts-check
 import { loading } from "./ready.js";
+import { noteSignIn } from "./signed_out.js";
 
 /** @typedef {{where: string, problem: string, value?: any, fix?: string | null, lines?: {number: number, text: string}[]}} Problem */
+
+const SIGNED_OUT = "You are signed out. Sign in, then try again.";
 
 /** An error response of the service. Status 0: the service did not answer. */
 export class ApiError extends Error {
@@ -22,14 +25,13 @@ export function sentence({ where, problem, fix }) {
 async function request(path, init) {
   let response;
   try {
-    response = await fetch(`/api/v1${path}`, init);
+    response = noteSignIn(await fetch(`/api/v1${path}`, init));
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
     throw new ApiError(0, "The service does not answer. Check that the service runs and that this computer is connected to it.");
   }
   if (response.ok) return response;
-  if (response.status === 401 && !location.pathname.startsWith("/sign-in"))
-    location.assign(`/sign-in?to=${encodeURIComponent(location.pathname + location.search)}`);
+  if (response.status === 401 && !location.pathname.startsWith("/sign-in")) throw new ApiError(401, SIGNED_OUT);
   const body = await response.json().catch(() => ({}));
   const errors = Array.isArray(body.errors) ? body.errors : [];
   throw new ApiError(response.status, body.detail || body.title || `The service answered with the HTTP status ${response.status}.`, errors);

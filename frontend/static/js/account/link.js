@@ -8,12 +8,14 @@ const key = location.hash.slice(1);
 history.replaceState(null, "", location.pathname);
 
 async function open() {
-  const { makes, name } = await api.post("/sign-in/link/read", { key });
+  const { makes, name, replaces } = await api.post("/sign-in/link/read", { key });
   const first = makes === "first administrator";
   byId("title").textContent = first ? "Make the first administrator" : `Choose a password for ${name}`;
   byId("about").textContent = first
     ? "This control room has no account yet. The first one manages all others."
-    : "It signs you out in all other browsers.";
+    : replaces
+      ? "The new password signs you out in all other browsers. API tokens stay valid."
+      : "You are signed in at once. Later you sign in with this name and password.";
   byId("named").hidden = !first;
   byId("name").value = name;
   byId("name").required = first;

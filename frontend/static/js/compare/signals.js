@@ -1,5 +1,6 @@
 // @ts-check
 import { ApiError } from "../api.js";
+import { noteSignIn } from "../signed_out.js";
 
 /**
  * One signal of an item: smallest and largest values of equal parts (`envelope`), or every n-th sample (`samples`).
@@ -44,7 +45,7 @@ export function unpack(body) {
 
 /** Ask the service for signals. @param {URLSearchParams} query @param {AbortSignal} [signal] */
 export async function fetchSignals(query, signal) {
-  const response = await fetch(`/api/v1/compare/signals?${query}`, { signal });
+  const response = noteSignIn(await fetch(`/api/v1/compare/signals?${query}`, { signal }));
   if (response.ok) return unpack(await response.arrayBuffer());
   const problem = await response.json().catch(() => ({}));
   throw new ApiError(response.status, problem.detail ?? `The service answered with the HTTP status ${response.status}.`, problem.errors);

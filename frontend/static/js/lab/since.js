@@ -1,5 +1,6 @@
 // @ts-check
 import { byId } from "../dom.js";
+import { noteSignIn } from "../signed_out.js";
 
 const KEY = "rths.seen";
 const AWAY_MS = 10 * 60_000; // shorter absences are the same visit
@@ -12,7 +13,7 @@ export async function showSince() {
   setInterval(seen, 30_000);
   addEventListener("pagehide", seen);
   if (!before || Date.now() - Date.parse(before) < AWAY_MS) return;
-  const answer = await fetch(`/lab/since?moment=${encodeURIComponent(before)}`);
+  const answer = noteSignIn(await fetch(`/lab/since?moment=${encodeURIComponent(before)}`));
   if (!answer.ok) return;
   const host = byId("since");
   host.replaceChildren(...new DOMParser().parseFromString(await answer.text(), "text/html").body.childNodes);

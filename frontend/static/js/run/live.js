@@ -1,4 +1,6 @@
 // @ts-check
+import { checkSignIn } from "../signed_out.js";
+
 /** @typedef {import("./store.js").Schema} Schema */
 
 /**
@@ -15,17 +17,20 @@
 
 const FIRST_DELAY_MS = 300;
 const LONGEST_DELAY_MS = 8000;
+const NOT_ALLOWED = 4403; // the sign-in has ended, or the role does not suffice any longer
 const REFUSED = 4400; // the service's own close codes start here: a new connection would get the same answer
 
 /** Follow the live feed of one run until its end or until it is closed, and reconnect when the connection is lost. @param {string} runId @param {Viewer} viewer */
 export function follow(runId, viewer) {
   let delay = FIRST_DELAY_MS;
   let ended = false;
+  let open = false;
   /** @type {WebSocket} */
   let socket;
 
   const connect = () => {
     if (ended) return;
+    open = false;
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     socket = new WebSocket(`${scheme}://${location.host}/api/v1/runs/${runId}/live?from=${viewer.received()}`);
     socket.binaryType = "arraybuffer";
@@ -35,6 +40,10 @@ export function follow(runId, viewer) {
     };
     socket.onclose = ({ code, reason }) => {
       if (ended) return;
+      if (code === NOT_ALLOWED) {
+        document.addEventListener("signedin", connect, { once: true });
+        void checkSignIn(reason);
+      }
       if (code >= REFUSED) return viewer.link("refused", reason);
       viewer.link("reconnecting", "");
       setTimeout(connect, delay * (0.75 + Math.random() / 2));
@@ -43,9 +52,12 @@ export function follow(runId, viewer) {
   };
 
   const take = (/** @type {any} */ message) => {
-    if (message.type === "schema") {
+    if (!open) {
+      open = true;
       delay = FIRST_DELAY_MS;
       viewer.link("open", "");
+    }
+    if (message.type === "schema") {
       viewer.schema(message);
     } else if (message.type === "progress") {
       viewer.progress(message);

@@ -1,6 +1,7 @@
 // @ts-check
 // The accounts: add them, change their roles, disable them, and make links by which their owners choose passwords.
 import { api, explain } from "../api.js";
+import { confirmed } from "../confirm.js";
 import { byId, el, renew } from "../dom.js";
 import { when } from "../format.js";
 
@@ -30,10 +31,21 @@ function row(account) {
       { class: "nowrap" },
       account.disabled_at ? false : act("Make a password link", async () => showLink(await api.post(`${path}/password-link`))),
       " ",
-      act(account.disabled_at ? "Enable the account" : "Disable the account", () => api.patch(path, { disabled: !account.disabled_at })),
+      account.disabled_at
+        ? act("Enable the account", () => api.patch(path, { disabled: false }))
+        : act("Disable the account", async () => (await disablingConfirmed(account)) && api.patch(path, { disabled: true })),
     ),
   );
 }
+
+/** @param {Account} account */
+const disablingConfirmed = (account) =>
+  confirmed({
+    title: `Disable the account of ${account.name}?`,
+    text: "Its sessions, API tokens and links end at once and for good, also if you enable the account again. Its tests and plans stay.",
+    action: "Disable the account",
+    keep: "Keep it enabled",
+  });
 
 /** @param {{account: Account, path: string, expires_at: string}} made */
 function showLink({ account, path, expires_at }) {

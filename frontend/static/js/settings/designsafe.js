@@ -1,6 +1,7 @@
 // @ts-check
 import { api, explain, sentence } from "../api.js";
 import { byId, el } from "../dom.js";
+import { noteSignIn } from "../signed_out.js";
 
 const KEY = "rths.designsafe";
 const form = byId("designsafe");
@@ -65,7 +66,7 @@ async function check(beside) {
 async function download(event) {
   event.preventDefault();
   if (!(await check(true))) return;
-  const response = await fetch(`/api/v1${address}.zip`, { method: "POST", body: JSON.stringify(given()), headers: { "Content-Type": "application/json" } });
+  const response = noteSignIn(await fetch(`/api/v1${address}.zip`, { method: "POST", body: JSON.stringify(given()), headers: { "Content-Type": "application/json" } }));
   if (!response.ok) {
     byId("refusal").textContent = `Not made: ${(await response.json()).detail}`;
     return;

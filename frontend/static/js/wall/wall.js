@@ -1,5 +1,5 @@
 // @ts-check
-import { api } from "../api.js";
+import { ApiError, api } from "../api.js";
 import { controlLine } from "../control/line.js";
 import { byId, el, renew } from "../dom.js";
 import { ended } from "../run/facts.js";
@@ -51,8 +51,9 @@ async function look() {
     byId("wall-state").textContent = state.words;
     document.body.dataset.state = state.name;
     byId("wall-next").textContent = nextTests(queue, queue.running.length - MOST_TESTS);
-  } catch {
-    byId("wall-state").textContent = `No answer from the control room since ${answered.toLocaleTimeString()}`;
+  } catch (error) {
+    const lost = error instanceof ApiError && error.status === 401 ? "Signed out" : "No answer from the control room";
+    byId("wall-state").textContent = `${lost} since ${answered.toLocaleTimeString()}`;
     document.body.dataset.state = "lost";
   }
   setTimeout(look, only && displays.size && [...displays.values()].every((one) => ended(one.run.state)) ? 5 * POLL_MS : POLL_MS);
