@@ -17,7 +17,9 @@ BY = {"by": "Ana Ruiz"}
 RIG = {
     "name": "Shaker",
     "kind": "physical",
+    "tests_at_a_time": 1,
     "actuators": [{"name": "North", "stroke": 0.25, "velocity": 0.5, "force": 1.0e6}],
+    "retired": False,
 }
 MAPPING = {
     "schema": "rths-mapping/1",
@@ -107,7 +109,13 @@ REQUESTS: dict[str, Callable[[], Any]] = {
     "POST /api/v1/runs/{run_id}/undo-cancel": lambda: BY,
     "POST /api/v1/runs/{run_id}/retry": lambda: BY,
     "PUT /api/v1/rules": lambda: {"one_driver": False, "approvals": False, "approvers": []},
-    "PUT /api/v1/retention": lambda: {"days": 365, "states": ["cancelled", "failed"]},
+    "PUT /api/v1/retention": lambda: {
+        "days": 365,
+        "gigabytes": None,
+        "states": ["cancelled", "failed"],
+        "template": "",
+        "tag": "",
+    },
     "POST /api/v1/control/{rig_id}/take": lambda: BY,
     "POST /api/v1/control/{rig_id}/renew": lambda: BY,
     "POST /api/v1/control/{rig_id}/release": lambda: BY,

@@ -11,7 +11,7 @@ from app import headers
 from app.access import Role, allowed
 from app.laboratory.dependency import OneLaboratory
 from app.laboratory.logo import PNG, SVG
-from app.laboratory.schemas import Identity, LaboratoryOut
+from app.laboratory.schemas import IdentityIn, LaboratoryOut
 from app.openapi import told
 from app.problems import NotFound
 
@@ -28,7 +28,7 @@ def shown(laboratory: OneLaboratory) -> LaboratoryOut:
 
 @router.put("")
 @allowed(Role.ADMINISTRATOR)
-def save(laboratory: OneLaboratory, identity: Annotated[Identity, Body()]) -> LaboratoryOut:
+def save(laboratory: OneLaboratory, identity: Annotated[IdentityIn, Body()]) -> LaboratoryOut:
     """Set name, address and signatures of the laboratory."""
     laboratory.save(identity)
     return laboratory.shown()

@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.text import Storable
+from app.whole import Whole
 
 ROLES = ("Test operator", "Checked by", "Approved by")
 Role = Annotated[Storable, Field(min_length=1, max_length=60)]
@@ -20,6 +21,10 @@ class Identity(BaseModel):
     name: Storable = Field("", max_length=120, description="name of the laboratory, in the header of every report")
     address: Storable = Field("", max_length=200, description="address line under the name")
     signatures: list[Role] = Field([*ROLES], max_length=6, description="role of each person who signs a report")
+
+
+class IdentityIn(Identity, Whole):
+    """The identity to set: every field is given, so that none is emptied by leaving it out."""
 
 
 class Logo(BaseModel):

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body, Query
 
 from app.access import Role, allowed
 from app.retention.dependency import Retained
-from app.retention.schemas import ENDED, MOST_DAYS, MOST_GIGABYTES, Ended, Preview, RetentionOut, Rule
+from app.retention.schemas import ENDED, MOST_DAYS, MOST_GIGABYTES, Ended, Preview, RetentionOut, Rule, RuleIn
 from app.text import Storable
 
 router = APIRouter(prefix="/api/v1", tags=["retention"])
@@ -23,7 +23,7 @@ def shown(retention: Retained) -> RetentionOut:
 
 @router.put("/retention")
 @allowed(Role.ADMINISTRATOR)
-def save(retention: Retained, rule: Annotated[Rule, Body()]) -> RetentionOut:
+def save(retention: Retained, rule: Annotated[RuleIn, Body()]) -> RetentionOut:
     """Set the rule. A changed rule removes nothing within 24 hours; then recordings are removed once a day."""
     return retention.save(rule)
 

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.jobs.states import State
 from app.text import Storable
+from app.whole import Whole
 
 GIGABYTE = 1e9  # bytes
 MOST_DAYS, MOST_GIGABYTES = 36_500, 1e6
@@ -54,6 +55,10 @@ class Rule(BaseModel):
         which = " ".join(one for one in limits if one)
         when = "; also ".join(one for one in (days, full) if one)
         return f"A recording {f'{which} ' if which else ''}is removed {when}."
+
+
+class RuleIn(Rule, Whole):
+    """The rule to set: every field is given, so that no limit is lifted by leaving it out."""
 
 
 class RetentionOut(Rule):

@@ -52,7 +52,7 @@ class Retention:
 
     def save(self, rule: Rule) -> RetentionOut:
         """Set the rule. It removes nothing within the next PERIOD, so that a mistake can be undone."""
-        if rule != self.rule:
+        if rule.model_dump() != self.rule.model_dump():
             self.rows.rules.retention = rule.model_dump(mode="json")
             self.rows.rules.retention_due = self.rows.now() + PERIOD if rule.acts else None
         return self.shown()

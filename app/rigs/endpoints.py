@@ -10,7 +10,7 @@ from fastapi.responses import Response
 from app.access import Role, allowed
 from app.openapi import told
 from app.rigs.dependency import Rigs
-from app.rigs.schemas import RigIn, RigList, RigOut
+from app.rigs.schemas import RigChange, RigIn, RigList, RigOut
 
 router = APIRouter(prefix="/api/v1/rigs", tags=["rigs"])
 
@@ -38,7 +38,7 @@ def one(rig_id: str, rigs: Rigs) -> RigOut:
 
 @router.put("/{rig_id}", responses=told(409))
 @allowed(Role.ADMINISTRATOR)
-def change(rig_id: str, given: Annotated[RigIn, Body()], rigs: Rigs) -> RigOut:
+def change(rig_id: str, given: Annotated[RigChange, Body()], rigs: Rigs) -> RigOut:
     """Change a rig. Refused where a plan that waits for it would exceed a capacity."""
     return rigs.change(rig_id, given)
 

@@ -7,6 +7,7 @@ from enum import StrEnum
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.text import Named, Storable
+from app.whole import Whole
 from rths_engine.planning.plan import MOST_STATIONS
 
 
@@ -29,7 +30,7 @@ class ActuatorCapacity(BaseModel):
 
 
 class RigIn(BaseModel):
-    """A rig as it is added or changed."""
+    """A rig as it is added."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -46,6 +47,10 @@ class RigIn(BaseModel):
         [], max_length=MOST_STATIONS, description="capacities of the actuators; station 1 of a plan moves the first"
     )
     retired: bool = Field(False, description="a retired rig takes no more tests")
+
+
+class RigChange(RigIn, Whole):
+    """A rig as it is after a change: every field is given, so that none is reset by leaving it out."""
 
 
 class RigOut(RigIn):

@@ -97,7 +97,7 @@ def test_the_report_of_a_run_shows_annotations_notes_rig_and_laboratory(client: 
     run = submit(client, **{key: value for key, value in plan().items() if key == "duration"})
     execute(client, settings, run)
     client.post(f"/api/v1/runs/{run}/annotations", json=NOTE)
-    client.put("/api/v1/laboratory", json={"name": "Structures Laboratory", "signatures": ["Director"]})
+    client.put("/api/v1/laboratory", json={"name": "Structures Laboratory", "address": "", "signatures": ["Director"]})
     text = client.get(f"/api/v1/runs/{run}/report.html").text
     assert len(text.encode()) < 1e6
     for said in ("Structures Laboratory", "Saturates", "Ana Ruiz", "Director", "<svg", "Emulated"):

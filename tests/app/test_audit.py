@@ -196,7 +196,7 @@ def test_refused_requests_and_calculations_leave_no_change(client: TestClient) -
 
 
 def test_changes_of_files_are_recorded_after_their_answer(client: TestClient) -> None:
-    client.put("/api/v1/laboratory", json={"name": "Laboratory"})
+    client.put("/api/v1/laboratory", json={"name": "Laboratory", "address": "", "signatures": []})
     entry = asked(client)[0]
     assert (entry["action"], entry["details"]["path"]) == ("laboratory.save", "/api/v1/laboratory")
 

@@ -28,6 +28,7 @@ from tests.app.conftest import ADDRESS, HERE, app_of, plan
 RETENTION = "/api/v1/retention"
 DAYS_AGO = [400, 300, 200, 100, 90, 80, 70, 60, 0.5]  # ends of the tests of runs #1 to #9; run #10 is queued
 SIZE = 1000
+EVERY: dict[str, Any] = {"days": None, "gigabytes": None, "states": [], "template": "", "tag": ""}
 
 
 class Laboratory(NamedTuple):
@@ -41,7 +42,7 @@ class Laboratory(NamedTuple):
         return found
 
     def save(self, **rule: Any) -> dict[str, Any]:
-        answer = self.client.put(RETENTION, json=rule)
+        answer = self.client.put(RETENTION, json=EVERY | rule)
         assert answer.status_code == 200, answer.text
         found: dict[str, Any] = answer.json()
         return found
@@ -242,7 +243,7 @@ def _fails(*_: Any) -> None:
     [({"days": 0}, "days"), ({"gigabytes": -1}, "gigabytes"), ({"states": ["running"]}, "states.0"), ({"weeks": 1}, "weeks")],
 )
 def test_a_wrong_rule_is_refused_in_words(lab: Laboratory, rule: dict[str, Any], where: str) -> None:
-    answer = lab.client.put(RETENTION, json=rule)
+    answer = lab.client.put(RETENTION, json=EVERY | rule)
     assert (answer.status_code, answer.json()["errors"][0]["where"]) == (422, where)
 
 

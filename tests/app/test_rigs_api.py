@@ -12,6 +12,8 @@ from tests.app.conftest import plan
 RIGS = "/api/v1/rigs"
 NORTH = {"name": "North", "stroke": 0.15, "velocity": 0.5, "force": 5e5}
 
+EVERY: dict[str, Any] = {"kind": "physical", "tests_at_a_time": None, "actuators": [], "retired": False}
+
 
 def shaker(client: TestClient, **more: Any) -> Any:
     given = {"name": "Shaker", "kind": "physical", "actuators": [NORTH, {"stroke": 1.0}], **more}
@@ -22,7 +24,7 @@ def test_the_emulated_laboratory_is_there_and_stays(client: TestClient) -> None:
     (first,) = client.get(RIGS).json()["rigs"]
     assert (first["id"], first["kind"], first["tests_at_a_time"]) == ("emulated", "emulated", None)
     assert client.delete(f"{RIGS}/emulated").status_code == 409
-    changed = {"name": "Emulated laboratory", "kind": "emulated", "tests_at_a_time": 4}
+    changed = {**EVERY, "name": "Emulated laboratory", "kind": "emulated", "tests_at_a_time": 4}
     assert client.put(f"{RIGS}/emulated", json=changed).json()["tests_at_a_time"] == 4
     assert client.put(f"{RIGS}/emulated", json={**changed, "retired": True}).status_code == 409
 
@@ -67,7 +69,7 @@ def test_a_rig_needs_an_actuator_for_each_station_and_exists(client: TestClient)
 
 
 def test_a_rig_in_use_is_retired_instead_of_deleted_and_keeps_its_promises(client: TestClient) -> None:
-    given: dict[str, Any] = {"name": "Shaker", "kind": "physical", "actuators": [{"stroke": 1.0}, {"stroke": 1.0}]}
+    given = {**EVERY, "name": "Shaker", "actuators": [{"stroke": 1.0}, {"stroke": 1.0}]}
     rig = client.post(RIGS, json=given).json()["id"]
     run = client.post("/api/v1/runs", json={"plan": plan(), "rig": rig}).json()["runs"][0]
     assert (run["rig_id"], run["rig_name"]) == (rig, "Shaker")
@@ -86,9 +88,9 @@ def test_undoing_a_cancel_asks_the_rig_again(client: TestClient) -> None:
     wide = {"stroke": 10.0, "velocity": 10.0, "force": 1e9}
     rig = client.post(RIGS, json={"name": "Wide", "kind": "physical", "actuators": [wide, wide]}).json()
     run = client.post("/api/v1/runs", json={"plan": plan(), "rig": rig["id"]}).json()["runs"][0]["id"]
-    retired = {"name": "Wide", "kind": "physical", "actuators": [wide, wide], "retired": True}
+    retired = {**EVERY, "name": "Wide", "actuators": [wide, wide], "retired": True}
     client.post(f"/api/v1/runs/{run}/cancel", json={})
-    narrow = {"name": "Wide", "kind": "physical", "actuators": [{**wide, "stroke": 0.01}] * 2}
+    narrow = {**EVERY, "name": "Wide", "actuators": [{**wide, "stroke": 0.01}] * 2}
     assert client.put(f"{RIGS}/{rig['id']}", json=narrow).status_code == 200
     refused = client.post(f"/api/v1/runs/{run}/undo-cancel", json={})
     assert refused.status_code == 422 and "10 mm" in refused.json()["errors"][0]["problem"]
