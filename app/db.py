@@ -22,10 +22,11 @@ MIGRATIONS = Path(__file__).parent.parent / "migrations"
 BUSY_TIMEOUT_MS = 30_000
 CONNECTIONS = 64  # more than the threads that ask for one: those of requests (40), of the queue and of webhooks
 LOCK_WAIT_S = 30
+IDLE_S = 40  # a transaction of a process that does nothing, as a frozen one: the server ends it, and others get its locks
 CUT_S = 10  # after which a connection counts as cut at both ends: otherwise a worker that was cut off keeps its locks for hours
 
-DATABASE_SILENT = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
-"""Errors of a database that is away, full, locked or has cut the connection: the same transaction may succeed later."""
+DATABASE_SILENT = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.InternalError, sa.exc.TimeoutError)
+"""Errors of a database that is away, full, locked or has ended the connection or the transaction: it may succeed later."""
 
 
 class UtcDateTime(sa.TypeDecorator[datetime]):
@@ -192,6 +193,7 @@ _POSTGRES = {
             "tcp_keepalives_count": 3,
             "tcp_user_timeout": CUT_S * 1000,
             "lock_timeout": LOCK_WAIT_S * 1000,
+            "idle_in_transaction_session_timeout": IDLE_S * 1000,
         }.items()
     ),
 }

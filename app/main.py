@@ -52,6 +52,7 @@ from app.library.endpoints import router as library
 from app.live.audience import Audience
 from app.live.endpoints import router as live
 from app.live.hub import Hub
+from app.live.relay import Relay
 from app.live.watching import router as watching
 from app.measured.batch_endpoints import router as batches
 from app.measured.endpoints import router as measured
@@ -214,6 +215,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     app.state.monitor = Monitor(Collected(settings, app.state.sessions, app.state.hub, KINDS))
     app.state.credentials = Credentials(app.state.sessions, app.state.sockets)
     app.state.credentials.start()
+    app.state.relay = Relay(app.state.sessions, KINDS)
     app.state.queue = durable.DurableQueue(engine)
     await asyncio.to_thread(_purge, app)
     app.state.audit = Recorder(app.state.sessions)
@@ -240,6 +242,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.to_thread(app.state.credentials.close)
         await asyncio.to_thread(app.state.desk.stop)
         app.state.queue.close()
+        app.state.relay.close()
         engine.dispose()
         app.state.audience.close()
 

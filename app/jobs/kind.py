@@ -94,7 +94,10 @@ class Kind(ABC, Generic[Row, Given, Result]):
         """Write a result into the columns of its job. The caller changes the state and commits."""
 
     def store_part(self, job: Row, part: Any) -> None:
-        """Store a part of the result while the job runs. Parts of one attempt come once each, and in their order."""
+        """Store a part of the result while the job runs. Parts of one attempt come in their order.
+
+        A part comes again where the answer to its commit got lost: it is stored once.
+        """
         raise NotImplementedError(f"a {self.name} has no parts")
 
     def place(self, order: Given, settings: Settings) -> None:

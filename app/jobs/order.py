@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -11,3 +11,5 @@ class Order:
 
     job_id: str
     attempt: int
+    moves: bool = field(default=False, kw_only=True)
+    """Whether the job can move a machine: its process then stops when its worker is cut off from everybody else."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Generic, TypeVar, cast
+from typing import Any, Generic, NamedTuple, TypeVar, cast
 
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
@@ -12,6 +12,14 @@ from app.jobs.states import State
 from app.jobs.tables import Job, Ordered
 
 Row = TypeVar("Row", bound=Job)
+
+
+class Begun(NamedTuple):
+    """A job that runs: its id, the turn that started it, and its worker."""
+
+    job: str
+    turn: str
+    worker: str
 
 
 class JobRepository(Generic[Row]):
@@ -39,6 +47,17 @@ class JobRepository(Generic[Row]):
     def ids(self, state: State) -> list[str]:
         """The ids of the jobs in a state, oldest first."""
         return list(self.session.scalars(sa.select(self.table.id).where(self.table.state == state).order_by(self.table.number)))
+
+    def first_ids(self, state: State, most: int) -> list[str]:
+        """The ids of the oldest jobs in a state, `most` at most."""
+        found = sa.select(self.table.id).where(self.table.state == state).order_by(self.table.number)
+        return list(self.session.scalars(found.limit(most)))
+
+    def running(self) -> list[Begun]:
+        """The jobs that run."""
+        turn = self._ordered().turn if issubclass(self.table, Ordered) else self.table.id
+        found = sa.select(self.table.id, turn, self.table.worker).where(self.table.state == State.RUNNING)
+        return [Begun(job, turn or job, worker or "") for job, turn, worker in self.session.execute(found)]
 
     def any_in(self, state: State, where: sa.ColumnElement[bool] | None = None) -> bool:
         """Whether a job is in a state, and meets a condition."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import uuid
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from typing import Any, Generic, Protocol
@@ -153,10 +153,12 @@ class JobService(Generic[Row, Result]):
             raise Conflict(f"The {self.kind.noun} has not ended: it is {job.state}. Cancel it first.")
         self.rows.remove(job)
 
-    def start(self, turn: str, worker: str, held: bool = False) -> Taken[Row]:
+    def start(self, turn: str, worker: str, held: bool = False, heard: Container[tuple[str, int]] | None = None) -> Taken[Row]:
         """Start the job of a delivery of the durable queue, in one transaction. `turn` is the id that was delivered.
 
-        `held`: the worker holds all starts, because of an Abort that the database does not know yet.
+        `held`: the worker holds all starts, because of an Abort that the database does not know yet. `heard`: the attempts that
+        this worker knows to have started. Another one of its own is a start that was stored, but whose answer got lost: it is
+        the start of this delivery, and not the trace of a death.
 
         For an ordered kind this is the first queued job that may start now, otherwise the job with that id. A running job that
         this turn started before was left by a worker that died; it goes back to its place in the queue first.
@@ -164,6 +166,8 @@ class JobService(Generic[Row, Result]):
         queue = Hold(self.session).locked() if self.kind.waits_while_held else None
         job_id = self._job_of(turn)
         left = self.rows.locked(job_id) if job_id else None
+        if left is not None and heard is not None and self._unheard(left, worker, heard):
+            return Taken(started=left, left=left)
         if left is not None and (left.state.ended or not self._bears_attempt(left)):
             return Taken(left=left)
         if queue is not None and (queue.held or held):
@@ -198,6 +202,10 @@ class JobService(Generic[Row, Result]):
         if not self.kind.ordered or not self.rows.any_in(State.QUEUED):
             return True
         return self.rows.any_in(State.QUEUED, self.kind.may_start())
+
+    def _unheard(self, job: Row, worker: str, heard: Container[tuple[str, int]]) -> bool:
+        """Whether this worker started an attempt without knowing it."""
+        return job.state is State.RUNNING and job.worker == worker and (job.id, job.attempt) not in heard
 
     def _job_of(self, turn: str) -> str | None:
         return self.rows.of_turn(turn) if self.kind.ordered else turn

@@ -11,6 +11,7 @@ from app.abort.links import WorkerLink, WorkerLinks
 from app.access import WORKER, allowed
 from app.live import uplink
 from app.live.hub import Hub
+from app.live.relay import Relay
 from app.metrics import SOCKETS
 
 router = APIRouter()
@@ -28,6 +29,7 @@ async def ingest(socket: WebSocket) -> None:
     await socket.accept()
     hub: Hub = socket.app.state.hub
     links: WorkerLinks = socket.app.state.desk.links
+    relay: Relay = socket.app.state.relay
     link = WorkerLink(socket.send_text, socket.close)
     telling = asyncio.create_task(links.keep(link))
     open_sockets = SOCKETS.labels("worker")
@@ -43,6 +45,9 @@ async def ingest(socket: WebSocket) -> None:
                 sent = uplink.message(message["text"])
                 if "worker" in sent:
                     links.take(link, sent)
+                    continue
+                if "contact" in sent:
+                    await relay.take(link, sent["contact"])
                     continue
                 hub.take(sent["run_id"], sent["attempt"], sent["message"])
     except uplink.BadMessage as error:

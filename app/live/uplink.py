@@ -53,6 +53,26 @@ class Hello(_Message):
     stopping: list[str]
 
 
+class _Executed(_Message):
+    kind: Id
+    id: RunId
+    attempt: Annotated[int, Field(ge=0, le=MOST_ATTEMPTS)]
+
+
+class Question(_Message):
+    """What a worker asks that does not reach the database: to be known to live, and which of its jobs are to stop."""
+
+    number: int
+    tests_at_a_time: Annotated[int, Field(ge=1, le=1000)]
+    executing: Annotated[list[_Executed], Field(max_length=1000)]
+
+
+class Contact(_Message):
+    """The question of a worker that is cut off from the database."""
+
+    contact: Question
+
+
 class _Channel(_Message):
     key: str
 
@@ -86,11 +106,11 @@ class Told(_Message):
     message: Annotated[_Schema | _Progress | _End, Field(discriminator="type")]
 
 
-_HELLO, _TOLD = TypeAdapter(Hello), TypeAdapter(Told)
+_HELLO, _CONTACT, _TOLD = TypeAdapter(Hello), TypeAdapter(Contact), TypeAdapter(Told)
 
 
 def message(text: str) -> dict[str, Any]:
-    """A text message, with the key `worker` or as `Told`. Raises BadMessage."""
+    """A text message, with the key `worker` or `contact`, or as `Told`. Raises BadMessage."""
     try:
         sent = json.loads(text)
     except (ValueError, RecursionError) as error:
@@ -98,7 +118,7 @@ def message(text: str) -> dict[str, Any]:
     if not isinstance(sent, dict):
         raise BadMessage("is not a JSON object")
     try:
-        (_HELLO if "worker" in sent else _TOLD).validate_python(sent)
+        (_HELLO if "worker" in sent else _CONTACT if "contact" in sent else _TOLD).validate_python(sent)
     except ValidationError as error:
         first = error.errors(include_url=False, include_context=False, include_input=False)[0]
         raise BadMessage(f"{'.'.join(map(str, first['loc']))[:60]}: {first['msg'][:60]}") from None

@@ -58,14 +58,14 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
             return "Its client had connected, so the test is not started again by itself. Retry it, then start the client."
         found = external(plan)
         if not found:
-            physical = job.rig is not None and job.rig.kind == "physical"
-            return f"The test was on the rig {job.rig_name}. Inspect the rig, then retry." if physical else None
+            return f"The test was on the rig {job.rig_name}. Inspect the rig, then retry." if _physical(job) else None
         named = ", ".join(connection.peer for connection in found.values())
         return f"The test drove an external rig ({named}), so it is not started again by itself. Inspect the rig, then retry."
 
     def order(self, job: Run, settings: Settings) -> RunOrder:
         recording = store_of(settings).scratch(RECORDINGS) / f".{job.id}.{job.attempt}.h5"
-        return RunOrder(job.id, job.attempt, job.plan, recording.resolve(), settings, _approved(job))
+        given = (job.id, job.attempt, job.plan, recording.resolve(), settings, _approved(job))
+        return RunOrder(*given, moves=_physical(job) or bool(external(validated(Plan, job.plan))))
 
     def store(self, job: Run, result: Outcome) -> Ending:
         summary = _finite(result.summary)
@@ -106,6 +106,10 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
 
 
 RUNS = RunKind()
+
+
+def _physical(run: Run) -> bool:
+    return run.rig is not None and run.rig.kind == "physical"
 
 
 def _approved(run: Run) -> str:

@@ -50,6 +50,8 @@ class ShardKind(Kind[SweepShard, ShardOrder, ShardEnd]):
     def store_part(self, job: SweepShard, part: ShardPart) -> None:
         session = object_session(job)
         assert session is not None
+        if session.get(SweepPart, (job.sweep_number, part.first)) is not None:
+            return  # stored before; the answer of the database got lost
         checksum = sha256(part.values).hexdigest()
         row = SweepPart(sweep_number=job.sweep_number, stored_at=datetime.now(UTC), sha256=checksum, **asdict(part))
         SweepRepository(session).add_part(row)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import importlib
+import math
 import os
 import queue
 import signal
 import threading
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
@@ -30,6 +33,18 @@ class Ready:
 @dataclass(frozen=True, slots=True)
 class Stopping:
     """The answer to Cancel: the job has stopped, and the process is saving its result."""
+
+
+@dataclass(frozen=True, slots=True)
+class Assured:
+    """The worker is known to live for another `left_s` seconds, so nobody takes its tests over meanwhile."""
+
+    left_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class CutOff:
+    """The job has stopped itself: the worker was silent, or cut off from everybody else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +77,14 @@ class Failed:
     stopped: bool = False
 
 
+LOOK_S = 0.1  # between two looks of a process whether it still may move a machine
+ASSURED_S = 4.5
+"""How long a job that moves a machine goes on without a word from its worker, and a worker without a word from anybody.
+
+It is less than the six seconds after which other workers take a silent one for dead: docs/decisions/0080.
+"""
+
+
 class Refused(Exception):
     """A job that cannot be executed; the message is the reason that people read."""
 
@@ -75,6 +98,9 @@ class Line:
         self._current: str | None = None
         self._cancelled = threading.Event()
         self.stopped = False
+        self.stop_machine: Callable[[], None] = lambda: None
+        """What stops the machines of the present job at once; called by another thread."""
+        self._until = math.inf
         threading.Thread(target=self._listen, daemon=True, name="rths-line").start()
 
     def order(self) -> Order:
@@ -108,16 +134,32 @@ class Line:
     def _listen(self) -> None:
         while True:
             try:
+                if not self._pipe.poll(LOOK_S):
+                    self._look()
+                    continue
                 heard = self._pipe.recv()
             except (EOFError, OSError):
                 os._exit(0)  # the worker has ended
-            if isinstance(heard, Order):
+            self._look()
+            if isinstance(heard, Assured):
+                self._until = max(self._until, time.monotonic() + heard.left_s)
+            elif isinstance(heard, Order):
                 self._cancelled.clear()
                 self.stopped = False
+                self.stop_machine = lambda: None
+                self._until = time.monotonic() + ASSURED_S if heard.moves else math.inf
                 self._current = heard.job_id
                 self._orders.put(heard)
             elif heard == Cancel(self._current or ""):
                 self._cancelled.set()
+
+    def _look(self) -> None:
+        """Stop the present job where nobody says any more that the worker lives."""
+        if time.monotonic() > self._until:
+            self._until = math.inf
+            self.stop_machine()
+            self._cancelled.set()
+            self.send(CutOff())
 
 
 def serve(pipe: Connection, module: str, niceness: int) -> None:

@@ -73,6 +73,7 @@ class _Telling(Viewers):
 
         paced = PacedRun(self.run, self.run.plan.pace)
         paced.start()
+        self.line.stop_machine = paced.stop
         ended = False
         while not ended:
             cancelled = self.line.cancelled(within_s=CHUNK_S)

@@ -19,11 +19,13 @@ from websockets.sync.client import ClientConnection, connect
 from app.live.frames import FrameStore
 from app.live.uplink import FRAME_HEADER
 from app.open_sockets import NOT_ALLOWED
+from app.worker.contact import Contact
 from app.worker.stopping import Stopper
 from app.worker.trust import context
 
 log = logging.getLogger(__name__)
 SHORTEST_GAP_S = 0.02
+ASK_AGAIN_S = 1.0
 BACK_OFF_S = (0.2, 5.0)
 
 
@@ -88,8 +90,8 @@ class _Cursor:
 class Link:
     """The connection to one web service. It reconnects after pauses and then sends everything again."""
 
-    def __init__(self, url: str, token: str, worker: str = "", stopper: Stopper | None = None):
-        self.url, self.token, self.worker, self.stopper = url, token, worker, stopper
+    def __init__(self, url: str, token: str, worker: str = "", stopper: Stopper | None = None, contact: Contact | None = None):
+        self.url, self.token, self.worker, self.stopper, self.contact = url, token, worker, stopper, contact
         self._tellings: list[Telling] = []
         self._lock = threading.Lock()
         self._due, self._changed = threading.Event(), threading.Event()
@@ -138,15 +140,22 @@ class Link:
                 told = json.loads(message)
                 if self.stopper is not None and "latch" in told:
                     self.stopper.latch.take(told["latch"])
+                if self.contact is not None and "contact" in told:
+                    self.contact.answer(told["contact"])
         self._due.set()
 
     def _tell(self, socket: ClientConnection) -> None:
         cursors: dict[int, _Cursor] = {}
         self._changed.set()
+        asked = -ASK_AGAIN_S
         while True:
             if self._changed.is_set() and self.stopper is not None:
                 self._changed.clear()
                 socket.send(json.dumps({"worker": self.worker, **self.stopper.as_dict()}))
+            due = self.contact is not None and time.monotonic() - asked >= ASK_AGAIN_S
+            if due and self.contact is not None and (question := self.contact.question()) is not None:
+                asked = time.monotonic()
+                socket.send(json.dumps({"contact": question}))
             with self._lock:
                 tellings = list(self._tellings)
             for telling in tellings:
@@ -163,9 +172,9 @@ class Link:
 class Links:
     """The connections to all web services: `web` are their addresses, separated by commas."""
 
-    def __init__(self, web: str, token: str, worker: str, stopper: Stopper):
+    def __init__(self, web: str, token: str, worker: str, stopper: Stopper, contact: Contact | None = None):
         addresses = [one.strip() for one in web.split(",") if one.strip()]
-        self._links = [Link(f"{one}/api/v1/worker", token, worker, stopper) for one in addresses]
+        self._links = [Link(f"{one}/api/v1/worker", token, worker, stopper, contact) for one in addresses]
         stopper.tell = self._tell_latch
 
     def open(self, run_id: str, attempt: int) -> Telling:

@@ -26,17 +26,19 @@ from app.audit.log import Acting, acts
 from app.config import Settings, from_environment
 from app.db import DATABASE_SILENT, check_schema, connect, sessions
 from app.jobs.kind import Kind
-from app.jobs.queue import APPLICATION, VERSION
+from app.jobs.queue import APPLICATION, VERSION, DurableQueue
 from app.jobs.service import MOST_ATTEMPTS
 from app.latch import Latch
 from app.monitoring import reporting, statements
 from app.private import OTHERS
 from app.runs.job import UNSENT
 from app.store.opening import store_of
+from app.worker.contact import Contact
 from app.worker.executor import Executor
 from app.worker.kinds import KINDS
 from app.worker.link import Links
-from app.worker.patience import patiently
+from app.worker.lost import Lost
+from app.worker.patience import patient_engine, patiently
 from app.worker.peers import Peers, unique
 from app.worker.stopping import Stopper
 from app.worker.trust import context
@@ -88,10 +90,13 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     acts(maker, Acting(worker, "worker"))
     latch = Latch()
     stopper = Stopper(latch)
-    links = Links(web, settings.worker_token, worker, stopper)
-    executor = Executor(settings, maker, links, worker, kinds, latch)
+    contact = Contact()
+    links = Links(web, settings.worker_token, worker, stopper, contact)
+    queue = DurableQueue(engine)
+    executor = Executor(settings, maker, links, worker, kinds, latch, lambda delivery: queue.holder(delivery) == worker)
     stopper.start(executor.stop_tests)
-    peers = Peers(maker, worker, settings.worker_concurrency)
+    contact.serve(executor, settings.worker_concurrency)
+    peers = Peers(maker, worker, settings.worker_concurrency, contact)
     patiently(peers.beat)  # before the queue is served: whoever holds a turn without a heartbeat is dead
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     for kind in kinds:
@@ -99,7 +104,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     DBOS(
         config={
             "name": APPLICATION,
-            "system_database_engine": engine,
+            "system_database_engine": patient_engine(settings.url),
             "executor_id": worker,
             "application_version": VERSION,
             "log_level": settings.log_level.upper(),
@@ -118,7 +123,7 @@ def work(settings: Settings, web: str, worker: str, kinds: Sequence[Kind[Any, An
     if (settings.data / UNSENT).is_dir():
         threading.Thread(target=send_kept, args=(settings, maker), daemon=True, name="rths-unsent").start()
     try:
-        _watch(executor, peers, stopper)
+        _watch(executor, peers, stopper, Lost(executor, queue, kinds))
     finally:
         with suppress(Exception):
             peers.leave()
@@ -130,7 +135,7 @@ def _register(kind: Kind[Any, Any, Any], executor: Executor) -> None:
 
     @DBOS.step(name=f"execute-{kind.name}", retries_allowed=True, max_attempts=attempts)
     def execute(turn: str) -> None:
-        executor.execute(kind, turn)
+        executor.execute(kind, turn, DBOS.workflow_id or turn)
 
     @DBOS.workflow(name=kind.workflow, max_recovery_attempts=None)
     def run(turn: str) -> None:
@@ -148,8 +153,8 @@ def send_kept(settings: Settings, maker: sessionmaker[Session]) -> None:
         log.warning("recordings stay in %s: %s", settings.data / UNSENT, error)
 
 
-def _watch(executor: Executor, peers: Peers, stopper: Stopper) -> None:
-    """Store progress, pass on cancels, write this worker's heartbeat, and take over the jobs of workers that have died."""
+def _watch(executor: Executor, peers: Peers, stopper: Stopper, lost: Lost) -> None:
+    """Store progress, pass on cancels, write this worker's heartbeat, take over from the dead, and find what the queue lost."""
     looked = 0.0
     while True:
         try:
@@ -157,7 +162,7 @@ def _watch(executor: Executor, peers: Peers, stopper: Stopper) -> None:
             executor.look()
             if time.monotonic() - looked >= LOOK_S:
                 looked = time.monotonic()
-                peers.look()
+                lost.look(peers.look())
         except DATABASE_SILENT as error:
             log.warning("the database did not answer: %s", error.__cause__ or error)
         time.sleep(WATCH_S)

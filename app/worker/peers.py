@@ -10,6 +10,7 @@ from sqlalchemy.orm import Session, sessionmaker
 
 from app.db import unit_of_work
 from app.jobs.workers import Watch, Workers
+from app.worker.contact import Contact
 from rths_engine.foundation.errors import Issue, RthsError
 
 log = logging.getLogger("rths.worker")
@@ -29,17 +30,20 @@ def unique(name: str, boot: str | None = None) -> str:
 class Peers:
     """The workers of one database as this worker sees them: it tells them that it lives, and takes over from the dead."""
 
-    def __init__(self, maker: sessionmaker[Session], worker: str, tests_at_a_time: int):
+    def __init__(self, maker: sessionmaker[Session], worker: str, tests_at_a_time: int, contact: Contact | None = None):
         self.maker, self.worker, self.tests_at_a_time = maker, worker, tests_at_a_time
+        self.contact = contact or Contact()
         self._watch = Watch()
 
     def beat(self) -> None:
         """Tell the others that this worker lives. The first time is before it takes anything from the queue."""
+        begun = self.contact.now()
         with unit_of_work(self.maker) as session:
             Workers(session).beat(self.worker, self.tests_at_a_time)
+        self.contact.beaten(begun)
 
-    def look(self) -> None:
-        """Beat, and give back to the queue what workers hold that are dead, or that have no heartbeat.
+    def look(self) -> set[str]:
+        """Beat, and give back to the queue what workers hold that are dead, or that have no heartbeat; returns who lives.
 
         The step of the queue is atomic: it takes a turn from the dead worker that holds it, so of two workers that see the
         same death one gives the turn back, and a turn that a living worker has taken up meanwhile stays there.
@@ -55,6 +59,7 @@ class Peers:
         if dead:
             with unit_of_work(self.maker) as session:
                 Workers(session).forget_old(dead)
+        return beats.keys() - dead
 
     def leave(self) -> None:
         """Tell the others that this worker ends, so that they take over at once."""

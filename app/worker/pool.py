@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import multiprocessing
 import queue
+import select
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from typing import Any
 
 from app.jobs.kind import Kind
 from app.jobs.order import Order
-from app.worker.child import Cancel, Done, Failed, Ready, Stopping, serve
+from app.worker.child import Assured, Cancel, Done, Failed, Ready, Stopping, serve
 
 CANCEL_PATIENCE_S = 2.0
 Listener = Callable[[Any], None]
@@ -89,6 +90,14 @@ class JobProcess:
         timer = threading.Timer(CANCEL_PATIENCE_S, self._kill_unless_stopping, args=(order,))
         timer.daemon = True
         timer.start()
+
+    def assure(self, order: Order, left_s: float) -> None:
+        """Say that this worker is known to live for another `left_s`. Never waits for a process that reads nothing."""
+        with self._sending:
+            if self.order is not order or not select.select([], [self._pipe], [], 0)[1]:
+                return
+            with contextlib.suppress(OSError):
+                self._pipe.send(Assured(left_s))
 
     @property
     def alive(self) -> bool:

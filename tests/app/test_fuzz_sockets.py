@@ -34,6 +34,7 @@ MALFORMED: list[tuple[Any, str]] = [
     ({**MESSAGES[1], "message": {"type": "other"}}, "message"),
     ({**HELLO, "latch": {"presses": [{"id": "p", "by": "Ana", "at": "2026-05-06"}], "released": []}}, "time zone"),
     ({"worker": "w"}, "latch"),
+    ({"contact": {"number": 1, "tests_at_a_time": 1, "executing": [{"kind": "run", "id": RUN, "attempt": -1}]}}, "attempt"),
 ]
 
 

@@ -328,3 +328,41 @@ def test_a_run_whose_worker_stumbled_is_executed_when_it_is_delivered_again(benc
         bench.execute(broken)
     assert bench.executor.running == {}
     assert bench.execute(recorded).attempt == 2
+
+
+def test_a_start_whose_commit_got_no_answer_is_the_start_and_not_a_death(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """So it costs no attempt, and ends no test that is not repeated."""
+    real, failures = JobService.start, iter([True])
+
+    class Away(Exception): ...
+
+    def unanswered(_: Any) -> None:
+        raise sa.exc.OperationalError("commit", {}, Away("the connection was cut"))
+
+    def start(self: JobService[Any, Any], *given: Any) -> Any:
+        if next(failures, False):
+            sa.event.listen(self.session, "after_commit", unanswered, once=True)
+        return real(self, *given)
+
+    monkeypatch.setattr(JobService, "start", start)
+    run = bench.execute(recorded)
+    assert (run.state, run.attempt) == (State.COMPLETED, 1)
+
+
+def test_a_worker_that_was_cut_off_leaves_a_test_alone_that_another_took_up(bench: Bench) -> None:
+    bench.started_elsewhere()
+    bench.executor.holds = lambda delivery: False
+    run = bench.execute(never)
+    assert (run.state, run.worker, run.attempt) == (State.RUNNING, "elsewhere", 1)
+
+
+def test_a_test_that_cannot_be_started_fails_alone_and_says_why(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(job: Run, settings: Settings) -> RunOrder:
+        raise ValueError("its plan is torn")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(RUNS, "order", broken)
+        run = bench.execute(never)
+    assert run.state is State.FAILED
+    assert run.reason == "The test could not be started. ValueError: its plan is torn"
+    assert bench.told.ended == [(run.id, 1)]

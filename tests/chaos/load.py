@@ -75,8 +75,7 @@ class Load:
                 answer = httpx.post(f"{self.url}/api/v1/runs", json={"plan": data}, timeout=30)
                 if answer.status_code == 201:
                     return
-                assert answer.status_code == 503, f"{answer.status_code}: {answer.text}"
-                self.errors += 1
+                self._refused(answer)
             except httpx.HTTPError:
                 self.unclear += 1
                 if any(run["name"] == name for run in self.runs()):
@@ -90,14 +89,18 @@ class Load:
         found: str = self._ask("POST", "/sweeps", {"sweep": sweep}).json()["id"]
         return found
 
+    def _refused(self, answer: httpx.Response) -> None:
+        """The same request may succeed later: the database is away (503), or the disk is full (507)."""
+        assert answer.status_code in (503, 507), f"{answer.request.url}: {answer.status_code}: {answer.text}"
+        self.errors += 1
+
     def _ask(self, method: str, path: str, data: Any = None) -> httpx.Response:
         while True:
             try:
                 answer = httpx.request(method, f"{self.url}/api/v1{path}", json=data, timeout=30)
                 if answer.status_code < 400:
                     return answer
-                assert answer.status_code == 503, f"{path}: {answer.status_code}: {answer.text}"
-                self.errors += 1
+                self._refused(answer)
             except httpx.HTTPError:
                 pass
             time.sleep(0.3)

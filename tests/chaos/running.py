@@ -53,7 +53,7 @@ class Report:
                 f"Faults: {self.faults.total()}",
                 *faults,
                 f"Processes that ended by themselves and were started again: {self.revived}",
-                f"Submissions answered 503: {self.refused}; without an answer: {self.unclear}",
+                f"Requests answered 503 or 507: {self.refused}; without an answer: {self.unclear}",
                 f"Times that the sweep had failed and was resumed: {self.resumed}",
                 "Runs by state and reason:",
                 *states,

@@ -18,7 +18,9 @@ from tests.browser.service import ROOT, UNMEASURED, free_port
 from tests.chaos.clock import Clock, library
 from tests.chaos.proxy import Proxy
 
-DISK = 96  # MB of the disk for recordings, and for the database where it is SQLite
+DISK = (
+    512  # MB of the disk for recordings, and for the database where it is SQLite: 200 tests beside the reserve of the service
+)
 NAMES = ("lab-1", "lab-2")
 
 
