@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import Depends, Request
 from fastapi.responses import Response
 
-from app.access import SignedIn
+from app.access import PERSON, Role, SignedIn
 from app.accounts.credentials import Credentials
 from app.accounts.service import AccountService
 from app.accounts.signing_in import SigningIn
@@ -40,6 +40,9 @@ class Browser:
     def signs_in(self, account: Account, signing: SigningIn, response: Response) -> None:
         """Start a session with a new key, whatever cookie the browser sent."""
         key, row = signing.start(account, self.address, self.name)
+        role = Role[account.role.upper()]
+        who = SignedIn(account.name, role, "session", account.id, row.id)
+        self.request.scope[PERSON] = who  # the audit log names the account, whatever was typed
         settings = self.request.app.state.settings
         response.set_cookie(
             cookie_name(settings),

@@ -283,6 +283,15 @@ def test_names_that_differ_in_spaces_are_one_name(person: Person, browser: Calla
     assert administrator.post(f"{V1}/accounts", json={"name": "\u041e\u043b\u044c\u0433\u0430 \u674e"}).status_code == 201
 
 
+def test_the_audit_log_names_the_account_that_a_link_belongs_to(person: Person, browser: Callable[..., TestClient]) -> None:
+    administrator = person(Role.ADMINISTRATOR)
+    key = administrator.post(f"{V1}/accounts", json={"name": "Real Name"}).json()["path"].partition("#")[2]
+    used = browser().post(f"{V1}/sign-in/link", json={"key": key, "password": PASSWORD, "name": "Somebody Else"})
+    assert used.status_code == 204 and sign_in(browser(), "REAL name").status_code == 204
+    entries = administrator.get(f"{V1}/audit", params={"who": "Real Name"}).json()["entries"]
+    assert [(one["action"], one["role"]) for one in entries] == [("sign_in", "viewer"), ("sign-in.link.use_link", "viewer")]
+
+
 def test_the_page_of_a_link_knows_whether_a_password_is_replaced(person: Person, browser: Callable[..., TestClient]) -> None:
     administrator = person(Role.ADMINISTRATOR)
     made = administrator.post(f"{V1}/accounts", json={"name": "Quite New"}).json()
