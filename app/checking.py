@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from app.calculations.answer import HERE, Calculate
+from app.calculations.bound import Bound
 from app.text import refuse_unstorable
 from rths_engine.foundation.arrays import Array
-from rths_engine.foundation.errors import Issue, PlanError
+from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.foundation.units import STANDARD_GRAVITY
 from rths_engine.parts.ground_motions import Motion, MotionLibrary
 from rths_engine.planning.model import Model
@@ -22,6 +26,8 @@ from rths_engine.results.channels import channels
 LARGEST_PEAK = 100 * STANDARD_GRAVITY  # far above any earthquake, so that only a wrong unit or scale is refused
 LARGEST_RECORDING = 2_000_000_000  # bytes; the same as the engine's, which is not imported here
 BYTES = 8  # size of a recorded number
+BRIEF = 16_384  # characters of plans that are checked at once: a plan of 100 storeys has 9000 and takes a tenth of a second
+PLANS = Bound("check of the plans", seconds=90, megabytes=4000, mend="give fewer or shorter plans at a time")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +44,33 @@ class Checked:
     @property
     def plan(self) -> Plan:
         return self.model.plan
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """A valid plan with the checksum of its record, its number of floors, its duration (s) and its number of steps."""
+
+    plan: Plan
+    floors: int
+    duration_s: float
+    steps: int
+
+
+def outlines(calculate: Calculate, plans: Sequence[Any], motions: MotionLibrary) -> list[Outline | RthsError]:
+    """Check plans: the outline of each, or the error with every issue. Long plans are checked in a process of their own."""
+    brief = len(json.dumps(plans)) <= BRIEF
+    return (HERE if brief else calculate)(PLANS, _outlines, plans, motions)
+
+
+def _outlines(plans: Sequence[Any], motions: MotionLibrary) -> list[Outline | RthsError]:
+    found: list[Outline | RthsError] = []
+    for data in plans:
+        try:
+            good = checked(data, motions)
+            found.append(Outline(good.plan, len(good.model.periods), good.duration_s, good.steps))
+        except RthsError as error:
+            found.append(error)
+    return found
 
 
 def checked(data: Any, motions: MotionLibrary) -> Checked:

@@ -18,6 +18,7 @@ URL = {"url": "an address that begins with http:// or https://"}
 WHOLE = {"*": "a plan, a sweep or a drive, checked by the engine"}
 
 RULES: dict[str, dict[str, str]] = {
+    "GET /api/v1/audit/check": {"head": "NUMBER:HASH"},
     "GET /api/v1/compare": ITEMS,
     "GET /api/v1/compare/signals": ITEMS,
     "GET /api/v1/compare/report.html": ITEMS,
@@ -37,10 +38,12 @@ RULES: dict[str, dict[str, str]] = {
     "GET /api/v1/sweeps/{sweep_id}/results": COLUMN,
     "PATCH /api/v1/webhooks/{webhook_id}": URL,
     "POST /api/v1/webhooks": URL,
+    "POST /api/v1/accounts": {"name": "printable characters"},
     "POST /api/v1/plans/check": WHOLE,
     "POST /api/v1/plans/drive": WHOLE,
     "POST /api/v1/plans/write": WHOLE,
     "POST /api/v1/stability": WHOLE,
+    "POST /api/v1/sweeps": WHOLE,
     "POST /api/v1/sweeps/fields": WHOLE,
     "POST /api/v1/sweeps/preview": WHOLE,
     "POST /api/v1/queue/order": PLACE,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, StringConstraints
+from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints
 
 from app.access import stored_name
 from rths_engine.foundation.errors import Issue, PlanError
@@ -27,6 +27,15 @@ PersonName = Annotated[Storable, Field(max_length=80, validate_default=True), Af
 """The name of who makes a request: as typed, or the account's whatever was typed."""
 Named = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1), AfterValidator(storable)]
 """Text without the spaces around it, which is not blank."""
+
+
+def integer(value: Any) -> Any:
+    """1.0 as 1: JSON Schema takes both for an integer."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+Integer = Annotated[int, Field(strict=True), BeforeValidator(integer)]
+"""A whole number of a JSON body; texts and truth values are refused."""
 
 
 def cleaned(data: Any) -> Any:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
 from app.access import Scope
-from app.text import Named, Storable
+from app.text import Integer, Named, Storable
 
 RoleName = Literal["viewer", "operator", "engineer", "administrator"]
 Password = Annotated[Storable, StringConstraints(max_length=1000)]
@@ -130,7 +130,7 @@ class NewToken(_In):
 
     name: Annotated[Named, Field(max_length=80)]
     scopes: list[Scope] = Field([Scope.READ], min_length=1, max_length=4)
-    days: int = Field(90, ge=1, le=MOST_DAYS)
+    days: Integer = Field(90, ge=1, le=MOST_DAYS)
 
 
 class TokenOut(_Out):

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, Request
-from fastapi.responses import StreamingResponse
+from fastapi import APIRouter, Query
+from fastapi.responses import FileResponse, Response
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.access import Role, Scope, allowed
 from app.auditing.repository import Wanted
 from app.auditing.schemas import AuditList, ChainOut, HeadOut
 from app.auditing.service import AuditService
-from app.db import unit_of_work
+from app.calculations.answer import Calculated, CalculatedFile
+from app.calculations.bound import Bound
 from app.dependencies import OneSession
 from app.openapi import file, told
 from app.text import Storable
@@ -21,6 +22,7 @@ from app.times import InUtc
 
 router = APIRouter(prefix="/api/v1/audit", tags=["audit log"])
 JSON_LINES = "application/jsonl"
+CHAIN = Bound("reading of the whole log", seconds=600, megabytes=2000, mend="use `rths audit` on the server", long=True)
 
 
 class Asked(BaseModel):
@@ -56,21 +58,20 @@ def head(session: OneSession) -> HeadOut:
     return AuditService(session).head()
 
 
-@router.get("/check", responses=told(503))
+@router.get("/check", response_model=ChainOut, responses=told(503))
 @allowed(Role.ENGINEER, Scope.READ)
-def check(session: OneSession, head: Annotated[Storable, Query(max_length=90)] = "") -> ChainOut:
+def check(session: OneSession, head: Annotated[Storable, Query(max_length=90)] = "") -> Response:
     """Check the whole chain. `head` is NUMBER:HASH as noted earlier; the chain must still contain it."""
-    return AuditService(session).check(head)
+    return Calculated(CHAIN, AuditService(session).check, head)
 
 
-@router.get("/export", response_class=StreamingResponse, responses=file(JSON_LINES))
+@router.get("/export", response_class=FileResponse, responses=file(JSON_LINES) | told(422))
 @allowed(Role.ENGINEER, Scope.READ)
-def export(request: Request) -> StreamingResponse:
+def export(session: OneSession) -> Response:
     """Every entry as a line of JSON, the first one first. docs/audit.md has a script that checks the file."""
+    return CalculatedFile(CHAIN, "audit.jsonl", JSON_LINES, _write, AuditService(session))
 
-    def lines() -> Iterator[str]:
-        with unit_of_work(request.app.state.sessions) as session:
-            yield from AuditService(session).lines()
 
-    headers = {"Content-Disposition": 'attachment; filename="audit.jsonl"'}
-    return StreamingResponse(lines(), media_type=JSON_LINES, headers=headers)
+def _write(path: Path, audit: AuditService) -> None:
+    with path.open("w", encoding="utf-8") as file:
+        file.writelines(audit.lines())

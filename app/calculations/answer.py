@@ -94,6 +94,10 @@ class Calculator:
         return found
 
 
+HERE = Here()
+Calculate = Calculator | Here
+
+
 def made_by(function: Callable[[], Any]) -> Made:
     """The result of a calculation as a body, made in its process."""
     found = function()

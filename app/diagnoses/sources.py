@@ -9,6 +9,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import object_session
 
+from app.calculations.bound import Bound
 from app.config import Settings
 from app.diagnoses.schemas import Asked, Source
 from app.jobs.repository import JobRepository
@@ -26,6 +27,8 @@ from app.text import refuse_unstorable
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
+
+READING = Bound("reading of the plan", seconds=20, megabytes=2000, mend="shorten the plan", where="plan")
 
 
 def filed(given: DiagnosisInput) -> Filed:
@@ -61,7 +64,7 @@ class Sources:
         if len(given) > 1:
             raise PlanError(Issue("plan", f"is given {len(given)} times", ", ".join(given), "give one of them"))
         if asked.plan is not None:
-            return read_plan(self._read(asked.plan))
+            return self.runs.calculate(READING, read_plan, self._read(asked.plan))
         if asked.linear:
             return None
         if asked.extended_plan_of is not None:
@@ -106,7 +109,7 @@ class Sources:
 
     def _read(self, given: dict[str, Any] | str) -> dict[str, Any]:
         if isinstance(given, str):
-            return self.plans.read(given.encode(errors="surrogatepass"))
+            return self.runs.calculate(READING, self.plans.read, given.encode(errors="surrogatepass"))
         refuse_unstorable(given)
         return given
 

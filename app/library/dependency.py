@@ -6,15 +6,16 @@ from typing import Annotated
 
 from fastapi import Depends
 
+from app.calculations.answer import Calculating
 from app.dependencies import Library, OneSession
 from app.library.comparison import ComparisonService
 from app.library.drafts import DraftService
 from app.library.service import LibraryService
 
 
-def library_service(session: OneSession, motions: Library) -> LibraryService:
+def library_service(session: OneSession, motions: Library, calculate: Calculating) -> LibraryService:
     """The service of plans in the library."""
-    return LibraryService(session, motions)
+    return LibraryService(session, motions, calculate)
 
 
 def draft_service(session: OneSession, motions: Library) -> DraftService:

@@ -93,7 +93,7 @@ async def import_yaml(request: Request, about: Annotated[Imported, Query()], pla
     raw = await request.body()
 
     def saved() -> SavedOut:
-        return plans.save(NewPlan(plan=texts.read(raw), **about.model_dump()))
+        return plans.save(NewPlan(plan=plans.calculate(TEXT, texts.read, raw), **about.model_dump()))
 
     return await run_in_threadpool(saved)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictInt, StringConstraints
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
 from app.jobs.states import State
 from app.openapi import Issue, PlanData
-from app.text import PersonName, Storable, storable
+from app.text import Integer, PersonName, Storable, integer, storable
 
 LONGEST_COMMENT, MOST_TAGS = 2000, 20
 By = Annotated[PersonName, Field(description="the person who makes the request")]
@@ -59,7 +59,7 @@ class Copy(_Asked):
     """A duplicate of a version (default: the newest) under a name (default: the name with 'copy')."""
 
     name: Name | None = None
-    version: int | None = Field(None, ge=1, le=10**6)
+    version: Annotated[int, Field(strict=True, ge=1, le=10**6), BeforeValidator(integer)] | None = None
     saved_by: By = ""
 
 
@@ -160,7 +160,9 @@ class Origin(_Asked):
 
     kind: Literal["version", "template", "run"]
     id: Storable = Field(max_length=80, description="id of the plan or the run, or the name of the template")
-    version: int | None = Field(None, ge=1, le=10**6, description="number of the version")
+    version: Annotated[int, Field(strict=True, ge=1, le=10**6), BeforeValidator(integer)] | None = Field(
+        None, description="number of the version"
+    )
 
 
 DraftPlan = Annotated[dict[str, Any], Field(description="the plan as typed; it need not be valid")]
@@ -171,7 +173,7 @@ class DraftIn(_Asked):
     """The plan as typed now, what it started from, and the revision of the draft that it changes."""
 
     plan: DraftPlan
-    revision: StrictInt = Field(
+    revision: Integer = Field(
         ge=0,
         le=2**31 - 1,
         description="the revision that was changed; 0 for a new draft",

@@ -11,7 +11,8 @@ from typing import Any
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
-from app.checking import Checked, checked
+from app.calculations.answer import HERE, Calculate
+from app.checking import Outline, outlines
 from app.jobs.service import named
 from app.library.draft_rows import DraftRows
 from app.library.repository import SORTS, LibraryRows, Wanted
@@ -44,8 +45,8 @@ LONGEST_NAME = 200
 class LibraryService:
     """Rules of the library of plans. No SQL, no HTTP."""
 
-    def __init__(self, session: Session, motions: MotionLibrary):
-        self.session, self.motions = session, motions
+    def __init__(self, session: Session, motions: MotionLibrary, calculate: Calculate = HERE):
+        self.session, self.motions, self.calculate = session, motions, calculate
         self.rows, self.drafts = LibraryRows(session), DraftRows(session)
 
     def listed(self, wanted: Wanted) -> LibraryList:
@@ -156,12 +157,11 @@ class LibraryService:
         ]
         return RunsFromPlan(runs=runs, total=sum(self.rows.run_counts([plan_id]).values()))
 
-    def _checked(self, plan: Any) -> Checked:
-        try:
-            return checked(plan, self.motions)
-        except RthsError as error:
-            under = [Issue(f"plan.{one.where}".rstrip("."), one.problem, one.value, one.fix) for one in error.issues]
-            raise PlanError(under) from None
+    def _checked(self, plan: Any) -> Outline:
+        (found,) = outlines(self.calculate, [plan], self.motions)
+        if isinstance(found, RthsError):
+            raise PlanError([Issue(f"plan.{one.where}".rstrip("."), one.problem, one.value, one.fix) for one in found.issues])
+        return found
 
     def _add(self, plan: LibraryPlan, content: Plan, number: int, by: str, comment: str, draft: str | None) -> SavedOut:
         version = PlanVersion(

@@ -13,9 +13,8 @@ from typing import Any, BinaryIO
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
-from app.calculations.answer import Calculator
+from app.calculations.answer import HERE, Calculate
 from app.calculations.bound import Bound
-from app.calculations.orders import Here
 from app.db import afterwards
 from app.measured import calculation, shown
 from app.measured.calculation import FileRead, Made, bound_of
@@ -37,13 +36,12 @@ KEPT_UNUSED = timedelta(days=1)  # a file from which nothing is imported
 EARLIER = 200  # imports among which a mapping is looked for
 NOBODY = "unnamed"
 MAPPING = Bound("reading of the mapping", seconds=10, megabytes=1000, mend="use fewer columns", where="mapping")
-HERE = Here()
 
 
 class MeasuredService:
     """Rules of measured recordings: upload, preview, import and remove. No SQL, no HTTP."""
 
-    def __init__(self, session: Session, store: Store, calculate: Calculator | Here = HERE):
+    def __init__(self, session: Session, store: Store, calculate: Calculate = HERE):
         self.session, self.store, self.calculate = session, store, calculate
         self.rows, self.raw_files = MeasuredRepository(session), RawFiles(store)
         self.saved = SavedMappings(session)

@@ -9,7 +9,9 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse, RedirectResponse, Response
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculating
 from app.compare.dependency import Comparisons
+from app.compare.endpoints import COMPARISON
 from app.compare.items import MOST, Ref, refs
 from app.compare.schemas import ComparisonOut, MeasureOut
 from app.compare.service import CompareService, address
@@ -28,14 +30,20 @@ IN_PAGE = {"ref", "kind", "label", "name", "start_s", "duration_s"}  # of an ite
 @router.get("/compare")
 @allowed(Role.VIEWER)
 def compare(
-    request: Request, comparisons: Comparisons, items: Items = NOTHING, reference: str = "", q: str = "", choose: bool = False
+    request: Request,
+    comparisons: Comparisons,
+    calculate: Calculating,
+    items: Items = NOTHING,
+    reference: str = "",
+    q: str = "",
+    choose: bool = False,
 ) -> Response:
     """The page of a comparison; without two items, with `choose`, or where they are refused, the choice of items."""
     try:
         given = refs(items)
         if len(given) < 2 or choose:
             return _choice(request, comparisons, given, q)
-        found = comparisons.compare(items, reference)
+        found = calculate(COMPARISON, comparisons.compare, items, reference)
     except (RthsError, NotFound, Conflict) as error:
         return _choice(request, comparisons, _readable(items), q, error)
     if len(items) > 1:

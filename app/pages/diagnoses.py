@@ -8,9 +8,13 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse
 
 from app.access import Role, allowed
+from app.calculations.answer import Calculating
+from app.calculations.bound import Bound
+from app.config import Settings
 from app.dependencies import Configured
 from app.diagnoses.dependency import Diagnoses
 from app.diagnoses.exports import facts
+from app.diagnoses.service import DiagnosisService
 from app.jobs.states import State
 from app.measured.dependency import Recordings
 from app.models import Diagnosis
@@ -26,6 +30,8 @@ from rths_engine.foundation.errors import RthsError
 LIMIT = 50
 OFFERED = 200  # recordings, and runs
 RECORDED = (State.COMPLETED, State.TRIPPED, State.CANCELLED)
+
+RESULT = Bound("result of the diagnosis", seconds=60, megabytes=4000, mend="download its report")
 
 router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, include_in_schema=False)
 
@@ -61,22 +67,32 @@ def listed(
 
 @router.get("/diagnoses/{diagnosis_id}")
 @allowed(Role.VIEWER)
-def one(request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: Configured) -> HTMLResponse:
+def one(
+    request: Request, diagnosis_id: str, diagnoses: Diagnoses, configured: Configured, calculate: Calculating
+) -> HTMLResponse:
     """The page of a diagnosis."""
     diagnosis = diagnoses.get(diagnosis_id)
     result: dict[str, Any] = {}
     if diagnosis.verdict is not None and diagnosis.pictures is not None:
-        _, verdict, pictures = diagnoses.result(diagnosis_id)
         result = {
-            **shown(verdict, pictures, diagnosis.plan),
-            "extended": verdict.extended_plan is not None,
+            **calculate(RESULT, _result, diagnoses, diagnosis_id, configured),
             "simulations": diagnoses.simulations(diagnosis),
-            **_overlaid(diagnosis, diagnoses, configured),
         }
     return plotted(request, "diagnosis.html", diagnosis=diagnosis, facts=facts(diagnosis), result=result, **result)
 
 
-def _overlaid(diagnosis: Diagnosis, diagnoses: Diagnoses, configured: Configured) -> dict[str, Any]:
+def _result(diagnoses: DiagnosisService, diagnosis_id: str, configured: Settings) -> dict[str, Any]:
+    """The verdict in words and numbers, and its plots."""
+    diagnosis, verdict, pictures = diagnoses.result(diagnosis_id)
+    extended = verdict.extended_plan is not None
+    return {
+        **shown(verdict, pictures, diagnosis.plan),
+        "extended": extended,
+        **_overlaid(diagnosis, diagnoses, configured),
+    }
+
+
+def _overlaid(diagnosis: Diagnosis, diagnoses: DiagnosisService, configured: Settings) -> dict[str, Any]:
     """The plots over the recording, or the reason why they are missing: an unreadable file does not fail the page."""
     empty: dict[str, Any] = {"overlay": [], "not_overlaid": "", "not_alike": ""}
     try:

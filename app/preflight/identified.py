@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.openapi import PlanData
+from app.text import Integer
 
 
 class IdentificationIn(BaseModel):
@@ -13,7 +14,7 @@ class IdentificationIn(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     plan: PlanData
-    station: int = Field(1, strict=True, ge=1, le=1000, description="counts from 1")
+    station: Integer = Field(1, ge=1, le=1000, description="counts from 1")
     seconds: float = Field(20.0, ge=5, le=30, description="duration of the random test, s")
     low_frequency: float = Field(0.25, ge=0.05, le=50, description="Hz")
     high_frequency: float = Field(6.0, ge=0.5, le=100, description="Hz; at least twice the lowest frequency")

@@ -5,14 +5,14 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, BeforeValidator, Field
 
 from app.runs.schemas import Person, RunOut
-from app.text import Storable
+from app.text import Storable, integer
 
 MOST_RUNS = 1000  # runs in one request, and in one answer
 Ids = Annotated[list[Annotated[Storable, Field(max_length=36)]], Field(min_length=1, max_length=MOST_RUNS)]
-Priority = Annotated[int, Field(strict=True, ge=-1, le=2)]
+Priority = Annotated[int, Field(strict=True, ge=-1, le=2), BeforeValidator(integer)]
 PRIORITIES = {2: "urgent", 1: "high", 0: "normal", -1: "low"}
 
 

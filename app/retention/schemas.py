@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from app.jobs.states import State
-from app.text import Storable
+from app.text import Storable, integer
 from app.whole import Whole
 
 GIGABYTE = 1e9  # bytes
@@ -22,11 +22,8 @@ class Rule(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    days: int | None = Field(
+    days: Annotated[int, Field(strict=True, ge=1, le=MOST_DAYS), BeforeValidator(integer)] | None = Field(
         None,
-        strict=True,
-        ge=1,
-        le=MOST_DAYS,
         description="recordings are kept this number of days after their tests",
     )
     gigabytes: float | None = Field(

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-from app.text import Named, Storable
+from app.text import Named, Storable, integer
 from app.whole import Whole
 from rths_engine.planning.plan import MOST_STATIONS
 
@@ -36,11 +37,8 @@ class RigIn(BaseModel):
 
     name: Named = Field(max_length=80)
     kind: RigKind = RigKind.PHYSICAL
-    tests_at_a_time: int | None = Field(
+    tests_at_a_time: Annotated[int, Field(strict=True, ge=1, le=1000), BeforeValidator(integer)] | None = Field(
         None,
-        strict=True,
-        ge=1,
-        le=1000,
         description="number of tests at the same time; null: any number, or 1 on a physical rig",
     )
     actuators: list[ActuatorCapacity] = Field(

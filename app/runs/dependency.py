@@ -6,13 +6,14 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 
+from app.calculations.answer import Calculating
 from app.dependencies import Library, OneSession
 from app.runs.service import RunService
 
 
-def run_service(request: Request, session: OneSession, motions: Library) -> RunService:
+def run_service(request: Request, session: OneSession, motions: Library, calculate: Calculating) -> RunService:
     """The service of runs in the session of the request."""
-    return RunService(session, motions, request.app.state.queue)
+    return RunService(session, motions, request.app.state.queue, calculate)
 
 
 Runs = Annotated[RunService, Depends(run_service)]

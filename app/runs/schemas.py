@@ -12,7 +12,7 @@ from app.jobs.states import State
 from app.measures import fields
 from app.models import EMULATED, Run
 from app.openapi import PLAN, PlanData
-from app.text import PersonName, Storable
+from app.text import Integer, PersonName, Storable
 from rths_engine.foundation.part import validated
 from rths_engine.planning.connections import sentences
 from rths_engine.planning.plan import Plan
@@ -25,7 +25,7 @@ class FromLibrary(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     id: Storable = Field(max_length=36)
-    version: int = Field(ge=1, le=10**6)
+    version: Integer = Field(ge=1, le=10**6)
 
 
 class Submission(BaseModel):
@@ -38,7 +38,7 @@ class Submission(BaseModel):
     submitted_by: PersonName = ""
     library: FromLibrary | None = None
     rig: Storable = Field(EMULATED, max_length=36, description="id of the rig; by default the emulated laboratory")
-    priority: int = Field(0, strict=True, ge=-1, le=2, description="2 urgent, 1 high, 0 normal, -1 low")
+    priority: Integer = Field(0, ge=-1, le=2, description="2 urgent, 1 high, 0 normal, -1 low")
 
 
 class Person(BaseModel):

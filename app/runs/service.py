@@ -8,7 +8,8 @@ from typing import Any
 
 from sqlalchemy.orm import Session
 
-from app.checking import Checked, checked
+from app.calculations.answer import HERE, Calculate
+from app.checking import Outline, outlines
 from app.control.service import Control
 from app.jobs.service import UNDO, JobService, Queue, undoable
 from app.jobs.states import State
@@ -30,11 +31,11 @@ from rths_engine.planning.reading import read_plan
 class RunService:
     """Rules of runs: submit, list, cancel and retry. No SQL, no HTTP."""
 
-    def __init__(self, session: Session, motions: MotionLibrary, queue: Queue | None = None):
+    def __init__(self, session: Session, motions: MotionLibrary, queue: Queue | None = None, calculate: Calculate = HERE):
         self.runs = RunRepository(session)
         self.jobs: JobService[Run, Outcome] = JobService(session, RUNS, queue)
         self.rigs, self.control = RigService(session), Control(session)
-        self.session, self.motions = session, motions
+        self.session, self.motions, self.calculate = session, motions, calculate
 
     def submit(
         self,
@@ -53,6 +54,7 @@ class RunService:
         """
         if not plans:
             raise PlanError(Issue("plans", "needs at least one plan", fix="add a plan"))
+        outlined = outlines(self.calculate, plans, self.motions)  # before the database is asked for anything
         kept = self.runs.version(library.id, library.version) if library else None
         if library is not None and kept is None:
             fix, given = (
@@ -66,9 +68,10 @@ class RunService:
             self.control.check([on.id], submitted_by)
         issues: list[Issue] = []
         runs: list[Run] = []
-        for index, data in enumerate(plans):
+        for index, found in enumerate(outlined):
             try:
-                found = checked(data, self.motions)
+                if isinstance(found, RthsError):
+                    raise found
                 self.rigs.check(found.plan, on)
                 runs.append(_run_of(found, on, priority))
             except RthsError as error:
@@ -143,9 +146,8 @@ class RunService:
         return run
 
 
-def _run_of(checked: Checked, rig: Rig, priority: int) -> Run:
+def _run_of(checked: Outline, rig: Rig, priority: int) -> Run:
     plan = checked.plan
-    floors = len(checked.model.periods)
     return Run(
         name=plan.name,
         template=plan.template,
@@ -157,7 +159,7 @@ def _run_of(checked: Checked, rig: Rig, priority: int) -> Run:
         priority=priority,
         pace=plan.pace.factor if plan.pace.kind == "real_time" else None,
         samples=checked.steps * plan.substeps,
-        size=f"{plan.test}, {floors} modes, {len(plan.stations)} stations",
+        size=f"{plan.test}, {checked.floors} modes, {len(plan.stations)} stations",
     ).on(rig)
 
 

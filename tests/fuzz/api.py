@@ -25,6 +25,8 @@ CHECKS = [
     checks.response_schema_conformance,
     checks.missing_required_header,
     checks.allow_header_conformance,
+    checks.negative_data_rejection,
+    checks.unsupported_method,
 ]
 MODES = (GenerationMode.POSITIVE, GenerationMode.NEGATIVE)
 OF_THE_ENGINE = ("application/yaml", "multipart/form-data")  # bodies whose rules no schema can state
@@ -56,12 +58,15 @@ def _faults_of(client: TestClient, case: Case[Any]) -> Iterator[str]:
         answer = client.request(**asked)
     except UnicodeEncodeError:  # a path that no client can send
         return
+    answer.request.read()  # the checks quote it
     told = f"{case.method} {answer.request.url} -> {answer.status_code} {answer.text[:300]}"
     documented = case.operation.definition.raw.get("responses", {})
     if answer.status_code >= 500 and str(answer.status_code) not in documented:
         yield f"server error: {told}"
         return
     for check in CHECKS:
+        if check is checks.negative_data_rejection and _spaced(case):
+            continue
         try:
             case.validate_response(answer, checks=[check])
         except FailureGroup as group:
@@ -71,6 +76,17 @@ def _faults_of(client: TestClient, case: Case[Any]) -> Iterator[str]:
     positive = case.meta is not None and case.meta.generation.mode.is_positive
     if positive and answer.status_code in {400, 415, 422} and not _ruled(case, answer):
         yield f"valid request refused: {told}"
+
+
+def _spaced(case: Case[Any]) -> bool:
+    """Whether a text of a request has spaces around it: the service measures names and tags without them."""
+    left: list[Any] = [case.body, case.query]
+    while left:
+        one = left.pop()
+        if isinstance(one, str) and one != one.strip():
+            return True
+        left += one.values() if isinstance(one, dict) else one if isinstance(one, list) else ()
+    return False
 
 
 def _ruled(case: Case[Any], answer: Any) -> bool:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import atexit
 import io
+import json
 import re
 import shutil
+import struct
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator
@@ -20,6 +22,7 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
+from app.laboratory.logo import SVG, checked
 from rths_engine.formats import apart, registry
 from rths_engine.formats.source import Source
 from rths_engine.formats.table import Table
@@ -35,6 +38,7 @@ from rths_engine.recordings.batches.archive import Archive, Limits
 from rths_engine.recordings.measured import examine, guess, imported, mapping_yaml, store
 from rths_engine.recordings.measured.mapping import Mapping
 from rths_engine.running.run import simulate
+from rths_engine.sweeps.design import read_design
 from tests.engine import measurements, plans
 from tests.fuzz import trying
 from tests.fuzz.mutations import damaged
@@ -265,6 +269,38 @@ def _measured_file(path: Path) -> None:
     store.save(path, imported(_table(), validated(Mapping, measurements.mapping())))
 
 
+def _sweeps() -> Reader:
+    """Definitions of sweeps as a body of a request: damaged JSON that can still be parsed."""
+    fields = [
+        {"path": "stations.*.compensator.alpha_es", "values": [20, 30]},
+        {"path": "structure.damping_ratio", "values": [1, 5], "unit": "%"},
+    ]
+    whole = {"name": "Trial", "plan": templates.template("two-storeys").as_dict(), "fields": fields}
+
+    def read(raw: bytes) -> str | None:
+        try:
+            data = json.loads(raw)
+        except (ValueError, RecursionError):
+            return None
+        design = read_design(data)
+        values = [value for point in (0, design.count - 1) for value in design.inputs(point)]
+        return None if np.isfinite(np.asarray(values, float)).all() else f"a sweep with inputs that are not finite: {values}"
+
+    return Reader(damaged(json.dumps(whole).encode()), read, (RthsError,), by_library=False)
+
+
+def _logos() -> Reader:
+    svg = b'<svg xmlns="http://www.w3.org/2000/svg"><style>.a{fill:red}</style><path class="a" d="M0 0h9"/></svg>'
+    png = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sIIBBBBB", 13, b"IHDR", 9, 9, 8, 2, 0, 0, 0) + bytes(12)
+
+    def read(raw: bytes) -> str | None:
+        image = checked(raw)
+        text = image.data.decode("utf-8", "replace").lower()
+        return "an image with a script" if image.media_type == SVG and "<script" in text else None
+
+    return Reader(st.one_of(damaged(svg), damaged(png)), read, (RthsError,))
+
+
 @cache
 def _folder() -> Path:
     """A folder for the files of all readers, removed at the end of the process."""
@@ -278,6 +314,8 @@ READERS: dict[str, Callable[[], Reader]] = {
     "plan": _plans,
     "mapping": _mappings,
     "archive of a batch": _archives,
+    "sweep": _sweeps,
+    "logo": _logos,
     "stored ground motion": _stored_motions,
     "recording of a run": lambda: _recordings(_run_file, run_file.load),
     "recording, opened": lambda: _recordings(_run_file, opening.load),
