@@ -213,9 +213,9 @@ def test_the_doors_are_open_and_show_nothing(browser: Browser, path: str) -> Non
 def test_every_page_says_who_is_signed_in(person: Person, browser: Browser, client: TestClient) -> None:
     one = person(Role.VIEWER)
     page = one.get("/account", headers={"accept": "text/html"})
-    assert f"Account of {name_of(one)}" in page.text and "Without accounts" not in page.text
+    assert f"Account of {name_of(one)}" in page.text and "No accounts" not in page.text
     assert one.get("/settings").text.count("account-form") == 0
-    assert "Without accounts: everyone on this computer" in client.get("/queue").text
+    assert "No accounts: everyone on this computer" in client.get("/queue").text
     out = one.post("/sign-out", follow_redirects=False)
     assert (out.status_code, out.headers["location"]) == (303, "/sign-in") and one.get(f"{V1}/account").status_code == 401
     left = TestClient(app_of(client), ADDRESS, client=("192.0.2.1", 1), follow_redirects=False)

@@ -4,6 +4,7 @@
 import { ApiError, api, explain } from "./api.js";
 import { byId, el, renew } from "./dom.js";
 import { person } from "./person.js";
+import { may } from "./role.js";
 import { signInLink } from "./signed_out.js";
 
 const PERIOD_MS = 1500;
@@ -60,7 +61,7 @@ async function follow(known) {
   while (known.held) {
     note.textContent = known.sentence;
     if (known.acknowledged && known.recorded && !known.running.length) {
-      note.textContent = `${known.sentence} Release it on the page Queue.`;
+      note.textContent = `${known.sentence} ${may("operator") ? "Release it" : "An operator releases it"} on the page Queue.`;
       return;
     }
     await new Promise((wake) => setTimeout(wake, FOLLOW_MS));
