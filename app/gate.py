@@ -107,7 +107,8 @@ class Gate:
         scope[PERSON] = person
         ACTING.set(person)
         if person.role < access.who:
-            needed = f"It needs the role {access.who.name.lower()}; {person.name} is {person.role.name.lower()}."
+            needs, has = access.who.name.lower(), person.role.name.lower()
+            needed = f"{scope['path']} needs the role {needs}; {person.name} has the role {has}."
             return problem(403, f"{needed} An administrator changes roles on the page Settings.")
         return None if person.may(access) else problem(403, _beyond(access))
 

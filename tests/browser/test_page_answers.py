@@ -87,7 +87,7 @@ def test_an_error_is_a_page_for_people_and_a_problem_for_programs(
 def test_a_role_that_is_too_low_is_told_on_a_page(whole: FastAPI, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.gate.LOCAL", replace(LOCAL, role=Role.VIEWER))
     answer = _asked(whole, "GET", "/audit", BROWSER)
-    assert answer.status_code == 403 and "It needs the role engineer" in answer.text
+    assert answer.status_code == 403 and "/audit needs the role engineer" in answer.text
     assert 'data-role="viewer"' in answer.text and "Open the Lab" in answer.text
 
 

@@ -11,6 +11,7 @@ let send;
 export function holding(queue, change) {
   send = change;
   byId("held").hidden = !queue.held;
+  byId("running-next").hidden = queue.held;
   byId("hold-form").hidden = queue.held;
   if (!queue.held) return;
   byId("held-by").textContent = `${queue.held_by ?? "unnamed"} since ${clock(queue.held_at)}`;
