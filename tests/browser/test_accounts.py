@@ -77,6 +77,9 @@ def test_a_person_signs_in_by_the_keyboard_manages_the_account_and_signs_out(pag
     whole(page)
     visit(page, "/new")
     expect(page.locator("#who")).to_be_hidden()
+    for width, tallest in ((390, 70), (1400, 45)):  # px: the name, buttons and, on a wide window, the pages in one row
+        page.set_viewport_size({"width": width, "height": 800})
+        assert page.locator("header.top").evaluate("header => header.offsetHeight") <= tallest, width
     page.locator(".person summary").press("Enter")
     page.get_by_role("button", name="Sign out").press("Enter")
     page.wait_for_url("**/sign-in")

@@ -79,9 +79,11 @@ def test_abort_asks_once_more_then_stops_the_test_and_holds_the_queue(idle: Serv
     bar = page.get_by_role("region", name="Abort")
     expect(bar).to_contain_text("It is NOT the laboratory's emergency stop.")
     page.get_by_role("button", name="Abort").focus()
+    place = bar.get_by_role("button").bounding_box()
     page.keyboard.press("Enter")
     assert idle.get(f"/runs/{run}")["state"] == "running"
     expect(bar.get_by_role("button", name="Press again to abort")).to_be_focused()
+    assert bar.get_by_role("button").bounding_box() == place  # the second press does not miss it
     page.keyboard.press("Enter")
     assert idle.wait(run)["state"] == "cancelled"
     visit(page, "/")
