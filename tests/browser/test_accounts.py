@@ -16,7 +16,7 @@ from app.db import unit_of_work
 from app.main import create_app
 from tests.app.conftest import plan
 from tests.app.people import PASSWORD
-from tests.browser.conftest import visit
+from tests.browser.conftest import PATIENCE_MS, visit
 from tests.browser.service import free_port, until
 from tests.browser.test_pages import expect_accessible
 
@@ -45,6 +45,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
 @pytest.fixture
 def page(browser: Browser, lab: tuple[str, str]) -> Iterator[Page]:
     with browser.new_context(base_url=lab[0], viewport=NARROW, color_scheme="dark", reduced_motion="reduce") as context:
+        context.set_default_timeout(PATIENCE_MS)
         yield context.new_page()
 
 
