@@ -19,10 +19,10 @@ CHECK = "/api/v1/plans/check"
 
 @pytest.mark.parametrize("depth", [41, 500, 700, 900, 5000])
 @pytest.mark.parametrize("shape", ["[%s]", '{"a":%s}', '{"plan":[%s]}'])
-def test_json_that_is_nested_too_deeply_is_refused(client: TestClient, depth: int, shape: str) -> None:
+def test_json_that_is_nested_too_deeply_is_refused(serving: TestClient, depth: int, shape: str) -> None:
     before, after = shape.split("%s")
     body = before * depth + "1" + after * depth
-    answer = client.post(CHECK, content=body, headers=JSON)
+    answer = serving.post(CHECK, content=body, headers=JSON)
     assert (answer.status_code, answer.headers["content-type"]) == (400, "application/problem+json")
     assert "nested too deeply" in answer.json()["detail"]
 
@@ -55,15 +55,15 @@ def test_the_number_of_texts_and_of_objects_is_bounded(monkeypatch: pytest.Monke
     assert "objects and lists" in str(fault_of(json.dumps([[]] * 60).encode()))
 
 
-def test_a_plan_needs_no_more_than_the_limit_of_json(client: TestClient) -> None:
+def test_a_plan_needs_no_more_than_the_limit_of_json(serving: TestClient) -> None:
     large = json.dumps({"plan": "x" * 8_000_000}).encode()
-    assert client.post("/api/v1/runs", content=large, headers=JSON).status_code == 413
+    assert serving.post("/api/v1/runs", content=large, headers=JSON).status_code == 413
 
     def endless() -> Iterator[bytes]:
         for _ in range(9):
             yield b"x" * 1_000_000
 
-    answer = client.post("/api/v1/runs", content=endless(), headers=JSON)
+    answer = serving.post("/api/v1/runs", content=endless(), headers=JSON)
     assert answer.status_code == 413 and "8 MB" in answer.json()["detail"]
 
 
@@ -82,10 +82,10 @@ def with_long_names(count: int, length: int) -> dict[str, Any]:
         [1] * 50_000,
     ],
 )
-def test_the_answer_to_a_bad_request_stays_short(client: TestClient, body: Any) -> None:
+def test_the_answer_to_a_bad_request_stays_short(serving: TestClient, body: Any) -> None:
     for path in (CHECK, "/api/v1/runs", "/api/v1/sweeps/preview", "/api/v1/mappings"):
         sent = {"plan": body} if path == "/api/v1/runs" and isinstance(body, dict) else body
-        answer = client.post(path, content=json.dumps(sent), headers=JSON)
+        answer = serving.post(path, content=json.dumps(sent), headers=JSON)
         assert answer.status_code in {400, 422}
         assert len(answer.content) < 250_000
         assert len(answer.json()["errors"]) <= 102

@@ -37,6 +37,13 @@ def recording(client: TestClient) -> str:
     return found
 
 
+@pytest.fixture(scope="module")
+def imported(serving: TestClient) -> str:
+    """A recording of the service that all refusals share."""
+    found: str = recordings.add(serving, test="specimen")["id"]
+    return found
+
+
 def asked(recording: str, **more: Any) -> dict[str, Any]:
     return {"recording": {"recording": recording}, "plan": specimen().as_dict(), **more}
 
@@ -75,14 +82,14 @@ def queued(client: TestClient, recording: str, **more: Any) -> dict[str, Any]:
     ],
 )
 def test_what_cant_be_diagnosed_is_refused_and_nothing_stored(
-    client: TestClient, recording: str, changes: dict[str, Any], status: int, told: str
+    serving: TestClient, imported: str, changes: dict[str, Any], status: int, told: str
 ) -> None:
-    body = json.dumps({**asked(recording), **changes})  # ASCII, which carries half of a surrogate pair too
-    answer = client.post(URL, content=body, headers={"Content-Type": "application/json"})
+    body = json.dumps({**asked(imported), **changes})  # ASCII, which carries half of a surrogate pair too
+    answer = serving.post(URL, content=body, headers={"Content-Type": "application/json"})
     assert answer.status_code == status, answer.text
     assert answer.headers["content-type"] == "application/problem+json"
     assert told in answer.text
-    assert client.get(URL).json() == {"diagnoses": [], "total": 0}
+    assert serving.get(URL).json() == {"diagnoses": [], "total": 0}
 
 
 @pytest.mark.parametrize(("changes", "where"), [({"plan": 4}, "plan"), ({"recording": {"run": [1]}}, "recording.run")])
@@ -100,8 +107,8 @@ def test_a_run_without_recording_cant_be_diagnosed(client: TestClient) -> None:
 
 
 @pytest.mark.parametrize("path", ["", "/verdict.json", "/pictures.json", "/report.html"])
-def test_an_unknown_diagnosis_is_not_found(client: TestClient, path: str) -> None:
-    answer = client.get(f"{URL}/nobody{path}")
+def test_an_unknown_diagnosis_is_not_found(serving: TestClient, path: str) -> None:
+    answer = serving.get(f"{URL}/nobody{path}")
     assert answer.status_code == 404 and answer.json()["detail"] == "There is no diagnosis nobody."
 
 

@@ -122,8 +122,8 @@ def test_saving_a_version_closes_its_draft(client: TestClient) -> None:
         ("null", "plan"),
     ],
 )
-def test_what_no_database_can_store_is_refused(client: TestClient, typed: str, where: str) -> None:
-    answer = client.put(
+def test_what_no_database_can_store_is_refused(serving: TestClient, typed: str, where: str) -> None:
+    answer = serving.put(
         f"{URL}/d1", content=f'{{"plan": {typed}, "revision": 0}}', headers={"content-type": "application/json"}
     )
     held(f"PUT {ONE}", answer)

@@ -68,6 +68,6 @@ def test_what_was_rolled_back_is_not_told(client: TestClient, run: str) -> None:
 
 
 @pytest.mark.parametrize("query", ["after=-1", "kind=began", "since=yesterday", "limit=501", "colour=red"])
-def test_a_wrong_question_is_refused_with_the_parameter(client: TestClient, query: str) -> None:
-    answer = client.get(f"/api/v1/events?{query}")
+def test_a_wrong_question_is_refused_with_the_parameter(serving: TestClient, query: str) -> None:
+    answer = serving.get(f"/api/v1/events?{query}")
     assert answer.status_code == 422 and answer.json()["errors"][0]["where"].startswith(query.partition("=")[0])

@@ -70,16 +70,16 @@ def test_the_scripts_inside_a_page_are_named_by_their_hash(earlier: TestClient) 
 
 @pytest.mark.parametrize("host", ["elsewhere.example", "127.0.0.1.elsewhere.example", "[::1", "", "elsewhere.example:8000"])
 @pytest.mark.parametrize("path", ["/", "/api/v1/runs", "/openapi.json", "/static/css/app.css"])
-def test_nothing_is_read_under_a_foreign_host_name(client: TestClient, path: str, host: str) -> None:
+def test_nothing_is_read_under_a_foreign_host_name(serving: TestClient, path: str, host: str) -> None:
     """A page of another site may give its name the address of this machine: the browser then sends that name as Host."""
-    answer = client.get(path, headers={"host": host})
+    answer = serving.get(path, headers={"host": host})
     assert answer.status_code == 421
     assert "RTHS_HOSTS" in answer.json()["detail"]
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:8000", "localhost", "LOCALHOST:8000", "[::1]:8000"])
-def test_the_names_of_this_machine_are_known_in_any_case(client: TestClient, host: str) -> None:
-    assert client.get("/api/v1/runs", headers={"host": host}).status_code == 200
+def test_the_names_of_this_machine_are_known_in_any_case(serving: TestClient, host: str) -> None:
+    assert serving.get("/api/v1/runs", headers={"host": host}).status_code == 200
 
 
 def test_a_monitor_asks_for_the_health_under_any_host_name(client: TestClient) -> None:

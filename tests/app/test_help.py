@@ -40,8 +40,8 @@ def test_the_page_of_a_search_says_what_to_try_and_escapes_what_was_typed(client
 @pytest.mark.parametrize(
     "name", ["docs/nothing.md", "pyproject.toml", "docs/../pyproject.toml", "app/main.py", "docs/nothing.png"]
 )
-def test_only_documents_and_their_pictures_are_served(client: TestClient, name: str) -> None:
-    assert client.get(f"/help/{name}").status_code == 404
+def test_only_documents_and_their_pictures_are_served(serving: TestClient, name: str) -> None:
+    assert serving.get(f"/help/{name}").status_code == 404
 
 
 def test_the_glossary_has_every_term_with_its_meaning(client: TestClient) -> None:

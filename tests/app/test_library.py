@@ -202,8 +202,8 @@ def test_plans_run_before_the_library_was_there_can_be_kept(earlier: TestClient)
 
 
 @pytest.mark.parametrize("path", ["", "/versions/1", "/versions/1/plan.yaml", "/runs"])
-def test_a_plan_that_is_not_there_is_not_found(client: TestClient, path: str) -> None:
-    answer = client.get(f"{URL}/nothing{path}")
+def test_a_plan_that_is_not_there_is_not_found(serving: TestClient, path: str) -> None:
+    answer = serving.get(f"{URL}/nothing{path}")
     assert answer.status_code == 404 and "There is no plan nothing" in answer.json()["detail"]
 
 

@@ -107,12 +107,12 @@ def test_a_record_in_counts_asks_for_the_acceleration_of_one_count(client: TestC
         ("0.1\nnan\n0.2\n" * 40, "gap.txt"),
     ],
 )
-def test_what_is_no_record_is_refused_and_not_stored(client: TestClient, text: str | bytes, filename: str) -> None:
-    before = client.get(MOTIONS).json()
-    answer = upload(client, text, filename, unit="g", dt="0.01")
+def test_what_is_no_record_is_refused_and_not_stored(serving: TestClient, text: str | bytes, filename: str) -> None:
+    before = serving.get(MOTIONS).json()
+    answer = upload(serving, text, filename, unit="g", dt="0.01")
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["problem"]
-    assert client.get(MOTIONS).json() == before
+    assert serving.get(MOTIONS).json() == before
 
 
 def test_a_bundled_record_cannot_be_removed(client: TestClient) -> None:
@@ -152,6 +152,6 @@ def test_yaml_goes_out_and_comes_back(client: TestClient) -> None:
 
 
 @pytest.mark.parametrize("body", [b"a: [", b"\xff\xfe", b"a: &a 1\nb: *a", b"[" * 5000])
-def test_bad_yaml_is_refused(client: TestClient, body: bytes) -> None:
-    answer = client.post("/api/v1/plans/read", content=body)
+def test_bad_yaml_is_refused(serving: TestClient, body: bytes) -> None:
+    answer = serving.post("/api/v1/plans/read", content=body)
     assert answer.status_code == 422

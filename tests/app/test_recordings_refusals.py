@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from app.config import Settings
 from app.main import create_app
-from tests.app.conftest import ADDRESS, HERE
+from tests.app.conftest import ADDRESS, HERE, app_of
 from tests.app.test_recordings_api import URL, add, kept, post, upload
 from tests.engine import measurements as made
 
@@ -98,13 +98,13 @@ def test_a_file_larger_than_other_requests_may_be_is_taken(client: TestClient, s
 )
 @pytest.mark.parametrize("path", ["/preview", ""])
 def test_a_mapping_that_does_not_fit_is_told_by_its_place_and_nothing_is_stored(
-    client: TestClient, settings: Settings, path: str, mapping: Any, where: str, message: str
+    serving: TestClient, path: str, mapping: Any, where: str, message: str
 ) -> None:
-    sent = upload(client)
-    answer = post(client, path, sent["sha256"], mapping)
+    sent = upload(serving)
+    answer = post(serving, path, sent["sha256"], mapping)
     assert answer.status_code == 422, answer.text
     assert answer.json()["errors"][0]["where"] == where and message in answer.json()["detail"]
-    assert kept(settings) == [sent["sha256"]] and client.get(URL).json()["total"] == 0
+    assert kept(app_of(serving).state.settings) == [sent["sha256"]] and serving.get(URL).json()["total"] == 0
 
 
 @pytest.mark.parametrize(
@@ -126,9 +126,9 @@ def test_a_mapping_that_does_not_fit_is_told_by_its_place_and_nothing_is_stored(
     ],
 )
 def test_a_request_that_cannot_be_taken_says_why(
-    client: TestClient, method: str, path: str, body: Any, status: int, message: str
+    serving: TestClient, method: str, path: str, body: Any, status: int, message: str
 ) -> None:
-    answer = client.request(method, URL + path, content=json.dumps(body), headers={"content-type": "application/json"})
+    answer = serving.request(method, URL + path, content=json.dumps(body), headers={"content-type": "application/json"})
     assert answer.status_code == status, answer.text
     assert answer.headers["content-type"] == "application/problem+json" and message in answer.json()["detail"]
 

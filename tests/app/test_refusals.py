@@ -57,14 +57,14 @@ def test_checking_a_plan_never_reads_a_file_of_the_server(client: TestClient, tm
 )
 @pytest.mark.parametrize("path", [CHECK, RUNS])
 def test_a_plan_that_could_not_be_run_is_refused_when_checked_and_when_submitted(
-    client: TestClient, path: str, data: dict[str, Any], where: str, message: str
+    serving: TestClient, path: str, data: dict[str, Any], where: str, message: str
 ) -> None:
     body = {"plan": data} if path == RUNS else data
-    answer = client.post(path, content=json.dumps(body), headers=JSON)
+    answer = serving.post(path, content=json.dumps(body), headers=JSON)
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["where"] == where
     assert message in answer.json()["detail"]
-    assert stored(client) == 0
+    assert stored(serving) == 0
 
 
 def test_a_record_of_zeros_can_be_run_as_it_is(client: TestClient) -> None:
@@ -102,14 +102,14 @@ def test_a_record_of_zeros_can_be_run_as_it_is(client: TestClient) -> None:
     ],
 )
 def test_a_request_that_cannot_be_taken_is_a_problem_that_says_why(
-    client: TestClient, method: str, path: str, body: bytes, kind: str, status: int, message: str
+    serving: TestClient, method: str, path: str, body: bytes, kind: str, status: int, message: str
 ) -> None:
-    answer = client.request(method, path, content=body, headers={"content-type": kind} if kind else {})
+    answer = serving.request(method, path, content=body, headers={"content-type": kind} if kind else {})
     assert answer.status_code == status
     assert answer.headers["content-type"] == "application/problem+json"
     told = answer.json()
     assert told["status"] == status and told["title"] and message in told["detail"]
-    assert stored(client) == 0
+    assert stored(serving) == 0
 
 
 def test_a_method_that_is_not_possible_is_told_which_are(client: TestClient) -> None:

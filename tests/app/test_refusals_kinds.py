@@ -106,11 +106,11 @@ NAN = float("nan")
 )
 @pytest.mark.parametrize("path", [CHECK, RUNS])
 def test_a_mistake_is_refused_with_the_path_of_its_field_and_nothing_is_stored(
-    client: TestClient, path: str, plan: dict[str, Any], where: str, told: str
+    serving: TestClient, path: str, plan: dict[str, Any], where: str, told: str
 ) -> None:
-    answer = post(client, path, {"plan": plan} if path == RUNS else plan)
+    answer = post(serving, path, {"plan": plan} if path == RUNS else plan)
     assert answer.status_code == 422
     found = answer.json()["errors"]
     assert any(one["where"] == where and told in str(one) for one in found), found
-    assert stored(client) == 0
+    assert stored(serving) == 0
     assert len(answer.content) < 10_000

@@ -41,8 +41,8 @@ def test_a_physical_rig_takes_one_test_and_a_name_is_taken_once(client: TestClie
 
 
 @pytest.mark.parametrize("actuator", [{"stroke": 0}, {"force": "strong"}, {"length": 1}])
-def test_a_capacity_that_is_none_is_refused_with_its_field(client: TestClient, actuator: dict[str, Any]) -> None:
-    answer = client.post(RIGS, json={"name": "Bad", "actuators": [actuator]})
+def test_a_capacity_that_is_none_is_refused_with_its_field(serving: TestClient, actuator: dict[str, Any]) -> None:
+    answer = serving.post(RIGS, json={"name": "Bad", "actuators": [actuator]})
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["where"] == f"actuators.0.{next(iter(actuator))}"
 

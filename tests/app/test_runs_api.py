@@ -98,7 +98,7 @@ def test_a_list_is_queued_whole_or_not_at_all(client: TestClient) -> None:
     ],
 )
 def test_a_bad_plan_is_refused_beside_its_field_and_nothing_is_stored(
-    client: TestClient, path: str, value: Any, where: str, message: str
+    serving: TestClient, path: str, value: Any, where: str, message: str
 ) -> None:
     data = plan()
     inner: Any = data
@@ -106,11 +106,11 @@ def test_a_bad_plan_is_refused_beside_its_field_and_nothing_is_stored(
     for step in parents:
         inner = inner[int(step) if step.isdigit() else step]
     inner[last] = value
-    answer = client.post(RUNS, json={"plan": data})
+    answer = serving.post(RUNS, json={"plan": data})
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["where"] == where
     assert message in json.dumps(answer.json(), ensure_ascii=False)
-    assert total(client) == 0
+    assert total(serving) == 0
 
 
 def test_a_nan_in_the_motion_is_refused(client: TestClient) -> None:
@@ -160,16 +160,16 @@ def test_a_measure_is_sorted_by_only_at_a_station_that_a_run_has(client: TestCli
     [("limit", "0"), ("limit", "501"), ("limit", "x"), ("offset", "-1"), ("offset", "1e3"), ("offset", "9" * 30)],
 )
 @pytest.mark.parametrize("path", [RUNS, "/api/v1/recordings", "/api/v1/diagnoses"])
-def test_a_number_out_of_range_in_a_lists_address_is_refused(client: TestClient, path: str, field: str, wrong: str) -> None:
-    answer = client.get(path, params={field: wrong})
+def test_a_number_out_of_range_in_a_lists_address_is_refused(serving: TestClient, path: str, field: str, wrong: str) -> None:
+    answer = serving.get(path, params={field: wrong})
     assert answer.status_code == 422
     assert [one["where"] for one in answer.json()["errors"]] == [field]
 
 
 @pytest.mark.parametrize("page", ["0", "-1", "x", "1.5", "9" * 30])
 @pytest.mark.parametrize("path", ["/runs", "/recordings", "/diagnoses"])
-def test_a_page_of_a_list_that_cant_be_is_refused(client: TestClient, path: str, page: str) -> None:
-    assert client.get(path, params={"page": page}).status_code == 422
+def test_a_page_of_a_list_that_cant_be_is_refused(serving: TestClient, path: str, page: str) -> None:
+    assert serving.get(path, params={"page": page}).status_code == 422
 
 
 def test_a_finished_run_gives_measures_recording_csv_report_and_plan(client: TestClient, settings: Settings) -> None:
@@ -279,8 +279,8 @@ def test_abort_holds_the_queue_until_it_is_released(client: TestClient) -> None:
 @pytest.mark.parametrize(
     "path", [f"{RUNS}/none", f"{RUNS}/none/recording.h5", "/api/v1/templates/none", "/api/v1/motions/none"]
 )
-def test_what_does_not_exist_is_a_404_problem(client: TestClient, path: str) -> None:
-    answer = client.get(path)
+def test_what_does_not_exist_is_a_404_problem(serving: TestClient, path: str) -> None:
+    answer = serving.get(path)
     assert answer.status_code == 404
     assert answer.headers["content-type"] == "application/problem+json"
 

@@ -51,9 +51,9 @@ def test_saved_mappings_are_listed_renamed_read_as_yaml_and_deleted(client: Test
 
 
 @pytest.mark.parametrize("method", ["get", "patch", "delete"])
-def test_a_mapping_that_is_not_there_is_not_found(client: TestClient, method: str) -> None:
+def test_a_mapping_that_is_not_there_is_not_found(serving: TestClient, method: str) -> None:
     more: dict[str, Any] = {"json": {"name": "a"}} if method == "patch" else {}
-    assert getattr(client, method)(f"{URL}/nothing", **more).status_code == 404
+    assert getattr(serving, method)(f"{URL}/nothing", **more).status_code == 404
 
 
 def test_a_name_that_is_taken_or_empty_is_refused(client: TestClient) -> None:

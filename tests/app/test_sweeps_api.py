@@ -137,13 +137,13 @@ def test_a_preview_lists_invalid_points_with_inputs_and_reason(client: TestClien
     ],
 )
 def test_a_sweep_with_an_error_is_refused_with_its_place_and_nothing_is_stored(
-    client: TestClient, changes: dict[str, Any], where: str, words: str
+    serving: TestClient, changes: dict[str, Any], where: str, words: str
 ) -> None:
-    answer = client.post(SWEEPS, json={"sweep": definition(**changes)})
+    answer = serving.post(SWEEPS, json={"sweep": definition(**changes)})
     assert answer.status_code == 422
     issue = answer.json()["errors"][0]
     assert issue["where"] == where and words in f"{issue['problem']} {issue['fix']}"
-    assert get(client, "")["total"] == 0
+    assert get(serving, "")["total"] == 0
 
 
 def test_a_queued_sweep_is_listed_with_its_progress(client: TestClient) -> None:

@@ -103,7 +103,7 @@ def test_a_test_is_sent_and_a_silent_address_is_told_in_the_log(client: TestClie
 @pytest.mark.parametrize(
     "url", ["ftp://lab/", "file:///etc/passwd", "lab.example", "http://", "http://a b/", "http://x:99999/"]
 )
-def test_an_address_that_is_no_web_address_is_refused(client: TestClient, url: str) -> None:
-    answer = client.post(HOOKS, json={"url": url})
+def test_an_address_that_is_no_web_address_is_refused(serving: TestClient, url: str) -> None:
+    answer = serving.post(HOOKS, json={"url": url})
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["problem"] == "needs an address that begins with http:// or https://"
