@@ -1,13 +1,13 @@
-"""Sweeps on several workers: `python -m benchmarks.sweep_workers [--points 600] [--workers 1 2 4] [--store sqlite postgresql]`.
+"""`python -m benchmarks.sweep_workers [--store sqlite|postgresql] [--points N]`: one sweep on 1, 2 and 4 workers.
 
-For each count a new control room starts with that many `rths worker` processes, each with one process for sweeps, and executes
-one sweep of the two-storey frame. Printed is the time from the request to the last result, the points a second and their ratio
-to those of the first count. More workers than cores share the cores.
+Each worker is a process of `rths worker` with one process for points, beside a web service without a worker. Workers share the
+cores of this machine, so the rate grows until every core has one. It prints points per second for each number of workers.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -16,83 +16,93 @@ import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import httpx
 
-from benchmarks.sweeps import definition, swept
+from benchmarks.sweeps import TEMPLATE, definition, swept
 from tests.app import postgres
-from tests.browser.service import Service, free_port, until
+from tests.browser.service import ROOT, UNMEASURED, Service, free_port, until
 
-STORES = ("sqlite", "postgresql")
-TEMPLATE = "two-storeys"
-WARM_POINTS = 8  # for each worker: its process starts, and is kept
-
-
-@contextmanager
-def started(arguments: list[str], environment: dict[str, str]) -> Iterator[int]:
-    """A command of `rths` in a process of its own; its process id."""
-    command = [str(Path(sys.executable).with_name("rths")), *arguments]
-    process = subprocess.Popen(command, env={**os.environ, **environment}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        yield process.pid
-    finally:
-        process.terminate()
-        process.wait(60)
+WORKERS = (1, 2, 4)
+POINTS = 400
+STARTED_WITHIN_S = 240
 
 
 @contextmanager
-def room(workers: int, url: str) -> Iterator[Service]:
-    """A control room with some workers that have been heard."""
-    environment = {"RTHS_DATABASE_URL": url, "RTHS_WORKER_TOKEN": "benchmark", "RTHS_SWEEP_PROCESSES": "1"}
+def served(folder: Path, database: str, workers: int) -> Iterator[Service]:
+    """A web service and `workers` workers in processes of their own."""
     port = free_port()
-    with tempfile.TemporaryDirectory() as data, ExitStack() as open_:
-        serve = ["serve", "--no-worker", "--local", "--data", data, "--port", str(port)]
-        service = Service(f"http://127.0.0.1:{port}", Path(data), open_.enter_context(started(serve, environment)))
-        until(lambda: _connected(service), lambda found: found is not None, 240)
-        for number in range(workers):
-            options = ["--data", data, "--web", f"ws://127.0.0.1:{port}", "--name", f"worker-{number}", "--workers", "1"]
-            open_.enter_context(started(["worker", *options], environment))
-        until(lambda: _connected(service), lambda found: found == workers, 240)
-        yield service
+    environment = {
+        **UNMEASURED,
+        "RTHS_DATABASE_URL": database,
+        "RTHS_WORKER_TOKEN": "benchmark",
+        "RTHS_SWEEP_PROCESSES": "1",
+    }
+    data = str(folder / "data")
+    web = ["-m", "tests.chaos.web", data, str(port)]
+    worker = ["-m", "app.worker", "--data", data, "--web", f"ws://127.0.0.1:{port}"]
+    processes: list[subprocess.Popen[bytes]] = []
+    with (folder / "log").open("wb") as log:
+
+        def start(arguments: list[str]) -> None:
+            command = [sys.executable, *arguments]
+            processes.append(subprocess.Popen(command, cwd=ROOT, env=environment, stdout=log, stderr=log))
+
+        try:
+            start(web)
+            service = Service(f"http://127.0.0.1:{port}", folder / "data", processes[0].pid)
+            until(lambda: _ready(service), bool, STARTED_WITHIN_S)
+            for number in range(workers):
+                start([*worker, "--name", f"w{number}"])
+            until(lambda: service.get("/queue")["tests_at_a_time"], lambda found: found >= workers, STARTED_WITHIN_S)
+            yield service
+        finally:
+            for process in reversed(processes):
+                process.terminate()
+                process.wait(60)
 
 
-def _connected(service: Service) -> int | None:
+def _ready(service: Service) -> bool:
     try:
-        return len(service.get("/abort")["workers"])
+        return service.http.get("/api/v1/queue").status_code == 200
     except httpx.HTTPError:
-        return None
+        return False
 
 
-def measured(store: str, workers: int, points: int) -> float:
-    """Time (s) of the sweep on some workers."""
-    with ExitStack() as open_:
-        url = open_.enter_context(postgres.server()) if store == "postgresql" else ""
-        service = open_.enter_context(room(workers, url))
-        swept(service, definition(WARM_POINTS * workers, TEMPLATE))
+def rate(store: str, workers: int, points: int) -> float:
+    """Points per second of a sweep on a number of workers, whose processes have started before."""
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        database = ""
+        if store == "postgresql":
+            server = postgres.Server()
+            stack.callback(server.remove)
+            server.start()
+            database = server.url
+        service = stack.enter_context(served(folder, database, workers))
+        swept(service, definition(40 * workers, TEMPLATE))  # starts a process in every worker
         begun = time.perf_counter()
         swept(service, definition(points, TEMPLATE))
-        return time.perf_counter() - begun
+        return points / (time.perf_counter() - begun)
 
 
-def main() -> None:
-    """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--points", type=int, default=600)
-    parser.add_argument("--workers", type=int, nargs="+", default=(1, 2, 4))
-    parser.add_argument("--store", nargs="+", choices=STORES, default=STORES)
+def main() -> dict[str, Any]:
+    """The rates of a sweep for each number of workers."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.sweep_workers", description=__doc__)
+    parser.add_argument("--store", choices=["sqlite", "postgresql"], default="sqlite")
+    parser.add_argument("--points", type=int, default=POINTS)
     given = parser.parse_args()
-    print(f"{os.cpu_count()} cores, load average {os.getloadavg()[0]:.1f} before the first sweep, {given.points} points")
-    for store in given.store:
-        if store == "postgresql" and (missing := postgres.missing()):
-            print(f"{store}: not measured: {missing}")
-            continue
-        first = 0.0
-        for workers in given.workers:
-            took = measured(store, workers, given.points)
-            first = first or took
-            rate, ratio = given.points / took, first / took
-            print(f"{store:11} {workers} workers {took:7.1f} s {rate:7.1f} points/s, {ratio:.2f} times the first", flush=True)
+    found = {f"{workers}": round(rate(given.store, workers, given.points), 2) for workers in WORKERS}
+    return {
+        "store": given.store,
+        "points": given.points,
+        "template": TEMPLATE,
+        "cores": os.cpu_count(),
+        "load": round(os.getloadavg()[1], 1),
+        "points_per_s_by_workers": found,
+    }
 
 
 if __name__ == "__main__":
-    main()
+    print(json.dumps(main(), indent=2))
