@@ -52,6 +52,7 @@ def served(folder: Path, database: str, workers: int) -> Iterator[Service]:
         try:
             start(web)
             service = Service(f"http://127.0.0.1:{port}", folder / "data", processes[0].pid)
+            service.http.timeout = STARTED_WITHIN_S
             until(lambda: _ready(service), bool, STARTED_WITHIN_S)
             for number in range(workers):
                 start([*worker, "--name", f"w{number}"])
