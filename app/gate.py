@@ -73,23 +73,23 @@ class Gate:
                 self._places = places(scope["app"])
             if len(self._known) >= KEPT:
                 self._known.clear()
-            leads = any(place.match("", "", key[2]) is not Match.NONE for place in self._places if place.named)
-            found = self._known[key] = (*self._looked_up(*key), leads)
+            found = self._known[key] = self._looked_up(*key)
         scope[LEADS] = found[2]
         return found[:2]
 
-    def _looked_up(self, kind: str, method: str, path: str) -> tuple[Match, Access | None]:
-        partial = None
+    def _looked_up(self, kind: str, method: str, path: str) -> tuple[Match, Access | None, bool]:
+        partial, leads = None, False
         for place in self._places:
             match = place.match(kind, method, path)
+            leads = leads or (match is not Match.NONE and place.named)
             if match is Match.FULL:
-                return match, place.access
+                return match, place.access, leads
             if match is Match.PARTIAL:
                 partial = match
         other = path.rstrip("/") if path.endswith("/") else f"{path}/"  # to which the router redirects
         if partial or any(place.match(kind, method, other) is not Match.NONE for place in self._places):
-            return Match.PARTIAL, UNKNOWN
-        return Match.NONE, UNKNOWN
+            return Match.PARTIAL, UNKNOWN, leads
+        return Match.NONE, UNKNOWN, leads
 
     async def _refusal(self, scope: Connection, access: Access | None) -> Response | None:
         if access is None:
@@ -140,7 +140,7 @@ class Place:
         self.named = not self.path.startswith("/{")  # and not the page that takes any address
 
     def match(self, kind: str, method: str, path: str) -> Match:
-        if (self.kind and kind and self.kind != kind) or not self.pattern.match(path):
+        if self.kind not in {"", kind} or not self.pattern.match(path):
             return Match.NONE
         return Match.FULL if not self.methods or method in self.methods else Match.PARTIAL
 
