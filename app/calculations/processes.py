@@ -119,7 +119,8 @@ class Processes:
         self._control, theirs = socket.socketpair()
         command = [sys.executable, "-m", SERVER, str(theirs.fileno()), *self.modules]
         with theirs:
-            self._server = subprocess.Popen(command, pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL)
+            # a group of its own: Ctrl-C reaches the service only, which ends this process
+            self._server = subprocess.Popen(command, pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL, process_group=0)
         return self._control
 
     def _end(self) -> None:

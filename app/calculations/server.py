@@ -128,7 +128,6 @@ def _load(named: str) -> None:
 
 def main() -> None:
     """Serve the socket whose number is the first argument."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C also reaches the service, which ends this process
     os.nice(NICENESS)
     Server(socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]).serve()
 

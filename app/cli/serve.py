@@ -77,6 +77,7 @@ class Server(uvicorn.Server):
         await super().startup(sockets)
         if not self.started:
             return
+        self.app.state.calculations.processes.start()
         if self.demonstrate:
             queue_demonstration(self.app)
         print(f"\nRTHS control room: {address(self.settings)}")

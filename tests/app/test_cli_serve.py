@@ -53,6 +53,7 @@ def serving(port: int, data: Path, *options: str) -> Iterator[httpx.Client]:
         heading = [running.stdout.readline().strip() for _ in range(5)]
         assert heading[1] == f"RTHS control room: http://127.0.0.1:{port}/" and heading[3] == f"Data folder: {data}"
         assert heading[2].startswith("Everyone on this computer is signed in as administrator.")
+        assert any("app.calculations.server" in one for one in children(running.pid)), "the first calculation would wait"
         with httpx.Client(base_url=f"http://127.0.0.1:{port}/api/v1", timeout=20) as http:
             yield http
         os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the service, its worker and the engines
@@ -62,6 +63,12 @@ def serving(port: int, data: Path, *options: str) -> Iterator[httpx.Client]:
         if running.poll() is None:
             os.killpg(running.pid, signal.SIGKILL)
             running.communicate()
+
+
+def children(pid: int) -> list[str]:
+    """The commands of the processes that a process has started."""
+    pids = [one for path in Path(f"/proc/{pid}/task").glob("*/children") for one in path.read_text().split()]
+    return [Path(f"/proc/{one}/cmdline").read_text() for one in pids]
 
 
 def runs(http: httpx.Client) -> list[dict[str, Any]]:
