@@ -102,7 +102,8 @@ def _out(asked: Approval, found: Run | Sweep, own: bool, refusal: str | None) ->
     stored = {name: getattr(asked, name) for name in ("about", "digest", "asked_by", "asked_at")}
     of_run = {name: getattr(found, name, None) for name in ("rig_name", "duration_s", "pace")}
     points = found.points if isinstance(found, Sweep) else None
-    shown = {"id": found.id, "number": found.number, "name": found.name, "points": points, "own": own, "refusal": refusal}
+    name = found.name if isinstance(found, Sweep) else found.plan["name"]  # of what is approved: the run's own may change
+    shown = {"id": found.id, "number": found.number, "name": name, "points": points, "own": own, "refusal": refusal}
     return ApprovalOut.model_validate({**stored, **of_run, **shown})
 
 

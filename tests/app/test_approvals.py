@@ -165,6 +165,15 @@ def test_an_undone_cancel_asks_for_the_approval_that_nobody_gave(client: TestCli
     assert start(client, "any turn") is not None
 
 
+def test_an_approver_reads_the_name_of_the_plan_and_not_one_given_to_the_run_meanwhile(ruled: TestClient) -> None:
+    run = submitted(ruled)
+    shown = ruled.get("/api/v1/approvals").json()["approvals"][0]["name"]
+    assert ruled.post(f"/api/v1/runs/{run['id']}/cancel", json={"by": "Ana"}).status_code == 200
+    assert ruled.patch(f"/api/v1/runs/{run['id']}", json={"name": "harmless"}).status_code == 200
+    assert ruled.post(f"/api/v1/runs/{run['id']}/undo-cancel", json={"by": "Ana"}).json()["state"] == "to approve"
+    assert ruled.get("/api/v1/approvals").json()["approvals"][0]["name"] == shown != "harmless"
+
+
 def test_an_undo_is_offered_only_where_it_can_be_done(ruled: TestClient) -> None:
     rejected, withdrawn = submitted(ruled), submitted(ruled)
     assert decide(ruled, rejected, "reject", "Bea").status_code == 200

@@ -16,8 +16,8 @@ from tests.chaos.judge import ENDED, judged
 from tests.chaos.load import Load
 from tests.chaos.world import World
 
-STUCK_S = 60.0  # without any progress after the last fault
-LONGEST_GAP_S = 60.0  # between two faults
+STUCK_S = 60.0  # without any progress after a fault
+LONGEST_GAP_S = 1.25 * STUCK_S  # between two faults, so that a longer stand-still is seen
 STARTED_WITHIN_S = 240.0
 
 
@@ -36,7 +36,8 @@ class Report:
     load: float = 0.0
     states: dict[str, int] = field(default_factory=dict)
     wrong: list[str] = field(default_factory=list)
-    longest_wait_s: float = 0.0
+    between_s: float = 0.0
+    after_s: float = 0.0
     drained_s: float = 0.0
     took_s: float = 0.0
     notes: list[str] = field(default_factory=list)
@@ -57,8 +58,9 @@ class Report:
                 f"Times that the sweep had failed and was resumed: {self.resumed}",
                 "Runs by state and reason:",
                 *states,
-                f"After the last fault: all ended within {self.drained_s:.0f} s, longest time without progress"
-                f" {self.longest_wait_s:.0f} s (at most {STUCK_S:.0f} s)",
+                f"After the last fault all ended within {self.drained_s:.0f} s",
+                f"Longest time without progress (at most {STUCK_S:.0f} s): {self.between_s:.0f} s between two faults,"
+                f" {self.after_s:.0f} s after the last",
                 f"Broken promises: {len(self.wrong)}",
                 *wrong,
             ]
@@ -87,11 +89,15 @@ def chaos(store: str, seed: int, runs: int, faults: int, log: Path) -> Report:
                 told.write(f"--- {fault.__name__}\n")
             fault(world, draw)
             report.faults[fault.__name__] += 1
+        report.between_s = progress.still_s
         _drain(world, report, progress)
         report.wrong, report.states = judged(load, world.data)
         report.refused, report.unclear = load.errors, load.unclear
-        if report.longest_wait_s > STUCK_S:
-            report.wrong.append(f"nothing went on for {report.longest_wait_s:.0f} s after the last fault")
+        report.wrong += [
+            f"nothing went on for {still:.0f} s {when}"
+            for still, when in ((report.between_s, "between two faults"), (report.after_s, "after the last fault"))
+            if still > STUCK_S
+        ]
     finally:
         world.close()
     report.took_s, report.load = time.monotonic() - begun, os.getloadavg()[2]
@@ -99,21 +105,40 @@ def chaos(store: str, seed: int, runs: int, faults: int, log: Path) -> Report:
 
 
 class Progress:
-    """How many runs have ended, how many points of the sweep are done, and how many runs there are."""
+    """How many runs have ended and how many points of the sweep are done, and how long nothing has changed."""
 
     def __init__(self, url: str, load: Load):
         self.http, self.load = httpx.Client(base_url=f"{url}/api/v1", timeout=10), load
-        self.last = (0, 0)
+        self.ended, self.points, self.sweeping = 0, 0, False
+        self.fresh()
 
-    def look(self) -> tuple[int, int]:
-        """Ended runs and done points; the last known while the service does not answer."""
+    def fresh(self) -> None:
+        """Measure from now on."""
+        self.moved, self.still_s = time.monotonic(), 0.0
+
+    def fault_over(self) -> None:
+        """A fault has ended: what stood still during it does not count."""
+        self.moved = time.monotonic()
+
+    @property
+    def idle_s(self) -> float:
+        return time.monotonic() - self.moved
+
+    def look(self) -> int:
+        """Ended runs; the last known while the service does not answer."""
+        before = self.ended, self.points
         try:
-            ended = self.http.get("/runs", params={"limit": 1, "state": sorted(ENDED)}).raise_for_status().json()["total"]
-            done = self.http.get(f"/sweeps/{self.load.sweep}").raise_for_status().json()["done"] if self.load.sweep else 0
-            self.last = ended, done
+            self.ended = self.http.get("/runs", params={"limit": 1, "state": sorted(ENDED)}).raise_for_status().json()["total"]
+            if self.load.sweep:
+                sweep = self.http.get(f"/sweeps/{self.load.sweep}").raise_for_status().json()
+                self.points, self.sweeping = sweep["done"], sweep["state"] in ("queued", "running")
         except httpx.HTTPError:
             pass
-        return self.last
+        if self.ended < self.load.count or self.sweeping:
+            self.still_s = max(self.still_s, self.idle_s)
+        if (self.ended, self.points) != before:
+            self.moved = time.monotonic()
+        return self.ended
 
 
 def _start(world: World) -> None:
@@ -133,8 +158,9 @@ def _start(world: World) -> None:
 
 def _wait(world: World, report: Report, progress: Progress, more: int) -> None:
     """Wait until `more` runs have ended since, or LONGEST_GAP_S."""
-    before, begun = progress.look()[0], time.monotonic()
-    while progress.look()[0] < before + more and time.monotonic() - begun < LONGEST_GAP_S:
+    progress.fault_over()
+    before, begun = progress.look(), time.monotonic()
+    while progress.look() < before + more and time.monotonic() - begun < LONGEST_GAP_S:
         report.revived += revive(world)
         time.sleep(0.2)
 
@@ -151,18 +177,12 @@ def _sweeping(report: Report, load: Load) -> bool:
 
 def _drain(world: World, report: Report, progress: Progress) -> None:
     """Wait after the last fault until everything has ended, or nothing goes on for twice STUCK_S."""
-    begun = moved = time.monotonic()
-    last = progress.look()
-    while time.monotonic() - moved < 2 * STUCK_S:
+    begun = time.monotonic()
+    progress.fresh()
+    while progress.idle_s < 2 * STUCK_S:
         report.revived += revive(world)
-        now, seen = time.monotonic(), progress.look()
-        if seen != last:
-            report.longest_wait_s = max(report.longest_wait_s, now - moved)
-            last, moved = seen, now
-        if seen[0] >= report.runs and not _sweeping(report, progress.load):
-            report.drained_s = now - begun
+        if progress.look() >= report.runs and not _sweeping(report, progress.load):
             time.sleep(2)  # the last files go to their places, temporary files go
-            return
+            break
         time.sleep(0.3)
-    report.longest_wait_s = time.monotonic() - moved
-    report.drained_s = time.monotonic() - begun
+    report.after_s, report.drained_s = progress.still_s, time.monotonic() - begun
