@@ -14,6 +14,7 @@ from alembic import command
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
+from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import DeclarativeBase, Session, sessionmaker
 
 from rths_engine.foundation.errors import Issue, RthsError
@@ -24,6 +25,9 @@ CONNECTIONS = 64  # more than the threads that ask for one: those of requests (4
 LOCK_WAIT_S = 30
 IDLE_S = 40  # a transaction of a process that does nothing, as a frozen one: the server ends it, and others get its locks
 CUT_S = 10  # after which a connection counts as cut at both ends: otherwise a worker that was cut off keeps its locks for hours
+
+INSERT: dict[str, Any] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
+"""By dialect, an insert that says what to do where a row with this key exists."""
 
 DATABASE_SILENT = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.InternalError, sa.exc.TimeoutError)
 """Errors of a database that is away, full, locked or has ended the connection or the transaction: it may succeed later."""
@@ -102,6 +106,13 @@ def now(session: Session) -> datetime:
         return datetime.now(UTC)
     told: datetime = session.execute(sa.select(sa.func.clock_timestamp())).scalar_one()
     return told.astimezone(UTC)
+
+
+def put(session: Session, table: type[Base], key: str, **row: object) -> None:
+    """Insert a row, or change the one with its key, in one statement: of two processes that do so at once none fails."""
+    insert = INSERT[session.get_bind().dialect.name](table).values(row)
+    new = {name: insert.excluded[name] for name in row if name != key}
+    session.execute(insert.on_conflict_do_update(index_elements=[key], set_=new))
 
 
 @contextmanager

@@ -11,10 +11,9 @@ from contextlib import contextmanager
 from datetime import datetime, timedelta
 
 import sqlalchemy as sa
-from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Mapped, Session, mapped_column, sessionmaker
 
-from app.db import Base, connect, now, unit_of_work
+from app.db import INSERT, Base, connect, now, unit_of_work
 
 TERM = timedelta(seconds=15)  # after which another process takes over from one that has died
 RENEWED_S = TERM.total_seconds() / 3
@@ -64,8 +63,7 @@ class Once:
         change = sa.update(Lease).where(Lease.name == name, (Lease.holder == self.holder) | ended).values(values)
         if session.execute(change, execution_options={"synchronize_session": False}).rowcount:  # type: ignore[attr-defined]
             return True
-        insert = sqlite.insert if session.get_bind().dialect.name == "sqlite" else postgresql.insert
-        added = insert(Lease).values(name=name, **values).on_conflict_do_nothing()
+        added = INSERT[session.get_bind().dialect.name](Lease).values(name=name, **values).on_conflict_do_nothing()
         return bool(session.execute(added).rowcount)  # type: ignore[attr-defined]
 
 

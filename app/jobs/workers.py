@@ -8,7 +8,7 @@ from datetime import datetime, timedelta
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
-from app.db import now
+from app.db import now, put
 from app.jobs.tables import WorkerHeartbeat
 
 SILENT_LOOKS = 6  # looks of a worker, one a second, in which another has no new heartbeat: it counts as dead
@@ -26,7 +26,8 @@ class Workers:
         self.session = session
 
     def beat(self, worker: str, tests_at_a_time: int = 1) -> None:
-        self.session.merge(WorkerHeartbeat(worker=worker, seen_at=now(self.session), tests_at_a_time=tests_at_a_time))
+        """Store a heartbeat. A worker and the web service that beats for it may do so at the same moment."""
+        put(self.session, WorkerHeartbeat, "worker", worker=worker, seen_at=now(self.session), tests_at_a_time=tests_at_a_time)
 
     def beats(self) -> dict[str, datetime]:
         """The last heartbeat of each worker."""

@@ -14,7 +14,7 @@ from prometheus_client.parser import text_string_to_metric_families
 from sqlalchemy.orm import Session, sessionmaker
 
 from app import metrics
-from app.db import unit_of_work
+from app.db import put, unit_of_work
 from app.models import WorkerMetrics
 
 log = logging.getLogger("rths.worker")
@@ -43,7 +43,7 @@ def report(maker: sessionmaker[Session], worker: str) -> None:
     """Write the metrics of this process once, and forget those of workers that are long gone."""
     now = datetime.now(UTC)
     with unit_of_work(maker) as session:
-        session.merge(WorkerMetrics(worker=worker, at=now, text=generate_latest(metrics.REGISTRY).decode()))
+        put(session, WorkerMetrics, "worker", worker=worker, at=now, text=generate_latest(metrics.REGISTRY).decode())
         session.execute(sa.delete(WorkerMetrics).where(WorkerMetrics.at < now - FORGOTTEN))
 
 

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 import sqlalchemy as sa
-from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Session, UOWTransaction
 
+from app.db import INSERT
 from app.models import LONGEST_VALUE, Run, RunStation, RunValue, ValuePath
 from rths_engine.results.measure import FloorMeasure, StationMeasure
 from rths_engine.results.measures import of
@@ -18,7 +18,6 @@ LARGEST = "max"
 # text for people, checksums and tables of samples are no columns
 LEFT_OUT = frozenset({"schema", "name", "notes", "template", "test", "known", "sha256", "acceleration"})
 LONGEST_LIST = 32  # scalars of a list that become columns; longer lists are samples
-INSERT: dict[str, Any] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
 
 Scalar = float | str
 Row = tuple[int, str, Scalar]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
+from threading import Barrier
 
 import pytest
 import sqlalchemy as sa
@@ -14,6 +16,7 @@ from alembic.migration import MigrationContext
 from app import db
 from app.db import Base
 from app.jobs.tables import QueueState, WorkerHeartbeat
+from app.jobs.workers import Workers
 from app.models import RunStation
 
 
@@ -101,6 +104,22 @@ def test_measures_of_a_run_that_is_not_there_are_refused(url: str) -> None:
     engine = db.connect(url)
     with pytest.raises(sa.exc.IntegrityError), db.unit_of_work(db.sessions(engine)) as session:
         session.add(RunStation(run_number=1, number=1, name="nobody's"))
+    engine.dispose()
+
+
+def test_heartbeats_for_a_new_worker_at_the_same_moment_are_all_stored(url: str) -> None:
+    engine, together = db.connect(url), Barrier(4)
+
+    def beats(number: int) -> None:
+        for worker in range(20):
+            together.wait(60)
+            with db.unit_of_work(db.sessions(engine)) as session:
+                Workers(session).beat(f"worker {worker}", number)
+
+    with ThreadPoolExecutor(4) as threads:
+        list(threads.map(beats, range(4)))
+    with db.unit_of_work(db.sessions(engine)) as session:
+        assert len(Workers(session).beats()) == 20
     engine.dispose()
 
 

@@ -86,7 +86,7 @@ def chaos(store: str, seed: int, runs: int, faults: int, log: Path) -> Report:
             bag = bag or draw.sample(range(len(FAULTS)), len(FAULTS))
             fault = FAULTS[bag.pop()]
             with log.open("a") as told:
-                told.write(f"--- {fault.__name__}\n")
+                told.write(f"--- {fault.__name__} after {progress.said()}\n")
             fault(world, draw)
             report.faults[fault.__name__] += 1
         report.between_s = progress.still_s
@@ -119,6 +119,11 @@ class Progress:
     def fault_over(self) -> None:
         """A fault has ended: what stood still during it does not count."""
         self.moved = time.monotonic()
+
+    def said(self) -> str:
+        """What is known, for the log."""
+        sweep = "a sweep that goes on" if self.sweeping else "no sweep that goes on"
+        return f"{self.ended} tests and {self.points} points, {sweep}, still for {self.idle_s:.0f} s"
 
     @property
     def idle_s(self) -> float:
