@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import os
 import tempfile
 import uuid
 from collections.abc import Callable, Mapping
@@ -51,6 +52,13 @@ class Calculated(Response):
         await Response(made.content, self.status_code, headers, made.media_type, self.background)(scope, receive, send)
 
 
+class MadeFile(FileResponse):
+    """A file that was made for this request: its time and a tag of it would say nothing to the next one."""
+
+    def set_stat_headers(self, stat_result: os.stat_result) -> None:
+        self.headers.setdefault("content-length", str(stat_result.st_size))
+
+
 class CalculatedFile(Response):
     """A download that a calculation writes: `write(path, ...)` in its process. The file is removed when it was sent."""
 
@@ -72,7 +80,7 @@ class CalculatedFile(Response):
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         try:
             result(self.bound, await _reply(scope, receive, self.bound, self.ordered))
-            await FileResponse(self.path, media_type=self.kind, filename=self.name)(scope, receive, send)
+            await MadeFile(self.path, media_type=self.kind, filename=self.name)(scope, receive, send)
         except ClientLeft:
             return
         finally:

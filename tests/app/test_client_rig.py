@@ -7,7 +7,6 @@ import re
 import subprocess
 from typing import Any
 
-import httpx
 import pytest
 
 from rths_engine.recordings.run_file import load
@@ -53,7 +52,7 @@ def test_opensees_drives_a_queued_test_that_is_seen_live_and_reported(service: S
     assert ended["client"]["step_ms"]["median"] > 0 and ended["stations"][0]["peak_stroke_mm"] > 5
     assert ended["simulated_s"] == pytest.approx(2.0)
     assert load(service.data / "recordings" / f"{run}.h5").summary["client"]["messages"]["5"] == STEPS
-    report = httpx.get(f"{service.url}/api/v1/runs/{run}/report.html").raise_for_status().text
+    report = service.http.get(f"/api/v1/runs/{run}/report.html").raise_for_status().text
     assert "its program is in no digest" in report and "to the bit" not in report
     assert "Steps of the client" in report and f"{STEPS}" in report
 

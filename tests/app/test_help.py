@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
 
 from app.help.documents import paths, sections
 from app.help.search import search
+
+FRONTEND = Path(__file__).parents[2] / "frontend"
 
 
 def test_every_document_is_a_page_whose_links_lead_to_pages_and_headings(client: TestClient) -> None:
@@ -22,6 +25,12 @@ def test_every_document_is_a_page_whose_links_lead_to_pages_and_headings(client:
             else:
                 media_type = client.get(address.partition("#")[0]).headers["content-type"]
                 assert media_type.startswith("image/"), (name, address)
+
+
+def test_every_link_of_a_page_or_a_script_into_the_help_leads_to_a_document() -> None:
+    for path in (*FRONTEND.glob("templates/**/*.html"), *FRONTEND.glob("static/js/**/*.js")):
+        for address in re.findall(r"[\"'`]/help/([^\"'`#?]+)", path.read_text()):
+            assert "{" in address or address in paths(), (path.name, address)
 
 
 def test_a_search_finds_the_section_that_explains_the_words() -> None:

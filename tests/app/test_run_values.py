@@ -53,7 +53,8 @@ def test_a_list_reads_no_plan_and_asks_the_database_as_often_for_many_runs_as_fo
         found: list[str] = []
 
         def note(*given: object) -> None:
-            found.append(str(given[2]))
+            if "webhook_delivery" not in str(given[2]):  # a thread of its own asks for these now and then
+                found.append(str(given[2]))
 
         engine = app_of(client).state.sessions.kw["bind"]
         sa.event.listen(engine, "before_cursor_execute", note)

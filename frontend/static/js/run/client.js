@@ -27,7 +27,7 @@ function waiting({ address, transport, lines, note }) {
     el("p", {}, `The rig listens at ${address} by ${transport.toUpperCase()}. Put this element into the script of the structure, with your numbers for TAG and NODE, and run the script.`),
     ...(note ? [el("p", { class: "client-warning" }, note)] : []),
     el("dl", { class: "client-lines" }, ...rows.flat()),
-    el("p", { class: "muted" }, el("a", { href: "/help/opensees-rig" }, "How to drive the rig from OpenSees")),
+    el("p", { class: "muted" }, el("a", { href: "/help/docs/opensees-rig.md" }, "How to drive the rig from OpenSees")),
   ];
 }
 
