@@ -22,7 +22,7 @@ LOCK ?=
 
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
-.PHONY: setup run test test-clone test-guides chaos check docs migration bench fuzz prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
+.PHONY: setup run test test-clone test-guides chaos check docs migration bench figures fuzz prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean
 
 setup: $(STAMPS)/package $(VENDOR)/.installed $(STAMPS)/compiled
 
@@ -43,6 +43,14 @@ test-guides: setup
 bench: setup
 	@$(BIN)/python -c 'import polars, pyarrow' 2>/dev/null || $(PIP) install --no-build-isolation -e '.[bench]'
 	$(BIN)/python -m benchmarks
+
+# Figures of many people, runs and workers, and of Abort under load, on an otherwise idle machine: docs/scale.md. Takes 30 minutes.
+figures: setup postgres
+	$(BIN)/python -m benchmarks.abort
+	$(BIN)/python -m benchmarks.crowd
+	$(BIN)/python -m benchmarks.run_table
+	$(BIN)/python -m benchmarks.sweep_workers
+	$(BIN)/python -m benchmarks.scale
 
 # Send made requests to every operation of the REST interface: docs/fuzzing.md.
 fuzz: setup
