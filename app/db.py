@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar, cast
 
 import sqlalchemy as sa
 from alembic import command
@@ -15,7 +15,7 @@ from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy.dialects import postgresql, sqlite
-from sqlalchemy.orm import DeclarativeBase, Session, sessionmaker
+from sqlalchemy.orm import DeclarativeBase, InstrumentedAttribute, Session, sessionmaker
 
 from rths_engine.foundation.errors import Issue, RthsError
 
@@ -28,6 +28,9 @@ CUT_S = 10  # after which a connection counts as cut at both ends: otherwise a w
 
 INSERT: dict[str, Any] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
 """By dialect, an insert that says what to do where a row with this key exists."""
+
+ONLY_LOCKS = "only_locks"
+"""The option of a statement that locks rows and changes none."""
 
 DATABASE_SILENT = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.InternalError, sa.exc.TimeoutError)
 """Errors of a database that is away, full, locked or has ended the connection or the transaction: it may succeed later."""
@@ -63,6 +66,9 @@ class Base(DeclarativeBase):
     """Base of the tables; times are stored in UTC and dictionaries as JSON."""
 
     type_annotation_map: ClassVar = {datetime: UtcDateTime, dict[str, Any]: sa.JSON}
+
+
+Row = TypeVar("Row", bound=Base)
 
 
 def connect(url: str) -> sa.Engine:
@@ -113,6 +119,23 @@ def put(session: Session, table: type[Base], key: str, **row: object) -> None:
     insert = INSERT[session.get_bind().dialect.name](table).values(row)
     new = {name: insert.excluded[name] for name in row if name != key}
     session.execute(insert.on_conflict_do_update(index_elements=[key], set_=new))
+
+
+def locked(session: Session, table: type[Row], **key: object) -> Row | None:
+    """The row with this key as it is now, locked against other writers until the end of the transaction; None without one."""
+    lock(session, getattr(table, next(iter(key))), *(getattr(table, name) == value for name, value in key.items()))
+    return session.scalar(sa.select(table).filter_by(**key).execution_options(populate_existing=True))
+
+
+def lock(session: Session, kept: InstrumentedAttribute[Any], *where: sa.ColumnElement[bool]) -> bool:
+    """Lock rows against other writers until the end of the transaction; returns whether there are any.
+
+    An update sets their column `kept` to itself. In SQLite, which has no SELECT FOR UPDATE, it locks the database. What the
+    caller read before may have changed meanwhile, so it reads again.
+    """
+    untouched = sa.update(kept.class_).where(*where).values({kept: kept})
+    found = session.execute(untouched, execution_options={"synchronize_session": False, ONLY_LOCKS: True})
+    return bool(cast(Any, found).rowcount)
 
 
 @contextmanager

@@ -10,6 +10,7 @@ import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
 from app.access import Role
+from app.db import lock
 from app.models import Account, AccountLink, AccountSession, ApiToken
 
 Keyed = type[AccountSession] | type[ApiToken]
@@ -52,8 +53,11 @@ class AccountRows:
 
     def _wait_for_writers(self) -> None:
         """Begin the transaction that writes: SQLite has no SELECT FOR UPDATE, and reads outside of it before a change."""
-        nothing = sa.update(Account).where(sa.false()).values(name=Account.name)
-        self.session.execute(nothing, execution_options={"synchronize_session": False})
+        lock(self.session, Account.name, sa.false())
+
+    def lock(self, account: Account) -> None:
+        """Lock an account until the end of the transaction, so that what it has is counted by one request at a time."""
+        lock(self.session, Account.name, Account.id == account.id)
 
     def forget_links(self, account_id: str | None, now: datetime) -> None:
         """Remove the links of an account (None: of the first administrator) and all that have expired."""

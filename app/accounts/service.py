@@ -103,6 +103,8 @@ class AccountService:
         if account is not None and account.disabled_at:
             raise Conflict(f"The account {account.name} is disabled. Enable it first.")
         now = datetime.now(UTC)
+        if account is not None:
+            self.rows.lock(account)
         self.rows.forget_links(account.id if account else None, now)
         key = keys.new_key()
         made = AccountLink(key_sha256=keys.sha256(key), account_id=account.id if account else None, expires_at=now + LINK_HOLDS)

@@ -91,6 +91,7 @@ class SigningIn:
             library = beyond[0] is Scope.SUBMIT and Role[account.role.upper()] is Role.OPERATOR
             fix = "leave it out: the scope operate queues plans of the library" if library else "leave it out"
             raise RthsError(Issue("scopes", problem, beyond[0].value, fix))
+        self.rows.lock(account)
         if len(self.tokens(account.id)) >= MOST_TOKENS:
             raise Conflict(f"{account.name} has {MOST_TOKENS} API tokens. Revoke one first.")
         now, key = datetime.now(UTC), keys.new_key(keys.PREFIX)

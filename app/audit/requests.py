@@ -19,6 +19,7 @@ from app.access import ENDED, LEADS, PERSON, SignedIn
 from app.audit import actions, given
 from app.audit.log import Acting, AuditLog
 from app.audit.recorder import Recorder, Waiting
+from app.db import ONLY_LOCKS
 
 RECORDED, GIVEN, REQUEST = "audit_recorded", "audit_given", "audit request"
 CHANGED = "audit changed rows"
@@ -45,8 +46,8 @@ def watch(session: Session) -> list[dict[str, Any]]:
     made: list[dict[str, Any]] = []
     session.info[REQUEST], session.info[CHANGED] = True, 0
 
-    def executed(_: Any, cursor: Any, statement: str, *__: Any) -> None:
-        if statement.lstrip()[:6].upper() in CHANGING:
+    def executed(_: Any, cursor: Any, statement: str, __: Any, context: Any, ___: Any) -> None:
+        if statement.lstrip()[:6].upper() in CHANGING and ONLY_LOCKS not in context.execution_options:
             counted = "RETURNING" not in statement and cursor.rowcount >= 0
             session.info[CHANGED] += cursor.rowcount if counted else 1
 

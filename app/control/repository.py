@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from datetime import datetime
 
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
-from app.db import now
+from app.db import lock, now
 from app.jobs.states import State
 from app.models import Account, Approval, Rig, RigControl, Rules, Run
 from app.models.accounts import key_of
 from app.roles import Role
+
+_ABLE = sa.and_(Account.disabled_at.is_(None), Account.role != Role.VIEWER.name.lower())
 
 
 class ControlRepository:
@@ -45,8 +48,7 @@ class ControlRepository:
 
     def locked(self, rig_id: str) -> RigControl | None:
         """The row of a rig, locked against other writers until the end of the transaction by the row of the rig itself."""
-        lock = sa.update(Rig).where(Rig.id == rig_id).values(retired=Rig.retired)
-        self.session.execute(lock, execution_options={"synchronize_session": False})
+        lock(self.session, Rig.retired, Rig.id == rig_id)
         found = sa.select(RigControl).where(RigControl.rig_id == rig_id).execution_options(populate_existing=True)
         return self.session.scalar(found)
 
@@ -59,9 +61,11 @@ class ControlRepository:
         return self.session.scalar(query)
 
     def locked_approval(self, about_id: str) -> Approval | None:
-        """The latest approval of a run or a sweep, locked against other writers until the end of the transaction."""
-        lock = sa.update(Approval).where(Approval.about_id == about_id).values(reason=Approval.reason)
-        self.session.execute(lock, execution_options={"synchronize_session": False})
+        """The latest approval of a run or a sweep, locked against other writers until the end of the transaction.
+
+        The caller has locked the run or the sweep: all lock in this order, so that no two wait for each other.
+        """
+        lock(self.session, Approval.reason, Approval.about_id == about_id)
         query = sa.select(Approval).where(Approval.about_id == about_id).order_by(Approval.number.desc()).limit(1)
         return self.session.scalar(query.execution_options(populate_existing=True))
 
@@ -70,8 +74,13 @@ class ControlRepository:
 
     def operator(self, name: str) -> Account | None:
         """The account with this name, in any case of its letters, where it may operate; None otherwise."""
-        able = sa.and_(Account.disabled_at.is_(None), Account.role != Role.VIEWER.name.lower())
-        return self.session.scalar(sa.select(Account).where(Account.key == key_of(name), able))
+        return self.session.scalar(sa.select(Account).where(Account.key == key_of(name), _ABLE))
+
+    def may_not_operate(self, names: Iterable[str]) -> set[str]:
+        """Those of these names whose accounts are disabled or may not operate any more. A name without account stays."""
+        keys = {key_of(name): name for name in names if name}
+        lost = sa.select(Account.key).where(Account.key.in_(keys), ~_ABLE) if keys else None
+        return set() if lost is None else {keys[key] for key in self.session.scalars(lost)}
 
     def rig_of(self, run_id: str) -> str | None:
         return self.session.scalar(sa.select(Run.rig_id).where(Run.id == run_id))

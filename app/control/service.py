@@ -8,7 +8,7 @@ tests would start releases it. Abort needs no control, ever.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from datetime import datetime, timedelta
+from datetime import timedelta
 
 from sqlalchemy.orm import Session
 
@@ -58,8 +58,8 @@ class Control:
 
     def shown(self, by: str, may_take_over: bool) -> ControlList:
         """Who drives each rig, as the person `by` sees it."""
-        controls, now = self.rows.controls(), self.rows.now()
-        rigs = [_out(rig.id, rig.name, _valid(controls.get(rig.id), now), by) for rig in self.rows.rigs()]
+        driven = self._driven_now()
+        rigs = [_out(rig.id, rig.name, driven.get(rig.id), by) for rig in self.rows.rigs()]
         return ControlList(one_driver=self.rows.rules.one_driver, may_take_over=may_take_over, rigs=rigs)
 
     def take(self, rig_id: str, by: str) -> ControlOut:
@@ -118,6 +118,7 @@ class Control:
     def withdraw(self, about_id: str, submitted_by: str, by: str) -> bool:
         """Close an approval that waits, because its run or sweep is cancelled. False where it does not wait any more.
 
+        The caller has locked the run or the sweep.
         Raises NotYours for a person who neither submitted it nor asked for its approval: who approves rejects it instead.
         """
         asked = self.rows.locked_approval(about_id)
@@ -131,7 +132,7 @@ class Control:
     def check(self, rigs: Iterable[str], by: str) -> None:
         """Raise NotDriving unless the person drives all these rigs, or the laboratory has no such rule."""
         for rig_id in dict.fromkeys(rigs) if self.rows.rules.one_driver else ():
-            held = _valid(self.rows.get(rig_id), self.rows.now())
+            held = self._valid(self.rows.get(rig_id))
             if held is None or held.driver != by.strip():
                 raise NotDriving(_refusal(rig_id, self.rows.named(rig_id) or rig_id, held))
 
@@ -145,8 +146,7 @@ class Control:
         """Raise NotDriving unless the person drives one of the rigs that have tests or a driver."""
         if not self.rows.rules.one_driver:
             return
-        now = self.rows.now()
-        driven = {rig: one for rig, one in self.rows.controls().items() if _valid(one, now)}
+        driven = self._driven_now()
         concerned = [*driven, *self.rows.with_tests(State.QUEUED, State.RUNNING)]
         if concerned and not any(one.driver == by.strip() for one in driven.values()):
             self.check(concerned[:1], by)
@@ -170,7 +170,20 @@ class Control:
         name = self.rows.named(rig_id)
         if name is None:
             raise NotFound(f"There is no rig {rig_id}.")
-        return name, _valid(self.rows.locked(rig_id), self.rows.now())
+        return name, self._valid(self.rows.locked(rig_id))
+
+    def _driven_now(self) -> dict[str, RigControl]:
+        """The rigs that somebody drives, each with its control."""
+        now = self.rows.now()
+        timely = {rig: one for rig, one in self.rows.controls().items() if one.driver and one.until > now}
+        lost = self.rows.may_not_operate(one.driver for one in timely.values())
+        return {rig: one for rig, one in timely.items() if one.driver not in lost}
+
+    def _valid(self, control: RigControl | None) -> RigControl | None:
+        """The control if its driver has it still: it ends with its time, and with the right of the driver's account."""
+        if control is None or not control.driver or control.until <= self.rows.now():
+            return None
+        return None if self.rows.may_not_operate([control.driver]) else control
 
     def _driven(self, rig_id: str, by: str) -> tuple[str, RigControl]:
         name, held = self._locked(rig_id)
@@ -188,10 +201,6 @@ class Control:
             row.since = now
         row.driver, row.until, row.asked_by = _person(to), now + EXPIRES, ""
         return _out(rig_id, name, row, to if seen_by is None else seen_by)
-
-
-def _valid(control: RigControl | None, now: datetime) -> RigControl | None:
-    return control if control is not None and control.driver and control.until > now else None
 
 
 def same_person(first: str, second: str) -> bool:

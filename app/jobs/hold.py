@@ -8,6 +8,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.db import lock
 from app.events.log import EventLog
 from app.events.tables import EventKind
 from app.jobs.tables import QueueState
@@ -39,8 +40,8 @@ class Hold:
             self._tell(EventKind.RELEASED, f"{by} released the queue.")
 
     def locked(self) -> QueueState:
-        """The state, locked against other writers until the end of the transaction; see JobRepository.locked."""
-        self._change(held=QueueState.held)
+        """The state, locked against other writers until the end of the transaction."""
+        lock(self.session, QueueState.held, QueueState.id == 1)
         return self.state
 
     def _tell(self, kind: EventKind, sentence: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any, Generic, NamedTuple, TypeVar, cast
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.db import lock
 from app.jobs.states import State
 from app.jobs.tables import Job, Ordered
 
@@ -36,11 +37,9 @@ class JobRepository(Generic[Row]):
         return self.session.scalar(sa.select(self.table).where(self.table.id == job_id))
 
     def locked(self, job_id: str) -> Row | None:
-        """The job as it is now, locked against other writers until the end of the transaction.
-
-        An update without changes locks the row. In SQLite, which has no SELECT FOR UPDATE, it locks the database.
-        """
-        self._change(self.table.id == job_id, attempt=self.table.attempt)
+        """The job as it is now, locked against other writers until the end of the transaction."""
+        table: Any = self.table
+        lock(self.session, table.attempt, table.id == job_id)
         found = sa.select(self.table).where(self.table.id == job_id).execution_options(populate_existing=True)
         return self.session.scalar(found)
 
@@ -93,7 +92,7 @@ class JobRepository(Generic[Row]):
     def first(self, may_start: sa.ColumnElement[bool], turn: str) -> Row | None:
         """The first queued job of an ordered kind that may start, locked and taken by `turn`. The caller has locked the queue.
 
-        Another transaction may have cancelled it meanwhile; then the next one is taken.
+        Another transaction may have cancelled it meanwhile, or cancelled and deleted it; then the next one is taken.
         """
         while True:
             queued = sa.select(self.table.id).where(self.table.state == State.QUEUED, may_start)

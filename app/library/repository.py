@@ -9,6 +9,7 @@ from typing import Any, cast
 import sqlalchemy as sa
 from sqlalchemy.orm import Session, undefer
 
+from app.db import locked
 from app.models import LibraryPlan, PlanDraft, PlanTag, PlanVersion, Run
 
 SORTS: dict[str, Any] = {
@@ -52,11 +53,8 @@ class LibraryRows:
         return self.session.scalar(sa.select(LibraryPlan).where(LibraryPlan.id == plan_id))
 
     def locked(self, plan_id: str) -> LibraryPlan | None:
-        """The plan as it is now, locked against other writers until the end of the transaction (an update locks its row)."""
-        change = sa.update(LibraryPlan).where(LibraryPlan.id == plan_id).values(newest=LibraryPlan.newest)
-        self.session.execute(change, execution_options={"synchronize_session": False})
-        found = sa.select(LibraryPlan).where(LibraryPlan.id == plan_id).execution_options(populate_existing=True)
-        return self.session.scalar(found)
+        """The plan as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, LibraryPlan, id=plan_id)
 
     def named(self, name: str) -> LibraryPlan | None:
         return self.session.scalar(sa.select(LibraryPlan).where(LibraryPlan.name == name))

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
-from app.db import INSERT, Base
+from app.db import INSERT, Base, lock
 from app.models import MeasuredRecording, RawFile
 
 RECORDED = MeasuredRecording.raw_sha256 == RawFile.sha256
@@ -38,9 +38,7 @@ class MeasuredRepository:
 
     def locked_raw(self, sha256: str) -> bool:
         """Whether the row of a file exists; if so, it is locked until the end of the transaction."""
-        untouched = sa.update(RawFile).where(RawFile.sha256 == sha256).values(size=RawFile.size)
-        found = self.session.execute(untouched, execution_options={"synchronize_session": False})
-        return bool(found.rowcount)  # type: ignore[attr-defined]
+        return lock(self.session, RawFile.size, RawFile.sha256 == sha256)
 
     def forget_raw(self, sha256: str) -> bool:
         """Delete the row of a file unless a recording was imported from it; returns whether the row was deleted."""

@@ -271,6 +271,12 @@ def test_a_request_that_changed_no_row_says_so_and_a_link_that_is_looked_at_is_n
     done, nothing = asked(client, action="runs.bulk")
     assert nothing["details"]["rows_changed"] == 0 and "rows_changed" not in done["details"]
     assert all("rows_changed" not in one["details"] for one in asked(client, action="runs.submit"))
+    for path, body in (("cancel", {"runs": [run]}), ("cancel", {"runs": [run]}), ("release", {})):
+        client.post(f"/api/v1/queue/{path}", json=body).raise_for_status()
+    again, cancelled = asked(client, action="queue.cancel")
+    (released,) = asked(client, action="queue.release")  # the queue was not held
+    assert "rows_changed" not in cancelled["details"]
+    assert again["details"]["rows_changed"] == released["details"]["rows_changed"] == 0
     with db.unit_of_work(app_of(client).state.sessions) as session:
         key = AccountService(session).link()[0].partition("#")[2]
     assert client.post("/api/v1/sign-in/link/read", json={"key": key}).status_code == 200

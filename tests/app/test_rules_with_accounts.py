@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import pytest
 import sqlalchemy as sa
 from fastapi.testclient import TestClient
 
 from app.access import Role
+from app.accounts import signing_in
 from app.accounts.service import AccountService
 from app.audit.tables import AuditEntry
 from app.db import unit_of_work
 from app.models import EMULATED
 from tests.app.conftest import app_of, plan
 from tests.app.people import PASSWORD, V1, Person, browser, lab, person, sign_in
+from tests.app.test_contention import at_once
 
 __all__ = ["browser", "lab", "person"]
 CONTROL = f"{V1}/control/{EMULATED}"
@@ -82,3 +85,35 @@ def test_the_control_and_the_right_to_approve_go_to_accounts_that_may_operate(la
     assert head.post(f"{CONTROL}/hand-over", json={"to": " eng NEER"}).json()["driver"] == "Eng Neer"
     kept = head.put(f"{V1}/rules", json=RULES | {"approvers": ["eng neer", "Eng Neer"]})
     assert kept.json()["approvers"] == ["Eng Neer"]
+
+
+@pytest.mark.parametrize(("word", "lost"), [("away", {"disabled": True}), ("below", {"role": "viewer"})])
+def test_a_driver_whose_account_loses_its_right_gives_up_the_control(
+    person: Person, word: str, lost: dict[str, object]
+) -> None:
+    head, driver, other = (
+        person(role, f"{role.name.title()} {word}") for role in (Role.ADMINISTRATOR, Role.ENGINEER, Role.OPERATOR)
+    )
+    assert head.put(f"{V1}/rules", json=RULES | {"one_driver": True}).status_code == 200
+    assert head.post(f"{CONTROL}/take-over", json={"reason": "a test"}).status_code == 200
+    account = driver.get(f"{V1}/account").json()
+    assert head.post(f"{CONTROL}/hand-over", json={"to": account["name"]}).status_code == 200
+    assert other.post(f"{CONTROL}/take").status_code == 409
+    ids = {one["name"]: one["id"] for one in head.get(f"{V1}/accounts").json()["accounts"]}
+    assert head.patch(f"{V1}/accounts/{ids[account['name']]}", json=lost).status_code == 200
+    (rig,) = head.get(f"{V1}/control").json()["rigs"]
+    assert (rig["driver"], rig["sentence"]) == (None, "Nobody drives Emulated laboratory.")
+    refused = other.post(f"{V1}/runs", json={"plan": plan()})
+    assert refused.status_code == 409 and "Nobody drives Emulated laboratory" in refused.json()["detail"]
+    assert other.post(f"{CONTROL}/take").status_code == 200
+    assert head.put(f"{V1}/rules", json=RULES).status_code == 200
+
+
+def test_an_account_has_no_more_tokens_than_the_limit_however_many_are_asked_for_at_once(
+    person: Person, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(signing_in, "MOST_TOKENS", 3)
+    one = person(Role.ENGINEER)
+    answers = at_once(8, lambda number: one.post(f"{V1}/account/tokens", json={"name": f"Script {number}"}))
+    assert sorted(answer.status_code for answer in answers) == [201] * 3 + [409] * 5
+    assert len(one.get(f"{V1}/account/tokens").json()["tokens"]) == 3
