@@ -34,7 +34,7 @@ class AnnotationService:
 
     def add(self, run_id: str, written: Written) -> AnnotationOut:
         """Add an annotation. Raises NotFound, Conflict for too many or without a recording, and RthsError outside the test."""
-        run = self.runs.get(run_id)
+        run = self.runs.jobs.locked(run_id)
         _check(run, written)
         if len(self.rows.of(run.number)) >= MOST:
             raise Conflict(f"The run has {MOST} annotations, the most that a report shows. Delete one first.")

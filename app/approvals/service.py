@@ -43,6 +43,8 @@ class ApprovalService:
         Raises NoRight, Conflict where it was decided already or is not what the person saw, NotDriving, and PlanError where
         the rig of a run does not take the plan any more.
         """
+        if rig := self.runs.control.rows.rig_of(about_id):
+            self.runs.rigs.keep(rig)
         asked = self._asked(about_id, who, by)
         if seen != asked.digest or self._digest(asked) != asked.digest:
             raise Conflict("What waits here is not what you saw: its digest differs. Load the page again and look at the plan.")
@@ -67,8 +69,11 @@ class ApprovalService:
         return _decided(asked)
 
     def _asked(self, about_id: str, who: SignedIn, by: str) -> Approval:
-        """What waits for approval, locked, if the person may decide."""
-        asked = self.runs.control.rows.locked_approval(about_id)
+        """What waits for approval, locked with its run or sweep, if the person may decide."""
+        asked = self.runs.control.approval(about_id)
+        if asked is not None:
+            (self.runs.jobs.rows.locked if asked.about == "run" else self.sweeps.rows.locked_sweep)(about_id)
+            asked = self.runs.control.rows.locked_approval(about_id)
         if asked is None:
             raise NotFound(f"No run and no sweep {about_id} asks for approval.")
         if asked.decision is not None:

@@ -86,12 +86,11 @@ class QueueService:
 
     def _cancel(self, run_id: str, by: str) -> None:
         """Cancel one run. Raises NotFound, and Conflict where it has ended or the person may not cancel it."""
-        run = self.jobs.get(run_id)
+        run = self.jobs.locked(run_id)
+        if run.state.ended:
+            raise Conflict(f"Run {run.number} has already ended: it is {run.state}.")
         try:
-            withdrawn = run.state is State.TO_APPROVE and self.control.withdraw(run_id, run.submitted_by, by)
-            if self.jobs.locked(run_id).state.ended:
-                raise Conflict(f"Run {run.number} has already ended: it is {run.state}.")
-            if not withdrawn:
+            if run.state is not State.TO_APPROVE or not self.control.withdraw(run_id, run.submitted_by, by):
                 self.control.check([run.rig_id], by)
         except (NotDriving, NotYours) as error:
             raise Conflict(f"Run {run.number}: {error}") from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.db import locked
 from app.jobs.states import State
 from app.models import Rig, Run
 
@@ -20,6 +21,10 @@ class RigRepository:
 
     def get(self, rig_id: str) -> Rig | None:
         return self.session.scalar(sa.select(Rig).where(Rig.id == rig_id))
+
+    def locked(self, rig_id: str) -> Rig | None:
+        """The rig as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, Rig, id=rig_id)
 
     def named(self, name: str) -> Rig | None:
         return self.session.scalar(sa.select(Rig).where(sa.func.lower(Rig.name) == name.lower()))

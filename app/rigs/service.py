@@ -29,16 +29,24 @@ class RigService:
 
     def get(self, rig_id: str) -> Rig:
         """The rig with this id. Raises NotFound."""
-        rig = self.rigs.get(rig_id)
-        if rig is None:
-            raise NotFound(f"There is no rig {rig_id}.")
-        return rig
+        return _found(self.rigs.get(rig_id), rig_id)
+
+    def _locked(self, rig_id: str) -> Rig:
+        """The rig with this id as it is now, locked against other writers. Raises NotFound."""
+        return _found(self.rigs.locked(rig_id), rig_id)
 
     def shown(self, rig_id: str) -> RigOut:
         """The rig with this id and its tests. Raises NotFound."""
         rig = self.get(rig_id)
         running, queued = (self.rigs.tests(state).get(rig_id, 0) for state in (State.RUNNING, State.QUEUED))
         return _out(rig, running, queued)
+
+    def keep(self, rig_id: str) -> None:
+        """Lock a rig: nobody changes, retires or deletes it until a submission to it is stored.
+
+        Who locks a run too locks the rig first, so that no two wait for each other.
+        """
+        self.rigs.locked(rig_id)
 
     def for_tests(self, rig_id: str) -> Rig:
         """The rig that a submission names. Raises RthsError if it does not exist or is retired."""
@@ -63,7 +71,7 @@ class RigService:
 
     def change(self, rig_id: str, given: RigIn) -> RigOut:
         """Change a rig. Raises Conflict where a test that waits for it would not fit any more."""
-        rig = self.get(rig_id)
+        rig = self._locked(rig_id)
         self._check(given, rig)
         if rig.id == EMULATED and (given.kind is not RigKind.EMULATED or given.retired):
             raise Conflict(f"{rig.name} is the rig of every test that names none: it stays emulated and takes tests.")
@@ -76,7 +84,7 @@ class RigService:
 
     def remove(self, rig_id: str) -> None:
         """Delete a rig that no run names. Raises Conflict otherwise."""
-        rig = self.get(rig_id)
+        rig = self._locked(rig_id)
         if rig.id == EMULATED:
             raise Conflict(f"{rig.name} is the rig of every test that names none. It cannot be deleted.")
         if used := self.rigs.used(rig_id):
@@ -95,6 +103,12 @@ class RigService:
             if not given.actuators:
                 fix = "give its stroke, velocity and force; null where it is not known"
                 raise RthsError(Issue("actuators", "needs at least one actuator for a physical rig", None, fix))
+
+
+def _found(rig: Rig | None, rig_id: str) -> Rig:
+    if rig is None:
+        raise NotFound(f"There is no rig {rig_id}.")
+    return rig
 
 
 def _stored(given: RigIn) -> dict[str, object]:

@@ -8,7 +8,9 @@ from datetime import datetime
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
-from app.models import Diagnosis, DiagnosisInput, Run, RunView
+from app.db import lock
+from app.jobs.states import State
+from app.models import Diagnosis, DiagnosisInput, Rules, Run, RunView
 from app.runs import values
 
 
@@ -18,8 +20,9 @@ class EditRows:
     def __init__(self, session: Session):
         self.session = session
 
-    def get(self, ids: Iterable[str]) -> dict[str, Run]:
-        return {run.id: run for run in self.session.scalars(sa.select(Run).where(Run.id.in_(list(ids))))}
+    def locked(self, ids: Iterable[str]) -> dict[str, Run]:
+        """The runs as they are now, locked against other writers until the end of the transaction."""
+        return {run.id: run for run in self._locked(sa.select(Run).where(Run.id.in_(list(ids))).order_by(Run.number))}
 
     def diagnosis_of(self, run: Run) -> Diagnosis | None:
         """A diagnosis that uses the recording of a run, or that queued the run."""
@@ -28,7 +31,9 @@ class EditRows:
         return self.session.scalar(sa.select(Diagnosis).where(used).order_by(Diagnosis.number).limit(1))
 
     def deleted_before(self, moment: datetime, most: int) -> list[Run]:
-        return list(self.session.scalars(sa.select(Run).where(Run.deleted_at < moment).order_by(Run.number).limit(most)))
+        """Runs that were deleted before a moment and have ended, locked as by `locked`."""
+        ended = Run.state.in_([state for state in State if state.ended])
+        return self._locked(sa.select(Run).where(Run.deleted_at < moment, ended).order_by(Run.number).limit(most))
 
     def remove(self, run: Run) -> bool:
         """Remove a run for good. False where another table still refers to it."""
@@ -40,6 +45,11 @@ class EditRows:
         except sa.exc.IntegrityError:
             return False
         return True
+
+    def _locked(self, runs: sa.Select[Run]) -> list[Run]:
+        """Runs locked in their order, so that two who lock the same ones never wait for each other."""
+        lock(self.session, Run.attempt, sa.false())  # SQLite has no SELECT FOR UPDATE: the begin of a change locks the database
+        return list(self.session.scalars(runs.with_for_update(key_share=True).execution_options(populate_existing=True)))
 
     def tags(self) -> list[str]:
         """Every tag that a run has, in the order of the alphabet."""
@@ -60,6 +70,10 @@ class ViewRows:
 
     def named(self, name: str) -> RunView | None:
         return self.session.scalar(sa.select(RunView).where(RunView.name == name))
+
+    def lock(self) -> None:
+        """Let one person at a time save views, until the end of the transaction: by the row of the laboratory's rules."""
+        lock(self.session, Rules.id, Rules.id == 1)
 
     def get(self, view_id: int) -> RunView | None:
         return self.session.get(RunView, view_id)

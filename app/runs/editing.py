@@ -33,7 +33,7 @@ class RunEditing:
 
         Raises NotFound, and Conflict for a shelf before the end of the run, or for anything while it waits for approval.
         """
-        run = self._get(run_id)
+        run = self._locked(run_id)
         _check_decided(run)
         if change.name is not None:
             run.name = change.name
@@ -47,13 +47,13 @@ class RunEditing:
 
     def delete(self, run_id: str) -> Run:
         """Hide a run and remove it after GRACE. Raises Conflict where it has not ended, or where a diagnosis uses it."""
-        run = self._get(run_id)
+        run = self._locked(run_id)
         self._delete(run)
         return run
 
     def restore(self, run_id: str) -> Run:
         """Show a deleted run again, with all that it had."""
-        run = self._get(run_id)
+        run = self._locked(run_id)
         run.deleted_at = None
         return run
 
@@ -69,7 +69,7 @@ class RunEditing:
             "delete": self._delete,
             "restore": lambda run: setattr(run, "deleted_at", None),
         }
-        found, changed, refused = self.rows.get(ids), [], []
+        found, changed, refused = self.rows.locked(ids), [], []
         for run_id in dict.fromkeys(ids):
             try:
                 if run_id not in found:
@@ -93,8 +93,9 @@ class RunEditing:
                 removed += 1
         return removed
 
-    def _get(self, run_id: str) -> Run:
-        run = self.rows.get([run_id]).get(run_id)
+    def _locked(self, run_id: str) -> Run:
+        """The run as it is now, locked, so that what allows the change still holds when it is stored. Raises NotFound."""
+        run = self.rows.locked([run_id]).get(run_id)
         if run is None:
             raise NotFound(f"There is no run {run_id}.")
         return run

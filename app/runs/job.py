@@ -46,10 +46,11 @@ class RunKind(Kind[Run, RunOrder, Outcome]):
         return job.name
 
     def may_start(self) -> sa.ColumnElement[bool]:
-        """A test waits while its rig executes as many tests as it takes at a time."""
+        """A test waits while its rig executes as many tests as it takes at a time. A deleted test never starts."""
         other = aliased(Run)
         running = sa.select(sa.func.count()).where(other.state == State.RUNNING, other.rig_id == Rig.id).correlate(Rig)
-        return Run.rig_id.not_in(sa.select(Rig.id).where(Rig.tests_at_a_time <= running.scalar_subquery()))
+        busy = sa.select(Rig.id).where(Rig.tests_at_a_time <= running.scalar_subquery())
+        return Run.deleted_at.is_(None) & Run.rig_id.not_in(busy)
 
     def not_repeated(self, job: Run) -> str | None:
         """A test that drove a rig, which now stands nobody knows how, or one whose client had connected."""

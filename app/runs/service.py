@@ -62,6 +62,7 @@ class RunService:
                 f"{library.id}, version {library.version}",
             )
             raise PlanError(Issue("library", "is not a version of a plan in the library", given, fix))
+        self.rigs.keep(rig)
         on = self.rigs.for_tests(rig)
         to_approve = self.control.approvals
         if not to_approve:
@@ -100,7 +101,7 @@ class RunService:
 
     def cancel(self, run_id: str, by: str) -> Run:
         """Cancel a queued run now; ask the worker to stop a running run. Raises IllegalTransition for a run that has ended."""
-        run = self.get(run_id)
+        run = self.jobs.locked(run_id)
         if run.state is not State.TO_APPROVE or not self.control.withdraw(run_id, run.submitted_by, by):
             self.control.check([run.rig_id], by)
         return self.jobs.cancel(run_id, by)
@@ -109,9 +110,10 @@ class RunService:
         """Put a run back at its place in the queue that was cancelled there. Raises Conflict for any other run.
 
         Its rig is checked as for a new run: meanwhile it may have been retired, or its capacities lowered. A run that nobody
-        approved waits for approval, where the laboratory has this rule.
+        approved waits for approval, where the laboratory has this rule: under the name of its plan, which is approved.
         """
-        run = self.get(run_id)
+        self.rigs.keep(self.get(run_id).rig_id)
+        run = self.jobs.locked(run_id)
         if run.deleted_at is not None or run.archived:
             shelf = "deleted" if run.deleted_at is not None else "archived"
             raise Conflict(f"Run {run.number} is {shelf}. Restore it first, then undo the cancel.")
@@ -123,6 +125,8 @@ class RunService:
             self.control.check([run.rig_id], by)
         if run.state is State.CANCELLED:
             self.rigs.check(self.plan_of(run), self.rigs.for_tests(run.rig_id))
+            if to_approve:
+                run.name = run.plan["name"]
         back = self.jobs.undo_cancel(run_id, by, State.TO_APPROVE if to_approve else State.QUEUED)
         if to_approve:
             self.control.ask_approval("run", run_id, digest_of(run.plan), by)
@@ -136,14 +140,24 @@ class RunService:
         return None if asked is not None and asked.decision == "rejected" else run.finished_at + UNDO
 
     def retry(self, run_id: str, by: str) -> Run:
-        """Queue the plan of a run that has ended again, on the same rig. Raises Conflict for a run that has not ended."""
-        first = self.get(run_id)
-        if not first.state.ended:
-            raise Conflict(f"Run {first.number} has not ended: it is {first.state}. Only a run that has ended can be retried.")
+        """Queue the plan of a run that has ended again, on the same rig. Raises Conflict for a run that has not ended.
+
+        It takes the name that people gave the run; where it waits for approval, that of the plan, which is approved.
+        """
+        first = _ended(self.get(run_id))
         (run,) = self.submit([first.plan], by, prefix="plan", rig=first.rig_id, priority=first.priority)
-        run.name, run.retry_of = first.name, first.retry_of or first.id
+        first = _ended(self.jobs.locked(run_id))  # the check of the plan takes a while, in which others may change the run
+        if run.state is not State.TO_APPROVE:
+            run.name = first.name
+        run.retry_of = first.retry_of or first.id
         run.library_id, run.library_version = first.library_id, first.library_version
         return run
+
+
+def _ended(run: Run) -> Run:
+    if not run.state.ended:
+        raise Conflict(f"Run {run.number} has not ended: it is {run.state}. Only a run that has ended can be retried.")
+    return run
 
 
 def _run_of(checked: Outline, rig: Rig, priority: int) -> Run:

@@ -25,6 +25,7 @@ class ViewService:
 
     def save(self, name: str, query: str, by: str) -> RunView:
         """Save a view, in place of the one with the same name. Raises Conflict where there are too many."""
+        self.rows.lock()
         view = self.rows.named(name)
         if view is None:
             if len(self.rows.listed()) >= MOST_VIEWS:

@@ -10,6 +10,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import Session, undefer
 
+from app.db import locked
 from app.jobs.repository import JobRepository
 from app.jobs.states import State
 from app.models import Sweep, SweepPart, SweepShard
@@ -51,11 +52,9 @@ class SweepRepository(JobRepository[SweepShard]):
     def sweep(self, sweep_id: str) -> Sweep | None:
         return self.session.scalar(sa.select(Sweep).where(Sweep.id == sweep_id))
 
-    def lock(self, sweep: Sweep) -> None:
-        """Lock a sweep against other writers until the end of the transaction, and read it as it is now."""
-        change = sa.update(Sweep).where(Sweep.number == sweep.number).values(points=Sweep.points)
-        self.session.execute(change, execution_options={"synchronize_session": False})
-        self.session.refresh(sweep)
+    def locked_sweep(self, sweep_id: str) -> Sweep | None:
+        """The sweep as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, Sweep, id=sweep_id)
 
     def listed(self, limit: int, offset: int) -> tuple[list[Sweep], int]:
         total = self.session.scalar(sa.select(sa.func.count()).select_from(Sweep)) or 0

@@ -97,8 +97,7 @@ class SweepService:
         return sweep
 
     def _to_approve(self, sweep_id: str) -> Sweep:
-        sweep = self.get(sweep_id)
-        self.rows.lock(sweep)
+        sweep = self._locked(sweep_id)
         if not sweep.to_approve:
             raise Conflict(f"Sweep {sweep.number} does not wait for approval: it is {state(sweep, self.standing(sweep))}.")
         return sweep
@@ -160,10 +159,11 @@ class SweepService:
 
     def get(self, sweep_id: str) -> Sweep:
         """The sweep with this id. Raises NotFound."""
-        sweep = self.rows.sweep(sweep_id)
-        if sweep is None:
-            raise NotFound(f"There is no sweep {sweep_id}.")
-        return sweep
+        return _found(self.rows.sweep(sweep_id), sweep_id)
+
+    def _locked(self, sweep_id: str) -> Sweep:
+        """The sweep with this id as it is now, locked against other writers. Raises NotFound."""
+        return _found(self.rows.locked_sweep(sweep_id), sweep_id)
 
     def listed(self, limit: int, offset: int) -> tuple[list[tuple[Sweep, Standing]], int]:
         found, total = self.rows.listed(limit, offset)
@@ -178,9 +178,8 @@ class SweepService:
 
         Raises Conflict where it has ended, and NotYours where it waits for approval and another person submitted it.
         """
-        sweep = self.get(sweep_id)
+        sweep = self._locked(sweep_id)
         withdrawn = sweep.to_approve and self.control.withdraw(sweep.id, sweep.submitted_by, by)
-        self.rows.lock(sweep)
         ids = self.rows.unfinished(sweep)
         if withdrawn:
             sweep.to_approve = False
@@ -197,8 +196,7 @@ class SweepService:
 
         Raises Conflict where it has not ended, or where no point is left.
         """
-        sweep = self.get(sweep_id)
-        self.rows.lock(sweep)
+        sweep = self._locked(sweep_id)
         standing = self.standing(sweep)
         if sweep.to_approve or any(not one.ended for one in standing.states):
             raise Conflict(f"The sweep has not ended: it is {state(sweep, standing)}. Cancel it first.")
@@ -211,8 +209,7 @@ class SweepService:
 
     def remove(self, sweep_id: str) -> None:
         """Delete a sweep that has ended, with its results. Raises Conflict where it has not ended."""
-        sweep = self.get(sweep_id)
-        self.rows.lock(sweep)
+        sweep = self._locked(sweep_id)
         if sweep.to_approve or self.rows.unfinished(sweep):
             raise Conflict("The sweep has not ended. Cancel it first.")
         self.rows.remove_sweep(sweep)
@@ -253,6 +250,12 @@ class SweepService:
             for start in range(first, end, size)
         ]
         self.jobs.submit(shards, by)
+
+
+def _found(sweep: Sweep | None, sweep_id: str) -> Sweep:
+    if sweep is None:
+        raise NotFound(f"There is no sweep {sweep_id}.")
+    return sweep
 
 
 def _intact(sweep: Sweep, part: SweepPart) -> tuple[int, int, bytes, dict[str, Any]]:
