@@ -1,7 +1,7 @@
 """Slows down guessing of passwords, for each account and for each address, without locking anybody out.
 
-The owner of an account signs in from an address that the account has used before. Wrong passwords from other addresses
-slow down those addresses only.
+The owner of an account signs in from an address that the account has used before. Neither wrong passwords from other addresses
+nor those of other people behind the same address slow that down.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from limits.storage import MemoryStorage
 from limits.strategies import MovingWindowRateLimiter
 
 PAIR = parse("5 per 1 minute")  # wrong passwords of one account from one address
-ADDRESS = parse("30 per 10 minutes")  # wrong passwords from one address
+ADDRESS = parse("30 per 10 minutes")  # wrong passwords from one address of accounts that have never used it
 STRANGERS = parse("20 per 10 minutes")  # wrong passwords of one account from addresses that it has never used
 
 Limit = tuple[RateLimitItem, str, *tuple[str, ...]]
@@ -91,5 +91,5 @@ def _key(limit: Limit) -> str:
 
 
 def _limits(account: str, address: str, known: bool) -> list[Limit]:
-    always: list[Limit] = [(PAIR, "pair", account, address), (ADDRESS, "address", address)]
-    return always if known else [*always, (STRANGERS, "strangers", account)]
+    pair: Limit = (PAIR, "pair", account, address)
+    return [pair] if known else [pair, (ADDRESS, "address", address), (STRANGERS, "strangers", account)]

@@ -31,7 +31,7 @@ from rths_engine.foundation.errors import Issue, RthsError
 GRACE_S = 2
 SWITCH_S = 0.001  # after which a thread of a request leaves the interpreter to the event loop: Abort waits for it
 LOCK = "control-room.lock"
-PROXIES = "FORWARDED_ALLOW_IPS"  # uvicorn's list of trusted proxies: with one, the proxy is to answer https
+PROXIES = "FORWARDED_ALLOW_IPS"  # addresses of proxies whose X-Forwarded-For and -Proto are believed; uvicorn's name for it
 
 
 def serve(given: Namespace) -> int:
@@ -70,7 +70,8 @@ class Server(uvicorn.Server):
     def __init__(self, app: FastAPI, settings: Settings, demonstrate: bool):
         # app/logs.py and app/observing.py write what these two would
         tls = {"ssl_certfile": settings.tls_certificate, "ssl_keyfile": settings.tls_key}
-        given: dict[str, Any] = {"timeout_graceful_shutdown": GRACE_S, "http": Bounded, **QUIET, **LIVE, **tls}
+        trusted = {"forwarded_allow_ips": os.environ.get(PROXIES, "")}  # uvicorn's own default is this computer
+        given: dict[str, Any] = {"timeout_graceful_shutdown": GRACE_S, "http": Bounded, **QUIET, **LIVE, **tls, **trusted}
         super().__init__(uvicorn.Config(app, **given))
         self.app, self.settings, self.demonstrate = app, settings, demonstrate
 
@@ -118,8 +119,9 @@ def _first(app: FastAPI, settings: Settings) -> str:
         if accounts.any():
             return ""
         path, expires_at = accounts.link()
-    link = f"{address(settings).rstrip('/')}{path}"
-    return f"First administrator: {link}\nThe link works once, until {expires_at:%Y-%m-%d %H:%M} UTC.\n"
+    link, other = (f"{one.rstrip('/')}{path}" for one in (address(settings), address(settings, elsewhere=True)))
+    also = f"From another computer: {other}\n" if other != link else ""
+    return f"First administrator: {link}\n{also}The link works once, until {expires_at:%Y-%m-%d %H:%M} UTC.\n"
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -166,9 +168,10 @@ def only_server(settings: Settings) -> IO[str]:
     return file
 
 
-def address(settings: Settings) -> str:
-    """The URL of the service for a browser on this machine."""
-    host = "127.0.0.1" if settings.host in ANY else settings.host
+def address(settings: Settings, elsewhere: bool = False) -> str:
+    """The URL of the service for a browser on this machine, or on another one: there it needs the name of this machine."""
+    here = (settings.hosts[0] if settings.hosts else socket.gethostname().lower()) if elsewhere else "127.0.0.1"
+    host = here if settings.host in ANY else settings.host
     scheme = "https" if settings.tls_certificate else "http"
     return f"{scheme}://[{host}]:{settings.port}/" if ":" in host else f"{scheme}://{host}:{settings.port}/"
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import socket
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,7 @@ from fastapi.testclient import TestClient
 
 from app.accounts import passwords
 from app.cli.main import main
-from app.cli.serve import _first
+from app.cli.serve import _first, address
 from app.config import Settings
 from app.main import create_app
 from tests.app.conftest import ADDRESS, app_of
@@ -78,3 +80,17 @@ def test_the_first_start_prints_a_link_and_later_ones_do_not(data: Path, capsys:
         assert re.match(r"First administrator: http://127\.0\.0\.1:8000/sign-in/link#\S{43}\nThe link works once", said)
         rths(capsys, data, "account", "add", "Ana Ruiz")
         assert _first(app_of(browser), settings) == ""
+
+
+def test_the_first_link_of_a_service_on_a_network_is_also_printed_for_other_computers(
+    data: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(socket, "gethostname", lambda: "Control-Room")
+    settings = Settings(data=data, embedded_worker=False)
+    with TestClient(create_app(settings), ADDRESS) as browser:
+        said = _first(app_of(browser), replace(settings, host="0.0.0.0"))
+        link, other, _ = said.splitlines()
+        path = link.removeprefix("First administrator: http://127.0.0.1:8000")
+        assert other == f"From another computer: http://control-room:8000{path}"
+    assert address(replace(settings, host="::", hosts=("lab.example",)), elsewhere=True) == "http://lab.example:8000/"
+    assert address(replace(settings, host="192.0.2.8"), elsewhere=True) == address(replace(settings, host="192.0.2.8"))
