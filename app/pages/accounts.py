@@ -8,7 +8,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import HTMLResponse, RedirectResponse
 
 from app.access import ANYONE, SCOPE_OF, Role, Who, allowed
-from app.accounts.dependency import OneBrowser, Signing
+from app.accounts.dependency import Accounts, OneBrowser, Signing
 from app.accounts.passwords import LONGEST, SHORTEST
 from app.pages.errors import PageRoute
 from app.pages.rendering import page
@@ -18,9 +18,9 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/sign-in")
 @allowed(ANYONE)
-def sign_in(request: Request, to: Annotated[str, Query(max_length=4000)] = "/") -> HTMLResponse:
+def sign_in(request: Request, accounts: Accounts, to: Annotated[str, Query(max_length=4000)] = "/") -> HTMLResponse:
     """The sign-in page. Its module leads to the page `to` of this control room afterwards."""
-    return page(request, "sign_in.html")
+    return page(request, "sign_in.html", any_account=accounts.any())
 
 
 @router.get("/sign-in/link")
