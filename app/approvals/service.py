@@ -86,7 +86,8 @@ class ApprovalService:
         """Why a person can't decide; None where the person can."""
         rules, person = self.runs.control.rules(), by.strip()
         if who.role is not Role.ADMINISTRATOR and not any(same_person(one, person) for one in rules.approvers):
-            return "Administrators approve, and the people whom they name on the page Settings."
+            others = f", and so do {', '.join(rules.approvers)}" if rules.approvers else ""
+            return f"Administrators approve{others}. The rules are on the page Settings."
         if _own(asked, self._found(asked), person):
             return "You cannot approve or reject your own submission: withdraw it instead."
         return None

@@ -6,9 +6,12 @@ from collections import Counter
 from typing import Any
 
 from fastapi import APIRouter, Request
-from fastapi.responses import HTMLResponse
+from fastapi.responses import HTMLResponse, Response
 
-from app.access import Role, allowed
+from app.access import Role, SignedIn, Who, allowed
+from app.control.dependency import Controlled
+from app.control.schemas import ControlList
+from app.control.service import Control
 from app.demonstration import TEMPLATE
 from app.dependencies import OneSession
 from app.events.log import EventLog
@@ -17,6 +20,7 @@ from app.jobs.states import State
 from app.models import Run
 from app.pages.errors import PageRoute
 from app.pages.lab_cards import Card, card
+from app.pages.parts import part
 from app.pages.rendering import page
 from app.queue.dependency import Queued
 from app.runs.dependency import Runs
@@ -35,26 +39,35 @@ router = APIRouter(route_class=PageRoute, default_response_class=HTMLResponse, i
 
 @router.get("/")
 @allowed(Role.VIEWER)
-def lab(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
+def lab(request: Request, runs: Runs, queued: Queued, control: Controlled, who: Who) -> HTMLResponse:
     """The Lab page."""
-    return page(request, "lab.html", **_now(request, runs, queued))
+    return page(request, "lab.html", control=_control(control, who), **_now(request, runs, queued))
 
 
 @router.get("/lab")
 @allowed(Role.VIEWER)
-def lab_now(request: Request, runs: Runs, queued: Queued) -> HTMLResponse:
+def lab_now(request: Request, runs: Runs, queued: Queued, control: Controlled, who: Who) -> Response:
     """The changing part of the Lab page."""
-    return page(request, "lab_now.html", **_now(request, runs, queued))
+    return part(request, "lab_now.html", "/", lambda: {"control": _control(control, who), **_now(request, runs, queued)})
 
 
 @router.get("/lab/since")
 @allowed(Role.VIEWER)
-def lab_since(request: Request, session: OneSession, moment: InUtc) -> HTMLResponse:
+def lab_since(request: Request, session: OneSession, moment: InUtc) -> Response:
     """What happened since a moment, the newest first."""
-    events, total = EventLog(session).listed(since=moment, kinds=WORTH_TELLING, limit=500)
-    counts = Counter(event.kind for event in events if event.about == "run")
-    told = [(kind, counts[kind]) for kind in WORTH_TELLING if counts[kind]]
-    return page(request, "lab_since.html", since=moment, events=events[:NEWS_SHOWN], counts=told, more=total - NEWS_SHOWN)
+
+    def news() -> dict[str, Any]:
+        events, total = EventLog(session).listed(since=moment, kinds=WORTH_TELLING, limit=500)
+        counts = Counter(event.kind for event in events if event.about == "run")
+        told = [(kind, counts[kind]) for kind in WORTH_TELLING if counts[kind]]
+        return {"since": moment, "events": events[:NEWS_SHOWN], "counts": told, "more": total - NEWS_SHOWN}
+
+    return part(request, "lab_since.html", "/", news)
+
+
+def _control(control: Control, who: SignedIn) -> ControlList | None:
+    """What the person drives; None without accounts, where the page does not know who the person is."""
+    return None if who.how == "local" else control.shown(who.name, may_take_over=False)
 
 
 def _now(request: Request, runs: Runs, queued: Queued) -> dict[str, Any]:

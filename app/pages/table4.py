@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from fastapi import APIRouter, Request
-from fastapi.responses import HTMLResponse
+from fastapi.responses import HTMLResponse, Response
 
 from app.access import Role, allowed
 from app.pages.errors import PageRoute
+from app.pages.parts import part
 from app.pages.rendering import page
 from app.pages.table4_chart import chart
 from app.table4.dependency import Table4
@@ -31,9 +32,9 @@ def whole(request: Request, table4: Table4) -> HTMLResponse:
 
 @router.get("/table4/now")
 @allowed(Role.VIEWER)
-def now(request: Request, table4: Table4) -> HTMLResponse:
+def now(request: Request, table4: Table4) -> Response:
     """The changing part of the page of Table IV."""
-    return page(request, "table4_now.html", **_now(table4))
+    return part(request, "table4_now.html", "/table4", lambda: _now(table4))
 
 
 def _now(table4: Table4) -> dict[str, Any]:

@@ -121,7 +121,7 @@ CONTROLS: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("settings/rigs.js", "DELETE `/rigs/${rig.id}`"): ((), ('settings/rigs.js { "data-needs"',)),
     ("settings/rigs.js", "PUT `/rigs/${id}`"): ((), ("settings_rigs.html#rig-form",)),
     ("settings/rigs.js", 'POST "/rigs"'): ((), ("settings_rigs.html#rig-form",)),
-    ("settings/rules.js", 'PUT "/rules"'): ((), ("settings_rules.html#rules-form",)),
+    ("settings/rules.js", 'PUT "/rules"'): ((), ("settings_rules.html#rules-save",)),
     ("settings/webhooks.js", "POST `/webhooks/${hook.id}/test`"): ((), ("settings_webhooks.html#webhook-rows",)),
     ("settings/webhooks.js", "PATCH `/webhooks/${hook.id}`"): ((), ("settings_webhooks.html#webhook-rows",)),
     ("settings/webhooks.js", "DELETE `/webhooks/${hook.id}`"): ((), ("settings_webhooks.html#webhook-rows",)),

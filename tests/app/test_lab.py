@@ -6,6 +6,7 @@ import re
 from datetime import UTC, datetime, timedelta
 
 import numpy as np
+import pytest
 from fastapi.testclient import TestClient
 
 from app.live.frames import Decimator, FrameStore
@@ -79,6 +80,17 @@ def test_the_page_says_what_happened_since_a_moment(client: TestClient) -> None:
     assert client.get("/lab/since", params={"moment": "yesterday"}).status_code == 422
     assert client.get("/lab/since", params={"moment": "2026-11-29"}).status_code == 200
     assert client.get("/lab/since", params={"moment": "0001-01-01T00:00:00+14:00"}).status_code == 422
+
+
+@pytest.mark.parametrize(
+    ("part", "whole"), [("/lab", "/"), ("/lab/since?moment=2026-11-29", "/"), ("/table4/now", "/table4")]
+)
+def test_the_address_of_a_part_of_a_page_leads_people_to_the_page(client: TestClient, part: str, whole: str) -> None:
+    page = {"accept": "text/html,*/*;q=0.8"}
+    answer = client.get(part, headers=page, follow_redirects=False)
+    assert (answer.status_code, answer.headers["location"]) == (303, whole)
+    assert client.get(part, headers=page | {"hx-request": "true"}, follow_redirects=False).status_code == 200
+    assert client.get(part, follow_redirects=False).status_code == 200
 
 
 def test_the_tour_leads_from_the_demonstration_to_a_comparison(client: TestClient) -> None:

@@ -21,7 +21,7 @@ export function liveCheck(read, tell, failed) {
       tell(checked, []);
     } catch (error) {
       if (mine.signal.aborted) return;
-      if (error instanceof ApiError && error.status >= 400 && error.status < 500) tell(null, planProblems(error));
+      if (error instanceof ApiError && error.status === 422) tell(null, planProblems(error));
       else failed(error);
     }
   };

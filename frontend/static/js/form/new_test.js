@@ -73,6 +73,7 @@ function show(plan) {
   edits = 0;
   verdict.begin(plan.template ?? null);
   form.write(plan);
+  allowQueueing();
   rail.show(form.sections);
   check.now();
 }
@@ -107,15 +108,24 @@ async function replace(what, loaded) {
   if (!found.origin) edited();
 }
 
+/** An operator queues plans of the library as they are: the button waits for one, and the sentence above the form says so. */
+function allowQueueing() {
+  const may_queue = may("engineer") || (edits === 0 && source() !== null);
+  const submit = byId("submit");
+  submit.disabled = queueing || !may_queue;
+  submit.title = may_queue ? submit.dataset.keys : byId("who-queues").textContent;
+}
+
 function edited() {
   edits++;
+  allowQueueing();
   check.soon();
   draft.autosave();
 }
 
 /** Queue the plan in the form: checked, simulated, and confirmed where it would trip. */
 async function queue() {
-  if (queueing || !may("operator")) return;
+  if (queueing || !may("operator") || byId("submit").disabled) return;
   if (!who.value.trim()) return refuseWho();
   remember(who.value.trim());
   queueing = byId("submit").disabled = true;
@@ -132,10 +142,11 @@ async function queue() {
     leave();
     location.assign(`/runs/${runs[0].id}`);
   } catch (error) {
-    if (error instanceof ApiError && error.status < 500 && error.status > 0) focusFirst(told(null, planProblems(error)));
+    if (error instanceof ApiError && error.status === 422) focusFirst(told(null, planProblems(error)));
     else verdict.complain(explain(error));
   } finally {
-    queueing = byId("submit").disabled = false;
+    queueing = false;
+    allowQueueing();
   }
 }
 
@@ -206,4 +217,5 @@ byId("import").addEventListener("change", (/** @type {any} */ event) =>
     .then((plan) => replace("the imported plan", async () => ({ plan, origin: null })))
     .catch(complain),
 );
+allowQueueing();
 start().catch(complain);

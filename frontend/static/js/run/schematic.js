@@ -6,6 +6,7 @@ import { svg } from "./svg.js";
 
 /** @typedef {import("./store.js").Channel} Channel @typedef {import("./store.js").Moment} Moment @typedef {import("./margin.js").Margin} Margin */
 
+const LEAST = { width: 200, height: 90 }; // pixels: smaller boxes, such as those of a page that is being laid out, have no room for a drawing
 const FONT = 14; // pixels: font size of a box at which the drawing has its own size; a larger font enlarges everything
 
 /**
@@ -33,9 +34,9 @@ export class Schematic {
   /** Draw at the present size of the box. */
   fit() {
     const { clientWidth, clientHeight } = this.box;
-    if (clientWidth < 40 || clientHeight < 40) return;
     const scale = parseFloat(getComputedStyle(this.box).fontSize) / FONT;
     const [width, height] = [clientWidth / scale, clientHeight / scale];
+    if (width < LEAST.width || height < LEAST.height) return;
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.drawing.build(width, height);
     if (this.last) this.drawing.show(...this.last, true);
