@@ -61,5 +61,9 @@ class ControlList(BaseModel):
     """Who drives each rig that takes tests."""
 
     one_driver: bool = Field(description="whether the laboratory has the rule that one person drives a rig")
+    approvals: bool = Field(description="whether another person approves each submission, who then drives the rig instead")
     may_take_over: bool = Field(description="whether the person of the request may take a rig over")
+    refusals: dict[str, str] = Field(description="rigs whose tests the person of the request may not change, and why")
+    hold_refusal: str | None = Field(description="why the person of the request may not hold the queue; null: may")
+    release_refusal: str | None = Field(description="why the person of the request may not release it; null: may")
     rigs: list[ControlOut]

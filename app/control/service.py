@@ -7,8 +7,9 @@ tests would start releases it. Abort needs no control, ever.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from datetime import timedelta
+from functools import partial
 
 from sqlalchemy.orm import Session
 
@@ -60,7 +61,16 @@ class Control:
         """Who drives each rig, as the person `by` sees it."""
         driven = self._driven_now()
         rigs = [_out(rig.id, rig.name, driven.get(rig.id), by) for rig in self.rows.rigs()]
-        return ControlList(one_driver=self.rows.rules.one_driver, may_take_over=may_take_over, rigs=rigs)
+        refused = {one.rig_id: _said(partial(self.check, [one.rig_id]), by) for one in rigs}
+        return ControlList(
+            one_driver=self.rows.rules.one_driver,
+            approvals=self.approvals,
+            may_take_over=may_take_over,
+            refusals={rig: why for rig, why in refused.items() if why},
+            hold_refusal=_said(self.check_hold, by),
+            release_refusal=_said(self.check_release, by),
+            rigs=rigs,
+        )
 
     def take(self, rig_id: str, by: str) -> ControlOut:
         """Take the control of a rig that nobody else drives. Raises NotDriving."""
@@ -201,6 +211,15 @@ class Control:
             row.since = now
         row.driver, row.until, row.asked_by = _person(to), now + EXPIRES, ""
         return _out(rig_id, name, row, to if seen_by is None else seen_by)
+
+
+def _said(check: Callable[[str], None], by: str) -> str | None:
+    """Why a check refuses a person; None where it passes."""
+    try:
+        check(by)
+    except NotDriving as refused:
+        return str(refused)
+    return None
 
 
 def same_person(first: str, second: str) -> bool:

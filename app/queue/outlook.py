@@ -100,7 +100,8 @@ def _left(run: Run, speeds: Speeds, now: datetime) -> float | None:
 
 def _undoable(run: Run) -> UndoOut:
     assert run.finished_at is not None
-    return UndoOut(id=run.id, number=run.number, name=run.name, reason=run.reason or "", until=run.finished_at + UNDO)
+    named = {"id": run.id, "number": run.number, "name": run.name, "rig_id": run.rig_id}
+    return UndoOut(**named, reason=run.reason or "", until=run.finished_at + UNDO)
 
 
 def _running(run: Run, left_s: float | None, now: datetime) -> RunningOut:

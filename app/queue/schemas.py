@@ -50,6 +50,7 @@ class UndoOut(BaseModel):
     id: str
     number: int
     name: str
+    rig_id: str
     reason: str
     until: datetime
 

@@ -67,6 +67,20 @@ def test_only_the_driver_submits_cancels_retries_and_releases(driven: TestClient
     assert driven.post(f"/api/v1/runs/{run}/retry", json={"by": "Ana"}).status_code == 201
 
 
+def test_people_who_do_not_drive_read_why_before_they_try(driven: TestClient) -> None:
+    def told(by: str) -> Any:
+        return driven.get("/api/v1/control", params={"by": by}).json()
+
+    submit(driven, "Ana")
+    for path, refusal in [("queue/hold", "hold_refusal"), ("queue/release", "release_refusal")]:
+        assert told("Ana")[refusal] is None
+        assert driven.post(f"/api/v1/{path}", json={"by": "Bea"}).json()["detail"] == told("Bea")[refusal], path
+    assert told("Ana")["refusals"] == {} and told("Bea")["refusals"] == {EMULATED: told("Bea")["hold_refusal"]}
+    assert driven.put("/api/v1/rules", json=RULES).status_code == 200
+    bea = told("Bea")
+    assert (bea["refusals"], bea["hold_refusal"], bea["release_refusal"]) == ({}, None, None)
+
+
 def test_a_rig_that_nobody_drives_takes_no_test_and_the_refusal_says_how_to_take_it(driven: TestClient) -> None:
     assert act(driven, "release", "Ana").status_code == 200
     refused = submit(driven, "Ana").json()["detail"]

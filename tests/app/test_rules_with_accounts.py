@@ -46,6 +46,41 @@ def test_only_engineers_and_administrators_read_the_log(person: Person) -> None:
     assert answers == [403, 403, 200, 200]
 
 
+def test_everybody_reads_the_rules_and_who_approves(person: Person) -> None:
+    head, viewer = person(Role.ADMINISTRATOR, "Chief"), person(Role.VIEWER, "Reader")
+    person(Role.OPERATOR, "Olga")
+    for one in (head, viewer):
+        said = one.get("/settings").text
+        assert "Rules of the laboratory" in said and "/settings/rules.js" in said
+        form = said.partition('id="rules-form"')[2].partition("</form>")[0]
+        assert ("disabled" in form) is (one is viewer)
+    assert head.put(f"{V1}/rules", json=RULES | {"approvals": True, "approvers": ["Olga"]}).status_code == 200
+    assert viewer.get(f"{V1}/rules").json()["approvers"] == ["Olga"]
+    asked = head.post(f"{V1}/runs", json={"plan": plan()}).json()["runs"][0]["id"]
+    (seen,) = [one for one in viewer.get(f"{V1}/approvals").json()["approvals"] if one["id"] == asked]
+    assert seen["refusal"].startswith("Administrators approve, and so do Olga.")
+    assert head.post(f"{V1}/runs/{asked}/cancel", json={}).status_code == 200
+    assert head.put(f"{V1}/rules", json=RULES).status_code == 200
+
+
+def test_the_lab_page_says_to_each_what_the_person_may_do_about_a_held_queue(person: Person) -> None:
+    head, driver, other = person(Role.ADMINISTRATOR, "Boss"), person(Role.OPERATOR, "Dina"), person(Role.OPERATOR, "Omar")
+    assert head.put(f"{V1}/rules", json=RULES | {"one_driver": True}).status_code == 200
+    assert driver.post(f"{CONTROL}/take", json={}).status_code == 200
+    assert driver.post(f"{V1}/queue/hold", json={"reason": "oil"}).status_code == 200
+    queued = head.put(f"{V1}/rules", json=RULES), head.post(f"{V1}/runs", json={"plan": plan()})
+    assert head.put(f"{V1}/rules", json=RULES | {"one_driver": True}).status_code == 200
+    for one in (driver, other):
+        said = one.get("/lab").text
+        assert '<span data-lacks="operator">an operator releases the queue</span>' in said
+        button = said.partition('id="release"')[2].partition("</button>")[0]
+        assert ("disabled" in button and "Dina drives Emulated laboratory" in button) is (one is other)
+    assert driver.post(f"{V1}/queue/release", json={}).status_code == 200
+    assert driver.post(f"{CONTROL}/release", json={}).status_code == 200
+    assert head.put(f"{V1}/rules", json=RULES).status_code == 200 and queued[1].status_code == 201
+    assert head.post(f"{V1}/runs/{queued[1].json()['runs'][0]['id']}/cancel", json={}).status_code == 200
+
+
 def test_the_account_drives_and_approves_whatever_name_a_request_gives(lab: TestClient, person: Person) -> None:
     head, driver, other = person(Role.ADMINISTRATOR, "Head"), person(Role.ENGINEER, "Dora"), person(Role.ENGINEER, "Otto")
     assert other.put(f"{V1}/rules", json=RULES | {"one_driver": True}).status_code == 403

@@ -14,9 +14,10 @@ const RENEW_MS = 60_000;
 
 /**
  * Show who drives the rigs that `wanted` chooses, and keep the control of the reader while the page is visible.
- * @param {HTMLElement} host @param {(rig: Driven) => boolean} wanted @param {{controls?: boolean}} [options]
+ * @param {HTMLElement} host @param {(rig: Driven) => boolean} wanted
+ * @param {{controls?: boolean, told?: (control: import("./withheld.js").Control) => void}} [options] `told` hears what the service says
  */
-export function controlLine(host, wanted, { controls = true } = {}) {
+export function controlLine(host, wanted, { controls = true, told = () => undefined } = {}) {
   let renewed = 0;
   let note = "";
 
@@ -65,7 +66,9 @@ export function controlLine(host, wanted, { controls = true } = {}) {
   }
 
   async function show() {
-    const { one_driver, may_take_over, rigs } = await api.get(`/control?by=${encodeURIComponent(person())}`);
+    const control = await api.get(`/control?by=${encodeURIComponent(person())}`);
+    const { one_driver, may_take_over, rigs } = control;
+    told(control);
     host.hidden = !one_driver;
     if (!one_driver) return OFF_MS;
     const chosen = rigs.filter(wanted);

@@ -1,5 +1,6 @@
 // @ts-check
 // Hold and release of the queue: the banner says who holds it, since when and why.
+import { withhold } from "../control/withheld.js";
 import { byId } from "../dom.js";
 import { person } from "../person.js";
 import { clock } from "./words.js";
@@ -7,9 +8,11 @@ import { clock } from "./words.js";
 /** @type {(path: string, data: object) => Promise<void>} */
 let send;
 
-/** @param {any} queue @param {(path: string, data: object) => Promise<void>} change */
-export function holding(queue, change) {
+/** @param {any} queue @param {(path: string, data: object) => Promise<void>} change @param {import("../control/withheld.js").Control} control */
+export function holding(queue, change, control) {
   send = change;
+  withhold(byId("hold-form").querySelector("button"), control.hold_refusal);
+  withhold(byId("release"), control.release_refusal);
   byId("held").hidden = !queue.held;
   byId("running-next").hidden = queue.held;
   byId("hold-form").hidden = queue.held;

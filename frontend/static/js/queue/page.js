@@ -2,6 +2,7 @@
 // The page of the queue: it shows what the service says every 1.5 s, and at once after each change.
 import { api, explain } from "../api.js";
 import { controlLine } from "../control/line.js";
+import { UNKNOWN, withhold } from "../control/withheld.js";
 import { byId, el, renew } from "../dom.js";
 import { person } from "../person.js";
 import { toast } from "../toast.js";
@@ -16,6 +17,9 @@ const PERIOD_MS = 1500;
 const rows = new Map();
 /** @type {import("./waiting.js").Waiting[]} */
 let line = [];
+let control = UNKNOWN;
+/** @type {any} */
+let latest = null;
 let dragged = "";
 let timer = 0;
 const body = byId("waiting-rows");
@@ -92,15 +96,19 @@ function bulk() {
   const all = byId("select-all");
   all.checked = count > 0 && count === line.length;
   all.indeterminate = count > 0 && count < line.length;
+  const why = line.filter(({ id }) => rows.get(id)?.check.checked).map(({ rig_id }) => control.refusals[rig_id]).find(Boolean);
+  for (const id of ["bulk-top", "bulk-priority", "bulk-cancel"]) withhold(byId(id), why);
 }
 
 /** @param {any} queue */
 function show(queue) {
-  holding(queue, change);
-  showRunning(queue.running, async (id) => {
+  latest = queue;
+  holding(queue, change, control);
+  const cancelOne = async (/** @type {string} */ id) => {
     await api.post(`/runs/${id}/cancel`, { by: person() }).catch((error) => refused(explain(error)));
     refresh();
-  });
+  };
+  showRunning(queue.running, cancelOne, control.refusals);
   byId("summary").textContent = summary(queue);
   byId("worker-down").hidden = queue.worker_alive;
   if (!dragged) showWaiting(queue);
@@ -129,7 +137,7 @@ function showWaiting(queue) {
   line.forEach((one, index) => {
     const row = rows.get(one.id) ?? new WaitingRow(one, acts);
     rows.set(one.id, row);
-    row.update(one, index === line.length - 1);
+    row.update(one, index === line.length - 1, control.refusals[one.rig_id]);
     if (body.children[index] !== row.node) body.insertBefore(row.node, body.children[index] ?? null);
   });
   if (focused && body.contains(focused) && document.activeElement !== focused) focused.focus();
@@ -139,6 +147,7 @@ function showWaiting(queue) {
 /** @param {any[]} undoable */
 function showUndo(undoable) {
   byId("undo").hidden = !undoable.length;
+  const refusals = control.approvals ? {} : control.refusals; // what waits for approval needs no driver
   const items = undoable.map((one) =>
     el(
       "li",
@@ -146,7 +155,15 @@ function showUndo(undoable) {
       el("span", {}, el("a", { href: `/runs/${one.id}` }, `Run ${one.number}, ${one.name}`), `: ${one.reason}`),
       el(
         "button",
-        { type: "button", class: "quiet small", "data-needs": "operator", "data-undo": one.id, "aria-label": `Undo the cancel of run ${one.number}` },
+        {
+          type: "button",
+          class: "quiet small",
+          "data-needs": "operator",
+          "data-undo": one.id,
+          "aria-label": `Undo the cancel of run ${one.number}`,
+          disabled: one.rig_id in refusals,
+          title: refusals[one.rig_id],
+        },
         "Undo the cancel",
       ),
     ),
@@ -190,4 +207,10 @@ byId("undo-list").addEventListener("click", (/** @type {any} */ event) => {
   if (button) restore([button.dataset.undo]);
 });
 refresh();
-controlLine(byId("control"), (rig) => Boolean(rig.driver) || line.some((one) => one.rig_id === rig.rig_id) || rig.rig_id === "emulated");
+const shown = (/** @type {any} */ rig) => Boolean(rig.driver) || line.some((one) => one.rig_id === rig.rig_id) || rig.rig_id === "emulated";
+controlLine(byId("control"), shown, {
+  told: (said) => {
+    control = said;
+    if (latest) show(latest);
+  },
+});

@@ -4,8 +4,8 @@ import { cancelConfirmed } from "../confirm.js";
 import { byId, el, renew } from "../dom.js";
 import { clock } from "./words.js";
 
-/** @param {any[]} running @param {(id: string) => void} cancel */
-export function showRunning(running, cancel) {
+/** @param {any[]} running @param {(id: string) => void} cancel @param {Record<string, string>} refusals of rigs that the person does not drive */
+export function showRunning(running, cancel, refusals) {
   byId("running-table").hidden = !running.length;
   byId("running-none").hidden = running.length > 0;
   const rows = running.map((run) =>
@@ -27,7 +27,14 @@ export function showRunning(running, cancel) {
         { class: "acts", "data-needs": "operator" },
         el(
           "button",
-          { type: "button", class: "quiet small", "data-cancel": run.id, "aria-label": `Cancel run ${run.number}, ${run.name}` },
+          {
+            type: "button",
+            class: "quiet small",
+            "data-cancel": run.id,
+            "aria-label": `Cancel run ${run.number}, ${run.name}`,
+            disabled: run.rig_id in refusals,
+            title: refusals[run.rig_id],
+          },
           "Cancel",
         ),
       ),

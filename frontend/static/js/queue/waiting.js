@@ -1,5 +1,6 @@
 // @ts-check
 // One waiting test as a row that stays the same element while its facts change: it keeps focus, selection and menus.
+import { withhold } from "../control/withheld.js";
 import { el } from "../dom.js";
 import { clock, paceWords, span } from "./words.js";
 
@@ -58,8 +59,8 @@ export class WaitingRow {
     );
   }
 
-  /** @param {Waiting} one @param {boolean} last */
-  update(one, last) {
+  /** @param {Waiting} one @param {boolean} last @param {string | undefined} refusal why the person may not change it */
+  update(one, last, refusal) {
     text(this.position, String(one.position));
     text(this.link, one.name);
     text(this.facts, `run ${one.number}, ${paceWords(one.pace)}${one.retry_of ? ", retry" : ""}`);
@@ -81,8 +82,10 @@ export class WaitingRow {
       [this.cancel, `Cancel run ${one.number}, ${one.name}`],
     ])
       if (node.getAttribute("aria-label") !== label) node.setAttribute("aria-label", label);
-    this.top.disabled = this.up.disabled = one.position === 1;
-    this.down.disabled = last;
+    for (const node of [this.top, this.up]) withhold(node, refusal, one.position === 1);
+    withhold(this.down, refusal, last);
+    for (const node of [this.priority, this.cancel]) withhold(node, refusal);
+    this.handle.hidden = Boolean(refusal);
   }
 }
 

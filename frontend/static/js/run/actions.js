@@ -3,10 +3,14 @@ import { el } from "../dom.js";
 import { downloadMenu } from "../downloads.js";
 import { ended } from "./facts.js";
 
-/** The button that cancels a test which has not ended. @param {any} run @param {(button: HTMLButtonElement) => void} stop @returns {HTMLElement[]} */
-export function cancelling(run, stop) {
+/**
+ * The button that cancels a test which has not ended; `refusal` says why the person may not.
+ * @param {any} run @param {(button: HTMLButtonElement) => void} stop @param {string | undefined} refusal @returns {HTMLElement[]}
+ */
+export function cancelling(run, stop, refusal) {
   if (ended(run.state)) return [];
-  const cancel = el("button", { type: "button", class: "quiet stop", "data-needs": "operator", on: { click: () => stop(cancel) } }, run.state === "to approve" ? "Withdraw this test" : "Cancel this test");
+  const withheld = run.state === "to approve" ? undefined : refusal; // who submitted it withdraws it, and drives nothing
+  const cancel = el("button", { type: "button", class: "quiet stop", "data-needs": "operator", disabled: Boolean(withheld), title: withheld, on: { click: () => stop(cancel) } }, run.state === "to approve" ? "Withdraw this test" : "Cancel this test");
   return [cancel];
 }
 

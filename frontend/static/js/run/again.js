@@ -6,10 +6,10 @@ import { person } from "../person.js";
 import { ended } from "./facts.js";
 
 /**
- * @param {any} run @param {(reason: string) => void} refused @param {() => void} changed
+ * @param {any} run @param {string | undefined} refusal why the person may do neither @param {(reason: string) => void} refused @param {() => void} changed
  * @returns {HTMLElement[]}
  */
-export function again(run, refused, changed) {
+export function again(run, refusal, refused, changed) {
   if (!ended(run.state)) return [];
   const act = (/** @type {string} */ path, /** @type {(answer: any) => void} */ then) => async () => {
     try {
@@ -19,7 +19,7 @@ export function again(run, refused, changed) {
     }
   };
   const button = (/** @type {string} */ label, /** @type {() => void} */ click) =>
-    el("button", { type: "button", class: "quiet", "data-needs": "operator", on: { click } }, label);
+    el("button", { type: "button", class: "quiet", "data-needs": "operator", disabled: Boolean(refusal), title: refusal, on: { click } }, label);
   const retry = button("Retry this test", act("retry", (one) => location.assign(`/runs/${one.id}`)));
   const undoable = run.undo_until && new Date(run.undo_until) > new Date();
   return undoable ? [button("Undo the cancel", act("undo-cancel", changed)), retry] : [retry];

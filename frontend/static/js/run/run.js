@@ -2,6 +2,7 @@
 import { api, explain } from "../api.js";
 import { cancelConfirmed } from "../confirm.js";
 import { controlLine } from "../control/line.js";
+import { UNKNOWN } from "../control/withheld.js";
 import { byId, renew } from "../dom.js";
 import { person } from "../person.js";
 import { loading } from "../ready.js";
@@ -32,6 +33,7 @@ let declared = { measures: [], channels: {} };
 /** @type {{store: Store, view: View, transport: Transport, tiles: import("./tiles.js").Tiles} | null} */
 let shown = null;
 let attempt = 0;
+let control = UNKNOWN;
 /** @type {Deadlines | null} */
 let deadlines = null;
 /** @type {Annotations | null} */
@@ -40,7 +42,7 @@ let annotations = null;
 const seen = Promise.withResolvers();
 
 async function load() {
-  run = await api.get(`/runs/${id}`);
+  [run, control] = await Promise.all([api.get(`/runs/${id}`), api.get(`/control?by=${encodeURIComponent(person())}`)]);
   if (run.template?.startsWith("table3-")) paper ??= (await api.get(`/templates/${run.template}`)).paper;
   show();
 }
@@ -105,7 +107,9 @@ function showDeadlines(timing) {
 
 function showActions() {
   renew(byId("actions"), ...actions(run));
-  renew(byId("stop"), ...cancelling(run, stop), ...again(run, (reason) => (byId("refusal").textContent = reason), () => location.reload()));
+  const refusal = control.refusals[run.rig_id];
+  const refused = (/** @type {string} */ reason) => (byId("refusal").textContent = reason);
+  renew(byId("stop"), ...cancelling(run, stop, refusal), ...again(run, control.approvals ? undefined : refusal, refused, () => location.reload()));
 }
 
 /** @param {HTMLButtonElement} button */
@@ -206,7 +210,12 @@ try {
     void loading(seen.promise);
   }
   poll();
-  if (!ended(run.state)) controlLine(byId("control"), (rig) => rig.rig_id === run.rig_id);
+  const told = (/** @type {import("../control/withheld.js").Control} */ said) => {
+    const before = control.refusals[run.rig_id];
+    control = said;
+    if (control.refusals[run.rig_id] !== before) showActions();
+  };
+  if (!ended(run.state)) controlLine(byId("control"), (rig) => rig.rig_id === run.rig_id, { told });
 } catch (error) {
   complain(error);
 }
