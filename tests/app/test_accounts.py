@@ -273,21 +273,26 @@ def test_names_that_look_like_others_or_like_the_program_are_refused(person: Per
         with pytest.raises(RthsError, match="name"):
             names.checked(name)
     assert names.checked("Jos\u00e9  \u674e") == "Jos\u00e9 \u674e"
-    for name in ("Yıldız Öz", "Nguyễn Văn Ứng", "Kaʻiu Kalā", "ラーメン 太郎 Taro", "김 Minsu", "Αθηνά", "Օհան", "O'Neil-Smith 2"):
+    for name in (
+        "Yıldız Öz",
+        "Nguyễn Văn Ứng",
+        "Kaʻiu Kalā",
+        "ラーメン 太郎 Taro",
+        "김 Minsu",
+        "Αθηνά",
+        "Օհան",
+        "O'Neil-Smith 2",
+    ):
         assert names.checked(name) == name
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("\u0555la Operator", "\u13bela Operator", "\u0410la", "Al\u03bf", "\u2c9fla", "\u10ffla"),
-        *("serv\u0131ce", "SERV\u0130CE", "service.", "s\u00e9rvice", "work-er", "W\u00f8rker", "\uff33ervice"),
-        *("Administrator", "engineer!", "(audit)"),
-    ],
-)
-def test_a_name_that_reads_like_another_or_like_the_program_is_refused(person: Person, name: str) -> None:
-    refused = person(Role.ADMINISTRATOR).post(f"{V1}/accounts", json={"name": name})
-    assert refused.status_code == 422 and refused.json()["errors"][0]["where"] == "name", ascii(name)
+def test_a_name_that_reads_like_another_or_like_the_program_is_refused(person: Person) -> None:
+    administrator = person(Role.ADMINISTRATOR)
+    mixed = ("\u0555la Operator", "\u13bela Operator", "\u0410la", "Al\u03bf", "\u2c9fla", "\u10ffla")
+    program = ("serv\u0131ce", "SERV\u0130CE", "service.", "s\u00e9rvice", "work-er", "W\u00f8rker", "\uff33ervice")
+    for name in (*mixed, *program, "Administrator", "engineer!", "(audit)"):
+        refused = administrator.post(f"{V1}/accounts", json={"name": name})
+        assert refused.status_code == 422 and refused.json()["errors"][0]["where"] == "name", ascii(name)
 
 
 def test_the_sign_in_page_says_where_the_first_link_is_as_long_as_there_is_no_account(tmp_path: Path) -> None:

@@ -60,7 +60,7 @@ def test_an_address_is_believed_from_named_proxies_only(
         monkeypatch.setenv(PROXIES, proxies)
     config = Server(app_of(lab), app_of(lab).state.settings, demonstrate=False).config
     config.load()
-    through = TestClient(config.loaded_app, ADDRESS, client=(peer, 1), raise_server_exceptions=False)  # type: ignore[arg-type]
+    through = TestClient(config.loaded_app, ADDRESS, client=(peer, 1), raise_server_exceptions=False)
     for number in range(6):
         forged = {"x-forwarded-for": f"198.51.100.{number}"}
         asked = {"name": "guessed", "password": "a wrong guess"}

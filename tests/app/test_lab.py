@@ -82,9 +82,7 @@ def test_the_page_says_what_happened_since_a_moment(client: TestClient) -> None:
     assert client.get("/lab/since", params={"moment": "0001-01-01T00:00:00+14:00"}).status_code == 422
 
 
-@pytest.mark.parametrize(
-    ("part", "whole"), [("/lab", "/"), ("/lab/since?moment=2026-11-29", "/"), ("/table4/now", "/table4")]
-)
+@pytest.mark.parametrize(("part", "whole"), [("/lab", "/"), ("/lab/since?moment=2026-11-29", "/"), ("/table4/now", "/table4")])
 def test_the_address_of_a_part_of_a_page_leads_people_to_the_page(client: TestClient, part: str, whole: str) -> None:
     page = {"accept": "text/html,*/*;q=0.8"}
     answer = client.get(part, headers=page, follow_redirects=False)

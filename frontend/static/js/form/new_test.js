@@ -110,10 +110,10 @@ async function replace(what, loaded) {
 
 /** An operator queues plans of the library as they are: the button waits for one, and the sentence above the form says so. */
 function allowQueueing() {
-  const may_queue = may("engineer") || (edits === 0 && source() !== null);
+  const allowed = may("engineer") || (edits === 0 && source() !== null);
   const submit = byId("submit");
-  submit.disabled = queueing || !may_queue;
-  submit.title = may_queue ? submit.dataset.keys : byId("who-queues").textContent;
+  submit.disabled = queueing || !allowed;
+  submit.title = allowed ? submit.dataset.keys : byId("who-queues").textContent;
 }
 
 function edited() {

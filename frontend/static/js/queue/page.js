@@ -158,8 +158,7 @@ function showUndo(undoable) {
         {
           type: "button",
           class: "quiet small",
-          "data-needs": "operator",
-          "data-undo": one.id,
+          ...{ "data-needs": "operator", "data-undo": one.id },
           "aria-label": `Undo the cancel of run ${one.number}`,
           disabled: one.rig_id in refusals,
           title: refusals[one.rig_id],
