@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -86,6 +87,10 @@ def test_the_control_is_taken_asked_for_handed_over_and_given_up(
     expect(line).to_contain_text("You drive Emulated laboratory until")
     expect(line.get_by_role("button", name="Give up the control")).to_be_focused()
     bo = queue_of("Bo Lind", NARROW, color_scheme="dark")
+    hold = bo.get_by_role("button", name="Hold the queue")
+    expect(hold).to_be_disabled()
+    expect(hold).to_have_attribute("title", re.compile("Ana Ruiz drives Emulated laboratory until"))
+    expect(ana.get_by_role("button", name="Hold the queue")).to_be_enabled()
     press(bo, "Ask for the control")
     expect(bo.locator("#control")).to_contain_text("Ana Ruiz sees that you ask.")
     whole(bo)
