@@ -36,7 +36,7 @@ export class Schematic {
     const { clientWidth, clientHeight } = this.box;
     const scale = parseFloat(getComputedStyle(this.box).fontSize) / FONT;
     const [width, height] = [clientWidth / scale, clientHeight / scale];
-    if (width < LEAST.width || height < LEAST.height) return;
+    if (!(width >= LEAST.width && height >= LEAST.height)) return; // also without a size: not in the page yet
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.drawing.build(width, height);
     if (this.last) this.drawing.show(...this.last, true);
