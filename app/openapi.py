@@ -118,7 +118,7 @@ def _statuses(method: str, path: str, operation: dict[str, Any]) -> Iterator[int
     if path not in PROBES:
         yield from (401, 403, 421, 503)
     if method != "get":
-        yield 507
+        yield from (409, 507)
     if "{" in path:
         yield 404
     if "requestBody" in operation:

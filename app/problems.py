@@ -18,6 +18,7 @@ from starlette.routing import compile_path
 from app import headers
 from app.config import is_form
 from app.full import FIX, DiskFull, is_full
+from app.raced import KINDS, is_raced
 from rths_engine.foundation import location
 from rths_engine.foundation.errors import Issue, RecordingError, RthsError, cut, limited
 
@@ -87,6 +88,8 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(OSError, _disk_error)
     for error in (OperationalError, InterfaceError, PoolTimeout):
         app.add_exception_handler(error, _database_error)
+    for kind in KINDS:
+        app.add_exception_handler(kind, _raced)
 
 
 def storage_full(detail: str) -> Response:
@@ -206,6 +209,20 @@ def _database_error(request: Request, error: Exception) -> Response:
     response = problem(503, "The database did not answer; nothing was stored. Try again in a moment.")
     response.headers["Retry-After"] = "5"
     return response
+
+
+def _raced(request: Request, error: Exception) -> Response:
+    """The response 409 where another request changed the same rows at the same moment. The log keeps where it happened."""
+    if not is_raced(error):
+        raise error
+    log.warning(
+        "%s %s: another request changed the same rows at the same moment", request.method, request.url.path, exc_info=error
+    )
+    return problem(
+        409,
+        "What this request names was added, changed or deleted by somebody else at the same moment; nothing was stored. "
+        "Load it again, and repeat the request if it is still needed.",
+    )
 
 
 def _unavailable(_: Request, error: Exception) -> Response:

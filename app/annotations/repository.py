@@ -5,6 +5,7 @@ from __future__ import annotations
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.db import locked
 from app.models import Annotation
 
 
@@ -19,9 +20,9 @@ class AnnotationRepository:
         query = sa.select(Annotation).where(Annotation.run_number == run_number)
         return list(self.session.scalars(query.order_by(Annotation.from_s, Annotation.row)))
 
-    def get(self, run_number: int, annotation_id: str) -> Annotation | None:
-        query = sa.select(Annotation).where(Annotation.run_number == run_number, Annotation.id == annotation_id)
-        return self.session.scalar(query)
+    def locked(self, run_number: int, annotation_id: str) -> Annotation | None:
+        """The annotation as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, Annotation, run_number=run_number, id=annotation_id)
 
     def add(self, annotation: Annotation) -> None:
         self.session.add(annotation)

@@ -57,7 +57,8 @@ class AnnotationService:
         self.rows.remove(self._row(self.runs.get(run_id), annotation_id))
 
     def _row(self, run: Run, annotation_id: str) -> Annotation:
-        found = self.rows.get(run.number, annotation_id)
+        """An annotation of a run as it is now, locked against other writers. Raises NotFound."""
+        found = self.rows.locked(run.number, annotation_id)
         if found is None:
             raise NotFound(f"The run has no annotation {annotation_id}.")
         return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.db import locked
 from app.models import SavedMapping
 
 MOST = 1000  # listed
@@ -27,6 +28,10 @@ class MappingRows:
 
     def get(self, mapping_id: str) -> SavedMapping | None:
         return self.session.scalar(sa.select(SavedMapping).where(SavedMapping.id == mapping_id))
+
+    def locked(self, mapping_id: str) -> SavedMapping | None:
+        """The mapping as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, SavedMapping, id=mapping_id)
 
     def named(self, name: str) -> SavedMapping | None:
         return self.session.scalar(sa.select(SavedMapping).where(SavedMapping.name == name))

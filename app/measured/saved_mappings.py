@@ -48,16 +48,17 @@ class SavedMappings:
         return self.rows.listed(layout)
 
     def get(self, mapping_id: str) -> SavedMapping:
-        saved = self.rows.get(mapping_id)
-        if saved is None:
-            raise NotFound(f"There is no saved mapping {mapping_id}.")
-        return saved
+        return _found(self.rows.get(mapping_id), mapping_id)
+
+    def _locked(self, mapping_id: str) -> SavedMapping:
+        """The mapping with this id as it is now, locked against other writers. Raises NotFound."""
+        return _found(self.rows.locked(mapping_id), mapping_id)
 
     def text(self, mapping_id: str) -> str:
         return mapping_yaml.write(Mapping.read(self.get(mapping_id).mapping))
 
     def rename(self, mapping_id: str, name: str) -> SavedMapping:
-        saved = self.get(mapping_id)
+        saved = self._locked(mapping_id)
         if name.strip() != saved.name:
             saved.name = self._free(name)
             try:
@@ -67,7 +68,7 @@ class SavedMappings:
         return saved
 
     def remove(self, mapping_id: str) -> None:
-        self.rows.remove(self.get(mapping_id))
+        self.rows.remove(self._locked(mapping_id))
 
     def _free(self, name: str) -> str:
         plain = name.strip()
@@ -76,6 +77,12 @@ class SavedMappings:
         if self.rows.named(plain) is not None:
             raise _taken(plain)
         return plain
+
+
+def _found(saved: SavedMapping | None, mapping_id: str) -> SavedMapping:
+    if saved is None:
+        raise NotFound(f"There is no saved mapping {mapping_id}.")
+    return saved
 
 
 def _taken(name: str) -> Conflict:

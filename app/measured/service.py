@@ -143,7 +143,9 @@ class MeasuredService:
     def remove(self, recording_id: str) -> None:
         """Remove a recording. Raises Conflict while something refers to it."""
         recording = self.get(recording_id)
-        self.rows.locked_raw(recording.raw_sha256)
+        name, raw_sha256 = recording.name, recording.raw_sha256
+        self.rows.locked_raw(raw_sha256)
+        recording = self.get(recording_id)  # another request may have removed it before the lock
         uses = self.rows.uses(recording)
         if uses:
             users = ", ".join(f"{count} × {name.replace('_', ' ')}" for name, count in uses.items())
@@ -151,9 +153,9 @@ class MeasuredService:
         try:
             self.rows.remove(recording)
         except IntegrityError:
-            raise Conflict(f"The recording {recording.name} is in use: another request has just started to use it.") from None
+            raise Conflict(f"The recording {name} is in use: another request has just started to use it.") from None
         afterwards(self.session, "after_commit", lambda: self.discard(recording.id))
-        self._forget_raw(recording.raw_sha256)
+        self._forget_raw(raw_sha256)
 
     def mappings(self) -> list[EarlierMapping]:
         """The mappings of earlier imports, newest first, each once."""

@@ -8,6 +8,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
+from app.db import locked
 from app.events.tables import Webhook, WebhookDelivery
 
 AT_ONCE = 20  # deliveries in one round
@@ -26,6 +27,10 @@ class WebhookRows:
 
     def get(self, webhook_id: str) -> Webhook | None:
         return self.session.scalar(sa.select(Webhook).where(Webhook.id == webhook_id))
+
+    def locked(self, webhook_id: str) -> Webhook | None:
+        """The webhook as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, Webhook, id=webhook_id)
 
     def add(self, row: Webhook | WebhookDelivery) -> None:
         self.session.add(row)

@@ -30,10 +30,11 @@ class WebhookService:
 
     def get(self, webhook_id: str) -> Webhook:
         """The webhook with this id. Raises NotFound."""
-        webhook = self.rows.get(webhook_id)
-        if webhook is None:
-            raise NotFound(f"There is no webhook {webhook_id}.")
-        return webhook
+        return _found(self.rows.get(webhook_id), webhook_id)
+
+    def _locked(self, webhook_id: str) -> Webhook:
+        """The webhook with this id as it is now, locked against other writers. Raises NotFound."""
+        return _found(self.rows.locked(webhook_id), webhook_id)
 
     def add(self, given: WebhookIn) -> WebhookAdded:
         """Add a webhook. Its secret is returned once; without one a secret is made."""
@@ -51,7 +52,7 @@ class WebhookService:
 
     def change(self, webhook_id: str, given: WebhookChange) -> WebhookOut:
         """Change address, kinds or whether it is enabled."""
-        webhook = self.get(webhook_id)
+        webhook = self._locked(webhook_id)
         if given.url is not None:
             webhook.url = _checked(given.url)
         if given.kinds is not None:
@@ -62,7 +63,7 @@ class WebhookService:
 
     def test(self, webhook_id: str) -> DeliveryOut:
         """Queue a delivery that tests the webhook; it is sent within about a second."""
-        delivery = WebhookDelivery(webhook=self.get(webhook_id), event=None, next_at=datetime.now(UTC))
+        delivery = WebhookDelivery(webhook=self._locked(webhook_id), event=None, next_at=datetime.now(UTC))
         self.rows.add(delivery)
         return _delivery(delivery)
 
@@ -71,13 +72,19 @@ class WebhookService:
         return [_delivery(one) for one in self.rows.deliveries(self.get(webhook_id), LOGGED)]
 
     def remove(self, webhook_id: str) -> None:
-        self.rows.remove(self.get(webhook_id))
+        self.rows.remove(self._locked(webhook_id))
 
     def _out(self, webhook: Webhook) -> WebhookOut:
         last = self.rows.deliveries(webhook, 1)
         out = WebhookOut.model_validate(webhook)
         out.last = _delivery(last[0]) if last else None
         return out
+
+
+def _found(webhook: Webhook | None, webhook_id: str) -> Webhook:
+    if webhook is None:
+        raise NotFound(f"There is no webhook {webhook_id}.")
+    return webhook
 
 
 def _checked(url: str) -> str:

@@ -35,6 +35,11 @@ class RigRepository:
 
     def remove(self, rig: Rig) -> None:
         self.session.delete(rig)
+        self.session.flush()
+
+    def store(self) -> None:
+        """Store what was changed."""
+        self.session.flush()
 
     def tests(self, state: State) -> dict[str, int]:
         """Number of tests in a state on each rig."""

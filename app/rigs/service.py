@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import uuid
 
+from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
 from app.jobs.states import State
@@ -15,6 +16,8 @@ from app.rigs.schemas import RigIn, RigKind, RigOut
 from rths_engine.foundation.errors import Issue, PlanError, RthsError
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_plan
+
+RETIRE = "Retire it instead: it then takes no more tests."
 
 
 class RigService:
@@ -66,7 +69,10 @@ class RigService:
         """Add a rig. Raises Conflict for a name that another has."""
         self._check(given)
         rig = Rig(id=str(uuid.uuid4()), **_stored(given))
-        self.rigs.add(rig)
+        try:
+            self.rigs.add(rig)
+        except IntegrityError:  # another request took the name meanwhile
+            raise _taken(given.name) from None
         return self.shown(rig.id)
 
     def change(self, rig_id: str, given: RigIn) -> RigOut:
@@ -77,6 +83,10 @@ class RigService:
             raise Conflict(f"{rig.name} is the rig of every test that names none: it stays emulated and takes tests.")
         for name, value in _stored(given).items():
             setattr(rig, name, value)
+        try:
+            self.rigs.store()
+        except IntegrityError:
+            raise _taken(given.name) from None
         for run in self.rigs.waiting(rig.id):
             if issues := exceeded(read_plan(run.plan), rig):
                 raise Conflict(f"Run {run.number}, {run.name}, waits for {rig.name} and would not fit: {issues[0]}.")
@@ -85,17 +95,21 @@ class RigService:
     def remove(self, rig_id: str) -> None:
         """Delete a rig that no run names. Raises Conflict otherwise."""
         rig = self._locked(rig_id)
+        name = rig.name
         if rig.id == EMULATED:
             raise Conflict(f"{rig.name} is the rig of every test that names none. It cannot be deleted.")
         if used := self.rigs.used(rig_id):
             runs = "1 run names" if used == 1 else f"{used} runs name"
-            raise Conflict(f"{runs} {rig.name}, so it cannot be deleted. Retire it instead: it then takes no more tests.")
-        self.rigs.remove(rig)
+            raise Conflict(f"{runs} {name}, so it cannot be deleted. {RETIRE}")
+        try:
+            self.rigs.remove(rig)
+        except IntegrityError:
+            raise Conflict(f"A test has just been submitted for {name}, so it cannot be deleted. {RETIRE}") from None
 
     def _check(self, given: RigIn, rig: Rig | None = None) -> None:
         other = self.rigs.named(given.name)
         if other is not None and other is not rig:
-            raise Conflict(f"There is already a rig with the name {other.name}.")
+            raise _taken(other.name)
         if given.kind is RigKind.PHYSICAL:
             if given.tests_at_a_time not in (None, 1):
                 problem = "needs to be 1: a physical rig executes one test at a time"
@@ -109,6 +123,10 @@ def _found(rig: Rig | None, rig_id: str) -> Rig:
     if rig is None:
         raise NotFound(f"There is no rig {rig_id}.")
     return rig
+
+
+def _taken(name: str) -> Conflict:
+    return Conflict(f"There is already a rig with the name {name}.")
 
 
 def _stored(given: RigIn) -> dict[str, object]:

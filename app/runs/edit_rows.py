@@ -8,7 +8,7 @@ from datetime import datetime
 import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
-from app.db import lock
+from app.db import lock, locked, put
 from app.jobs.states import State
 from app.models import Diagnosis, DiagnosisInput, Rules, Run, RunView
 from app.runs import values
@@ -75,12 +75,15 @@ class ViewRows:
         """Let one person at a time save views, until the end of the transaction: by the row of the laboratory's rules."""
         lock(self.session, Rules.id, Rules.id == 1)
 
-    def get(self, view_id: int) -> RunView | None:
-        return self.session.get(RunView, view_id)
+    def locked(self, view_id: int) -> RunView | None:
+        """The view as it is now, locked against other writers until the end of the transaction."""
+        return locked(self.session, RunView, id=view_id)
 
-    def add(self, view: RunView) -> None:
-        self.session.add(view)
-        self.session.flush()
+    def put(self, name: str, query: str, saved_by: str, saved_at: datetime) -> RunView:
+        """Store a view in place of the one with this name, also where others do so at the same moment."""
+        put(self.session, RunView, "name", name=name, query=query, saved_by=saved_by, saved_at=saved_at)
+        stored = sa.select(RunView).where(RunView.name == name).execution_options(populate_existing=True)
+        return self.session.scalars(stored).one()
 
     def remove(self, view: RunView) -> None:
         self.session.delete(view)

@@ -26,19 +26,14 @@ class ViewService:
     def save(self, name: str, query: str, by: str) -> RunView:
         """Save a view, in place of the one with the same name. Raises Conflict where there are too many."""
         self.rows.lock()
-        view = self.rows.named(name)
-        if view is None:
-            if len(self.rows.listed()) >= MOST_VIEWS:
-                raise Conflict(f"There are {MOST_VIEWS} saved views, which is the limit. Delete one first.")
-            view = RunView(name=name)
-        view.query, view.saved_by, view.saved_at = query.removeprefix("?"), named(by), datetime.now(UTC)
-        self.rows.add(view)
-        return view
+        if self.rows.named(name) is None and len(self.rows.listed()) >= MOST_VIEWS:
+            raise Conflict(f"There are {MOST_VIEWS} saved views, which is the limit. Delete one first.")
+        return self.rows.put(name, query.removeprefix("?"), named(by), datetime.now(UTC))
 
     def remove(self, view_id: str) -> None:
         """Delete a view. Raises NotFound."""
         known = view_id.isascii() and view_id.isdecimal() and len(view_id) < 10
-        view = self.rows.get(int(view_id)) if known else None
+        view = self.rows.locked(int(view_id)) if known else None
         if view is None:
             raise NotFound(f"There is no saved view {view_id}.")
         self.rows.remove(view)
