@@ -20,7 +20,6 @@ from app.accounts.schemas import (
 )
 from app.accounts.service import AccountService
 from app.models import Account
-from app.openapi import told
 
 router = APIRouter(prefix="/api/v1/accounts", tags=["accounts"])
 
@@ -32,14 +31,14 @@ def listed(accounts: Accounts) -> AccountList:
     return AccountList(accounts=[_out(one) for one in accounts.listed()])
 
 
-@router.post("", status_code=201, responses=told(409))
+@router.post("", status_code=201)
 @allowed(Role.ADMINISTRATOR, tokens=False)
 def add(asked: Annotated[NewAccount, Body()], accounts: Accounts) -> LinkMade:
     """Add an account. The answer holds a one-time link by which its owner chooses the password."""
     return _link(accounts, accounts.add(asked.name, Role[asked.role.upper()]))
 
 
-@router.patch("/{account_id}", responses=told(409))
+@router.patch("/{account_id}")
 @allowed(Role.ADMINISTRATOR, tokens=False)
 def change(account_id: str, asked: Annotated[AccountChange, Body()], accounts: Accounts, browser: OneBrowser) -> AccountOut:
     """Change the role of an account, or disable or enable it.
@@ -55,7 +54,7 @@ def change(account_id: str, asked: Annotated[AccountChange, Body()], accounts: A
     return _out(account)
 
 
-@router.post("/{account_id}/password-link", status_code=201, responses=told(409))
+@router.post("/{account_id}/password-link", status_code=201)
 @allowed(Role.ADMINISTRATOR, tokens=False)
 def password_link(account_id: str, accounts: Accounts) -> LinkMade:
     """Make a one-time link by which the owner of an account chooses a new password. It replaces earlier links."""

@@ -56,7 +56,7 @@ def read_link(asked: Annotated[LinkIn, Body()], accounts: Accounts) -> LinkOut:
     return LinkOut(makes="password", name=account.name, replaces=account.password is not None)
 
 
-@router.post("/sign-in/link", status_code=204, response_class=Response, responses=told(404, 409, 503))
+@router.post("/sign-in/link", status_code=204, response_class=Response, responses=told(404, 503))
 @allowed(ANYONE)
 def use_link(
     asked: Annotated[LinkUse, Body()], accounts: Accounts, signing: Signing, browser: OneBrowser, response: Response
@@ -76,7 +76,7 @@ def me(who: Who) -> Me:
     return Me.model_validate({"name": who.name, "role": who.role.name.lower(), "how": who.how, "scopes": scopes})
 
 
-@router.post("/account/password", status_code=204, response_class=Response, responses=told(409, 429, 503))
+@router.post("/account/password", status_code=204, response_class=Response, responses=told(429, 503))
 @allowed(Role.VIEWER, tokens=False)
 def change_password(
     asked: Annotated[NewPassword, Body()], who: Who, accounts: Accounts, signing: Signing, browser: OneBrowser
@@ -100,7 +100,7 @@ def sessions(who: Who, signing: Signing) -> SessionList:
     return SessionList(sessions=[one.model_copy(update={"present": one.id == who.credential_id}) for one in listed])
 
 
-@router.delete("/account/sessions", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/account/sessions", status_code=204, response_class=Response)
 @allowed(Role.VIEWER, tokens=False)
 def end_sessions(who: Who, signing: Signing, browser: OneBrowser) -> None:
     """Sign out everywhere else: end all other sessions of the own account."""
@@ -108,7 +108,7 @@ def end_sessions(who: Who, signing: Signing, browser: OneBrowser) -> None:
     browser.forgets(who.account_id)
 
 
-@router.delete("/account/sessions/{session_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/account/sessions/{session_id}", status_code=204, response_class=Response)
 @allowed(Role.VIEWER, tokens=False)
 def end_session(session_id: str, who: Who, signing: Signing, browser: OneBrowser) -> None:
     """End a session of the own account."""
@@ -123,7 +123,7 @@ def tokens(who: Who, signing: Signing) -> TokenList:
     return TokenList(tokens=[TokenOut.model_validate(one) for one in signing.tokens(_own(who))])
 
 
-@router.post("/account/tokens", status_code=201, responses=told(409))
+@router.post("/account/tokens", status_code=201)
 @allowed(Role.VIEWER, tokens=False)
 def add_token(asked: Annotated[NewToken, Body()], who: Who, accounts: Accounts, signing: Signing) -> TokenMade:
     """Make an API token for a program. Its key is shown only now; its scopes stay within the role of the account."""
@@ -131,7 +131,7 @@ def add_token(asked: Annotated[NewToken, Body()], who: Who, accounts: Accounts, 
     return TokenMade(**TokenOut.model_validate(token).model_dump(), token=key)
 
 
-@router.delete("/account/tokens/{token_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/account/tokens/{token_id}", status_code=204, response_class=Response)
 @allowed(Role.VIEWER, tokens=False)
 def revoke_token(token_id: str, who: Who, signing: Signing, browser: OneBrowser) -> None:
     """Revoke an API token of the own account."""

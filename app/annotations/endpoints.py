@@ -10,7 +10,6 @@ from fastapi.responses import Response
 from app.access import Role, allowed
 from app.annotations.dependency import Annotations
 from app.annotations.schemas import AnnotationList, AnnotationOut, Written
-from app.openapi import told
 
 router = APIRouter(prefix="/api/v1/runs/{run_id}/annotations", tags=["annotations"])
 
@@ -22,14 +21,14 @@ def listed(run_id: str, annotations: Annotations) -> AnnotationList:
     return annotations.listed(run_id)
 
 
-@router.post("", status_code=201, responses=told(409))
+@router.post("", status_code=201)
 @allowed(Role.ENGINEER)
 def add(run_id: str, annotations: Annotations, written: Annotated[Written, Body()]) -> AnnotationOut:
     """Write an annotation at a time of a run, or over a span, on one station or on the whole test."""
     return annotations.add(run_id, written)
 
 
-@router.put("/{annotation_id}", responses=told(409))
+@router.put("/{annotation_id}")
 @allowed(Role.ENGINEER)
 def edit(run_id: str, annotation_id: str, annotations: Annotations, written: Annotated[Written, Body()]) -> AnnotationOut:
     """Replace an annotation."""

@@ -23,7 +23,7 @@ def listed(approvals: Approvals, who: Who, by: Annotated[Storable, Query(max_len
     return approvals.listed(who, who.named(by))
 
 
-@router.post("/{about_id}/approve", responses=told(403, 409))
+@router.post("/{about_id}/approve", responses=told(403))
 @allowed(Role.OPERATOR)
 def approve(about_id: str, approvals: Approvals, who: Who, given: Annotated[Approve, Body()]) -> Decided:
     """Queue a run or a sweep that another person submitted. Exactly what has this digest runs."""
@@ -33,7 +33,7 @@ def approve(about_id: str, approvals: Approvals, who: Who, given: Annotated[Appr
         raise HTTPException(403, str(error)) from None
 
 
-@router.post("/{about_id}/reject", responses=told(403, 409))
+@router.post("/{about_id}/reject", responses=told(403))
 @allowed(Role.OPERATOR)
 def reject(about_id: str, approvals: Approvals, who: Who, given: Annotated[Reject, Body()]) -> Decided:
     """Reject a run or a sweep that another person submitted, with a reason. It ends as cancelled."""

@@ -9,7 +9,6 @@ from fastapi import APIRouter, Body, Query
 from app.access import Role, Who, allowed
 from app.control.dependency import Controlled
 from app.control.schemas import ControlList, ControlOut, Driver, HandOver, RulesIn, TakeOver
-from app.openapi import told
 from app.text import Storable
 
 router = APIRouter(prefix="/api/v1", tags=["control"])
@@ -37,35 +36,35 @@ def shown(control: Controlled, who: Who, by: Annotated[Storable, Query(max_lengt
     return control.shown(who.named(by), who.role is Role.ADMINISTRATOR)
 
 
-@router.post("/control/{rig_id}/take", responses=told(409))
+@router.post("/control/{rig_id}/take")
 @allowed(Role.OPERATOR)
 def take(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
     """Take the control of a rig that nobody drives. It ends 10 minutes after its last renewal."""
     return control.take(rig_id, who.named(person.by))
 
 
-@router.post("/control/{rig_id}/renew", responses=told(409))
+@router.post("/control/{rig_id}/renew")
 @allowed(Role.OPERATOR)
 def renew(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
     """Keep the control for a further 10 minutes. An open page of the driver does so every minute."""
     return control.renew(rig_id, who.named(person.by))
 
 
-@router.post("/control/{rig_id}/release", responses=told(409))
+@router.post("/control/{rig_id}/release")
 @allowed(Role.OPERATOR)
 def release(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
     """Give the control back, so that nobody drives the rig."""
     return control.release(rig_id, who.named(person.by))
 
 
-@router.post("/control/{rig_id}/request", responses=told(409))
+@router.post("/control/{rig_id}/request")
 @allowed(Role.OPERATOR)
 def request(rig_id: str, control: Controlled, who: Who, person: Annotated[Driver, Body()] = NOBODY) -> ControlOut:
     """Ask who drives a rig for its control. The pages of the driver show who asks."""
     return control.ask(rig_id, who.named(person.by))
 
 
-@router.post("/control/{rig_id}/hand-over", responses=told(409))
+@router.post("/control/{rig_id}/hand-over")
 @allowed(Role.OPERATOR)
 def hand_over(rig_id: str, control: Controlled, who: Who, given: Annotated[HandOver, Body()]) -> ControlOut:
     """Give the control of a rig to another person. With accounts, it is an account with at least the role operator."""

@@ -18,7 +18,7 @@ from rths_engine.diagnosis.schema import Pictures, Verdict
 router = APIRouter(prefix="/api/v1/diagnoses", tags=["diagnoses"])
 
 
-@router.post("", status_code=201, responses=told(404, 409))
+@router.post("", status_code=201, responses=told(404))
 @allowed(Role.ENGINEER)
 def submit(asked: Annotated[Asked, Body()], diagnoses: Diagnoses) -> DiagnosisOut:
     """Queue a diagnosis, which compares a recording with the models of a plan."""
@@ -72,14 +72,14 @@ def pictures(diagnosis_id: str, diagnoses: Diagnoses) -> Pictures:
     return diagnoses.result(diagnosis_id)[2]
 
 
-@router.post("/{diagnosis_id}/cancel", responses=told(409))
+@router.post("/{diagnosis_id}/cancel")
 @allowed(Role.ENGINEER)
 def cancel(diagnosis_id: str, diagnoses: Diagnoses, person: Asking) -> DiagnosisOut:
     """Cancel a queued or running diagnosis. Only the status *cancelled* remains."""
     return DiagnosisOut.model_validate(diagnoses.cancel(diagnosis_id, person.by))
 
 
-@router.post("/{diagnosis_id}/simulations", status_code=201, responses=told(409))
+@router.post("/{diagnosis_id}/simulations", status_code=201)
 @allowed(Role.ENGINEER)
 def simulate(diagnosis_id: str, diagnoses: Diagnoses, configured: Configured, person: Asking) -> Simulations:
     """Queue the plan and the extended plan as ordinary runs under the recorded excitation, for comparison with the recording.
@@ -90,7 +90,7 @@ def simulate(diagnosis_id: str, diagnoses: Diagnoses, configured: Configured, pe
     return Simulations(before=RunOut.of(before), after=RunOut.of(after))
 
 
-@router.delete("/{diagnosis_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/{diagnosis_id}", status_code=204, response_class=Response)
 @allowed(Role.ENGINEER)
 def remove(diagnosis_id: str, diagnoses: Diagnoses) -> None:
     """Delete a diagnosis that has ended, with its result."""

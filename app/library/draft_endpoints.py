@@ -10,7 +10,6 @@ from fastapi import Path as InPath
 from app.access import Role, allowed
 from app.library.dependency import Drafts
 from app.library.schemas import Closing, DraftDetail, DraftIn, DraftList, DraftOut
-from app.openapi import told
 
 router = APIRouter(prefix="/api/v1/library/drafts", tags=["library of plans"])
 DISCARDED = Closing()
@@ -39,7 +38,7 @@ def one(draft_id: str, drafts: Drafts) -> DraftDetail:
     return drafts.get(draft_id)
 
 
-@router.put("/{draft_id}", responses=told(409))
+@router.put("/{draft_id}")
 @allowed(Role.ENGINEER)
 def save(draft_id: DraftId, asked: Annotated[DraftIn, Body()], drafts: Drafts) -> DraftOut:
     """Keep a plan as typed, valid or not. The status is 409 where another window has saved or closed the draft since.

@@ -79,14 +79,14 @@ def listed(wanted: Annotated[Listing, Query()], plans: KeptPlans) -> LibraryList
     return plans.listed(wanted.wanted())
 
 
-@router.post("/plans", status_code=201, responses=told(404, 409))
+@router.post("/plans", status_code=201, responses=told(404))
 @allowed(Role.ENGINEER)
 def save(asked: Annotated[NewPlan, Body()], plans: KeptPlans) -> SavedOut:
     """Keep a valid plan under a name, as version 1."""
     return plans.save(asked)
 
 
-@router.post("/import", status_code=201, openapi_extra=YAML, responses=told(409))
+@router.post("/import", status_code=201, openapi_extra=YAML)
 @allowed(Role.ENGINEER)
 async def import_yaml(request: Request, about: Annotated[Imported, Query()], plans: KeptPlans, texts: Plans) -> SavedOut:
     """Keep a plan from YAML under a name (default: the name in the plan), as version 1."""
@@ -105,7 +105,7 @@ def one(plan_id: str, plans: KeptPlans) -> LibraryPlanDetail:
     return plans.get(plan_id)
 
 
-@router.patch("/plans/{plan_id}", responses=told(409))
+@router.patch("/plans/{plan_id}")
 @allowed(Role.ENGINEER)
 def change(plan_id: str, asked: Annotated[Changes, Body()], plans: KeptPlans) -> LibraryPlanDetail:
     """Rename a plan in the library, or give it other tags. Its versions stay as they are."""
@@ -137,7 +137,7 @@ def text(plan_id: str, version: NumberOfVersion, plans: KeptPlans) -> Response:
     return Calculated(TEXT, _text, plans, plan_id, version)
 
 
-@router.post("/plans/{plan_id}/duplicate", status_code=201, responses=told(409))
+@router.post("/plans/{plan_id}/duplicate", status_code=201)
 @allowed(Role.ENGINEER)
 def duplicate(plan_id: str, asked: Annotated[Copy, Body()], plans: KeptPlans) -> SavedOut:
     """Keep a copy of a version (default: the newest) as a plan of its own, with the same tags."""

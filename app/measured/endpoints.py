@@ -50,7 +50,7 @@ def mappings(recordings: Recordings) -> dict[str, list[EarlierMapping]]:
     return {"mappings": recordings.mappings()}
 
 
-@router.post("/preview", response_model=dict[str, Any], responses=told(404, 409, 503))
+@router.post("/preview", response_model=dict[str, Any], responses=told(404, 503))
 @allowed(Role.ENGINEER)
 def preview(asked: Annotated[Preview, Body()], recordings: Recordings) -> Response:
     """Read an uploaded file by a mapping: decimated channels, the findings of the checks, and lags. Nothing is stored.
@@ -60,7 +60,7 @@ def preview(asked: Annotated[Preview, Body()], recordings: Recordings) -> Respon
     return Calculated(recordings.bound(asked.file), recordings.preview, asked)
 
 
-@router.post("", status_code=201, responses=told(404, 409, 503))
+@router.post("", status_code=201, responses=told(404, 503))
 @allowed(Role.ENGINEER)
 def add(asked: Annotated[Import, Body()], recordings: Recordings) -> RecordingDetail:
     """Import an uploaded file by a mapping. The mapping is JSON, or YAML as a string."""
@@ -116,7 +116,7 @@ def mapping(recording_id: str, recordings: Recordings) -> PlainTextResponse:
     return PlainTextResponse(recordings.mapping_text(recording_id), media_type="application/yaml", headers=headers)
 
 
-@router.delete("/{recording_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/{recording_id}", status_code=204, response_class=Response)
 @allowed(Role.ENGINEER)
 def remove(recording_id: str, recordings: Recordings) -> None:
     """Delete a recording that nothing refers to. Its uploaded file is deleted too if no other recording needs it."""

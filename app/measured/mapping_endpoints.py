@@ -22,7 +22,7 @@ def listed(recordings: Recordings) -> SavedMappingList:
     return SavedMappingList(mappings=[SavedMappingOut.model_validate(one) for one in recordings.saved.listed()])
 
 
-@router.post("", status_code=201, responses=told(404, 409, 503))
+@router.post("", status_code=201, responses=told(404, 503))
 @allowed(Role.ENGINEER)
 def save(asked: Annotated[NewMapping, Body()], recordings: Recordings) -> SavedMappingOut:
     """Save a mapping under a name. It is proposed again for every file with the layout of `file`.
@@ -47,7 +47,7 @@ def text(mapping_id: str, recordings: Recordings) -> PlainTextResponse:
     return PlainTextResponse(recordings.saved.text(mapping_id), media_type="application/yaml", headers=headers)
 
 
-@router.patch("/{mapping_id}", responses=told(409))
+@router.patch("/{mapping_id}")
 @allowed(Role.ENGINEER)
 def rename(mapping_id: str, asked: Annotated[NewName, Body()], recordings: Recordings) -> SavedMappingOut:
     """Rename a saved mapping."""

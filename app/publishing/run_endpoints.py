@@ -51,14 +51,14 @@ def recording_matlab(run_id: str, reports: OfRuns) -> Response:
     return CalculatedFile(PACKAGE, f"{run_id}.mat", MATLAB, _write_matlab, reports, run_id)
 
 
-@router.post("/designsafe/check", response_model=Completeness, responses=told(409, 503))
+@router.post("/designsafe/check", response_model=Completeness, responses=told(503))
 @allowed(Role.VIEWER)
 def check(run_id: str, reports: OfRuns, given: Annotated[Metadata, Body()]) -> Response:
     """List every required entity and field that a data set for DesignSafe still needs, with how to mend it."""
     return Calculated(PACKAGE, _missing, reports, run_id, given)
 
 
-@router.post("/designsafe.zip", response_class=FileResponse, responses=file(ZIP) | told(409, 503))
+@router.post("/designsafe.zip", response_class=FileResponse, responses=file(ZIP) | told(503))
 @allowed(Role.VIEWER)
 def designsafe(run_id: str, reports: OfRuns, given: Annotated[Metadata, Body()]) -> Response:
     """A data set for DesignSafe's Data Depot as a ZIP archive. It is refused while a required entity or field is missing."""

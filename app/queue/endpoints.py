@@ -22,7 +22,7 @@ def queue(queued: Queued, limit: Annotated[int, Query(ge=1, le=MOST_RUNS)] = 200
     return queued.state(limit)
 
 
-@router.post("/queue/order", responses=told(404, 409))
+@router.post("/queue/order", responses=told(404))
 @allowed(Role.OPERATOR)
 def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
     """Move queued runs before or after another queued run, or to the top or the bottom of the queue.
@@ -34,7 +34,7 @@ def order(move: Annotated[Move, Body()], queued: Queued) -> QueueOut:
     return queued.state()
 
 
-@router.post("/queue/priority", responses=told(404, 409))
+@router.post("/queue/priority", responses=told(404))
 @allowed(Role.OPERATOR)
 def priority(asked: Annotated[NewPriority, Body()], queued: Queued) -> QueueOut:
     """Give queued runs a priority. Runs of a higher priority start first, whatever their position.
@@ -52,7 +52,7 @@ def cancel(asked: Annotated[Cancelled, Body()], queued: Queued) -> CancelledOut:
     return queued.cancel(asked.runs, asked.by)
 
 
-@router.post("/queue/hold", responses=told(409))
+@router.post("/queue/hold")
 @allowed(Role.OPERATOR)
 def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
     """Hold the queue: queued tests do not start, running tests go on. The reason is shown until the release."""
@@ -60,7 +60,7 @@ def hold(asked: Annotated[HoldIn, Body()], queued: Queued) -> QueueOut:
     return queued.state()
 
 
-@router.post("/queue/release", responses=told(409))
+@router.post("/queue/release")
 @allowed(Role.OPERATOR)
 def release(queued: Queued, person: Asking) -> QueueOut:
     """Release the queue after a hold or an abort, so that queued tests start."""

@@ -8,7 +8,6 @@ from fastapi import APIRouter, Body
 from fastapi.responses import Response
 
 from app.access import Role, allowed
-from app.openapi import told
 from app.rigs.dependency import Rigs
 from app.rigs.schemas import RigChange, RigIn, RigList, RigOut
 
@@ -22,7 +21,7 @@ def listed(rigs: Rigs) -> RigList:
     return RigList(rigs=rigs.listed())
 
 
-@router.post("", status_code=201, responses=told(409))
+@router.post("", status_code=201)
 @allowed(Role.ADMINISTRATOR)
 def add(given: Annotated[RigIn, Body()], rigs: Rigs) -> RigOut:
     """Add a rig. A physical rig executes one test at a time, an emulated rig as many as wished unless it states a number."""
@@ -36,14 +35,14 @@ def one(rig_id: str, rigs: Rigs) -> RigOut:
     return rigs.shown(rig_id)
 
 
-@router.put("/{rig_id}", responses=told(409))
+@router.put("/{rig_id}")
 @allowed(Role.ADMINISTRATOR)
 def change(rig_id: str, given: Annotated[RigChange, Body()], rigs: Rigs) -> RigOut:
     """Change a rig. Refused where a plan that waits for it would exceed a capacity."""
     return rigs.change(rig_id, given)
 
 
-@router.delete("/{rig_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/{rig_id}", status_code=204, response_class=Response)
 @allowed(Role.ADMINISTRATOR)
 def remove(rig_id: str, rigs: Rigs) -> None:
     """Delete a rig that no run names. Retire a rig whose runs are to stay."""

@@ -9,7 +9,6 @@ from fastapi.responses import Response
 
 from app.access import Role, allowed
 from app.dependencies import OneSession, OneStore
-from app.openapi import told
 from app.runs.editing import RunEditing
 from app.runs.schemas import RunOut
 from app.runs.table_schemas import BulkChange, BulkResult, RunChange, TagList
@@ -39,14 +38,14 @@ def bulk(body: Annotated[BulkChange, Body()], runs: Editing) -> BulkResult:
     return runs.bulk(body.action, body.runs, body.tags)
 
 
-@router.patch("/runs/{run_id}", responses=told(409))
+@router.patch("/runs/{run_id}")
 @allowed(Role.ENGINEER)
 def change(run_id: str, body: Annotated[RunChange, Body()], runs: Editing) -> RunOut:
     """Change name, tags, notes or shelf of a run. The plan and its digest stay as they are."""
     return RunOut.of(runs.change(run_id, body))
 
 
-@router.delete("/runs/{run_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/runs/{run_id}", status_code=204, response_class=Response)
 @allowed(Role.ENGINEER)
 def delete(run_id: str, runs: Editing, store: OneStore) -> None:
     """Delete a run. For 7 days it can be restored; after that its row and its recording are removed."""

@@ -58,7 +58,7 @@ class Wanted(BaseModel):
         return Page(self.sort, self.order == "desc", self.limit, self.offset)
 
 
-@router.post("/runs", status_code=201, responses=told(409))
+@router.post("/runs", status_code=201)
 @allowed(Role.OPERATOR, Scope.SUBMIT, Scope.OPERATE)
 def submit(body: Annotated[Submission, Body()], runs: Runs, who: Who) -> Submitted:
     """Queue one plan (`plan`) or several plans (`plans`). If one plan has an error, none is queued.
@@ -93,7 +93,7 @@ def one(run_id: str, runs: Runs) -> RunDetail:
     return RunDetail.of(run, runs.undo_until(run))
 
 
-@router.post("/runs/{run_id}/cancel", responses=told(409))
+@router.post("/runs/{run_id}/cancel")
 @allowed(Role.OPERATOR)
 def cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
     """Cancel a test. A queued test ends now; a running test stops within a second, and the samples so far are stored.
@@ -103,7 +103,7 @@ def cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
     return RunOut.of(runs.cancel(run_id, person.by))
 
 
-@router.post("/runs/{run_id}/undo-cancel", responses=told(409))
+@router.post("/runs/{run_id}/undo-cancel")
 @allowed(Role.OPERATOR)
 def undo_cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
     """Undo the cancel of a queued test within 10 minutes: it is back at its place in the queue.
@@ -113,7 +113,7 @@ def undo_cancel(run_id: str, runs: Runs, person: Asking) -> RunOut:
     return RunOut.of(runs.undo_cancel(run_id, person.by))
 
 
-@router.post("/runs/{run_id}/retry", status_code=201, responses=told(409))
+@router.post("/runs/{run_id}/retry", status_code=201)
 @allowed(Role.OPERATOR)
 def retry(run_id: str, runs: Runs, person: Asking) -> RunOut:
     """Queue the plan of a run that has ended again, on the same rig. The new run names the first one in `retry_of`."""

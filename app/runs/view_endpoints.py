@@ -9,7 +9,6 @@ from fastapi.responses import Response
 
 from app.access import Role, allowed
 from app.dependencies import OneSession
-from app.openapi import told
 from app.runs.table_schemas import ViewIn, ViewList, ViewOut
 from app.runs.views import ViewService
 
@@ -31,7 +30,7 @@ def listed(views: Views) -> ViewList:
     return ViewList(views=[ViewOut.model_validate(one) for one in views.listed()])
 
 
-@router.post("/runs/views", status_code=201, responses=told(409))
+@router.post("/runs/views", status_code=201)
 @allowed(Role.ENGINEER)
 def save(body: Annotated[ViewIn, Body()], views: Views) -> ViewOut:
     """Save a view of the run table under a name; a view with this name is replaced."""

@@ -110,7 +110,7 @@ def results(
     return Calculated(ANALYSIS, _results, sweeps, sweep_id, sort, order == "desc", status, format, offset, limit)
 
 
-@router.post("/{sweep_id}/cancel", responses=told(409))
+@router.post("/{sweep_id}/cancel")
 @allowed(Role.ENGINEER)
 def cancel(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
     """Cancel a sweep. It stops within a second; the points done are kept, and `resume` executes the others.
@@ -121,7 +121,7 @@ def cancel(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
     return exports.out(sweep, sweeps.standing(sweep))
 
 
-@router.post("/{sweep_id}/resume", responses=told(409))
+@router.post("/{sweep_id}/resume")
 @allowed(Role.ENGINEER)
 def resume(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
     """Queue the points of a cancelled or failed sweep that have no result."""
@@ -129,7 +129,7 @@ def resume(sweep_id: str, sweeps: Sweeps, person: Asking) -> SweepOut:
     return exports.out(sweep, sweeps.standing(sweep))
 
 
-@router.delete("/{sweep_id}", status_code=204, response_class=Response, responses=told(409))
+@router.delete("/{sweep_id}", status_code=204, response_class=Response)
 @allowed(Role.ENGINEER)
 def remove(sweep_id: str, sweeps: Sweeps) -> None:
     """Delete a sweep that has ended, with its results."""
@@ -151,7 +151,7 @@ def point(sweep_id: str, point: int, sweeps: Sweeps) -> PointOut:
     )
 
 
-@router.post("/{sweep_id}/points/{point}/run", status_code=201, responses=told(409))
+@router.post("/{sweep_id}/points/{point}/run", status_code=201)
 @allowed(Role.ENGINEER)
 def run(sweep_id: str, point: int, sweeps: Sweeps, person: Asking) -> RunOut:
     """Queue the plan of a point as an ordinary run, whose recording has the full histories."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from app.access import Role, allowed
-from app.openapi import told
 from app.runs.schemas import Asking, RunOut, Submitted
 from app.table4.dependency import Table4
 from app.table4.schemas import TableOut
@@ -20,7 +19,7 @@ def table(table4: Table4) -> TableOut:
     return table4.table()
 
 
-@router.post("", status_code=201, responses=told(409))
+@router.post("", status_code=201)
 @allowed(Role.ENGINEER)
 def submit(table4: Table4, person: Asking) -> Submitted:
     """Queue the twelve simulations of Table IV on the emulated laboratory, with the bundled record."""
