@@ -10,7 +10,7 @@ import sqlalchemy as sa
 from sqlalchemy.orm import Session
 
 from app.access import Role
-from app.db import lock
+from app.db import lock, locked
 from app.models import Account, AccountLink, AccountSession, ApiToken
 
 Keyed = type[AccountSession] | type[ApiToken]
@@ -89,6 +89,10 @@ class AccountRows:
     def tokens(self, account_id: str) -> Sequence[ApiToken]:
         query = sa.select(ApiToken).where(ApiToken.account_id == account_id)
         return self.session.scalars(query.order_by(ApiToken.created_at.desc())).all()
+
+    def locked_token(self, account_id: str, token_id: str) -> ApiToken | None:
+        """An API token of an account, locked against other writers until the end of the transaction."""
+        return locked(self.session, ApiToken, account_id=account_id, id=token_id)
 
     def with_keys(self, table: Keyed, keys: Sequence[str]) -> Iterable[AccountSession | ApiToken]:
         """The sessions or API tokens with these stored keys, their accounts included."""

@@ -109,7 +109,7 @@ class SigningIn:
 
     def revoke(self, account_id: str, token_id: str) -> None:
         """Remove an API token of an account. Raises NotFound."""
-        found = [one for one in self.tokens(account_id) if one.id == token_id]
-        if not found:
+        token = self.rows.locked_token(account_id, token_id)
+        if token is None:
             raise NotFound(f"There is no API token {token_id} of this account.")
-        self.rows.remove(found[0])
+        self.rows.remove(token)

@@ -18,17 +18,22 @@ from typing import Any
 import pytest
 import sqlalchemy as sa
 from argon2 import PasswordHasher
+from fastapi import APIRouter
 from fastapi.testclient import TestClient
+from pydantic import BaseModel
 
 from app import logs
-from app.access import Role
+from app.access import Role, allowed
 from app.accounts import passwords
 from app.accounts.service import AccountService
 from app.accounts.throttle import Throttle
+from app.calculations.answer import calculator
+from app.calculations.orders import Here
 from app.config import Settings
 from app.db import unit_of_work
+from app.dependencies import OneSession
 from app.main import create_app
-from app.models import Diagnosis, MeasuredRecording, SavedMapping, Sweep
+from app.models import Diagnosis, DiagnosisInput, MeasuredRecording, RunView, SavedMapping, Sweep
 from app.observing import HEADER
 from app.openapi_examples import MAPPING, RECORDING, REQUESTS, RUN, SHA256, WAITING
 from tests.app.conftest import ADDRESS, HERE, app_of, plan, unpack_earlier
@@ -44,12 +49,15 @@ COMPUTES = {
         "runs/{run_id}/designsafe/check", "runs/{run_id}/designsafe.zip", "sign-in/link/read",
     )
 }  # fmt: skip
+ANNOTATION = f"{V1}/runs/{{run_id}}/annotations/{{annotation_id}}"
 FILES = {
     *(f"POST {V1}/{path}" for path in ("motions", "recordings/files", "recordings/batches")),
     *(f"{method} {V1}/laboratory/logo" for method in ("PUT", "DELETE")),
     f"DELETE {V1}/motions/{{name}}",
 }
 """What changes files of the store: test_equal_uploads.py."""
+WRITE_NO_ROWS = {f"POST {V1}/abort", f"PUT {V1}/laboratory", f"POST {V1}/sign-in", f"POST {V1}/account/password"}
+"""As their examples are sent here: the latch, a file, and passwords that are refused."""
 CHANGING = [one for one in ROUTES if not one.startswith("GET ") and one not in COMPUTES | FILES]
 
 
@@ -101,11 +109,11 @@ class Laboratory:
             "plan_id": lambda: self.post("/library/plans", plan=plan(), name=str(uuid.uuid4()))["id"],
             "draft_id": self._draft,
             "mapping_id": self._mapping,
-            "diagnosis_id": lambda: self.copied(Diagnosis),
+            "diagnosis_id": self._diagnosis,
             "recording_id": lambda: self.copied(MeasuredRecording),
-            "account_id": self._account,
+            "account_id": lambda: self._account(route),
             "session_id": self._session,
-            "token_id": lambda: self._token(route),
+            "token_id": self._token,
         }
         self.rows, self.fresh = {}, uuid.uuid4().hex[:8]
         for name in [part.partition("}")[0] for part in route.split("{")[1:]]:
@@ -130,6 +138,16 @@ class Laboratory:
             headers={**headers, **({"content-type": kind} if body is not None else {})},
         )
 
+    def together(self, route: str, rival: str) -> list[Any]:
+        """The answers to a request about new rows and, where it writes, to a rival that came just before its first write."""
+        app_of(self.client).state.throttle = Throttle()
+        if not self.client.get(f"{V1}/account").is_success:
+            assert sign_in(self.client, "Ada").status_code == 204
+        self.prepare(route)
+        with just_before_the_first_write(self.client, lambda: self.send(rival)) as answered:
+            first = self.send(route, **{HEADER: FIRST})
+        return [first, *answered]
+
     def _run(self, route: str) -> str:
         if "annotations" in route or route.endswith("/diagnoses"):
             return self.recorded
@@ -149,7 +167,17 @@ class Laboratory:
             session.add(SavedMapping(**made, mapping=MAPPING, saved_by="Ada", saved_at=datetime.now(UTC)))
         return str(made["id"])
 
-    def _account(self) -> str:
+    def _diagnosis(self) -> str:
+        made = self.copied(Diagnosis, Diagnosis.verdict.is_not(None))
+        with unit_of_work(app_of(self.client).state.sessions) as session:
+            number = session.scalars(sa.select(Diagnosis.number).where(Diagnosis.id == made)).one()
+            session.add(DiagnosisInput(diagnosis_number=number, place=0, name="Brace", run_id=self.recorded))
+        return made
+
+    def _account(self, route: str) -> str:
+        accounts = self.client.get(f"{V1}/accounts").json()["accounts"]
+        if "token_id" in route:
+            return str(next(one["id"] for one in accounts if one["name"] == "Ada"))
         self.post("/accounts", name=f"Ana {uuid.uuid4().hex}"[:40], role="viewer")
         return str(self.client.get(f"{V1}/accounts").json()["accounts"][-1]["id"])
 
@@ -159,7 +187,7 @@ class Laboratory:
         sessions = self.client.get(f"{V1}/account/sessions").json()["sessions"]
         return str(next(one["id"] for one in sessions if not one["present"]))
 
-    def _token(self, route: str) -> str:
+    def _token(self) -> str:
         return str(self.post("/account/tokens", name="sweeps", scopes=["read"], days=1)["id"])
 
 
@@ -168,12 +196,15 @@ def laboratory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Laboratory]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(passwords, "HASHER", PasswordHasher(time_cost=1, memory_cost=8, parallelism=1))
         settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("moment")), embedded_worker=False)
-        with TestClient(create_app(settings), ADDRESS, client=HERE, raise_server_exceptions=False) as client:
+        app = create_app(settings)
+        app.dependency_overrides[calculator] = Here
+        with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as client:
             with unit_of_work(app_of(client).state.sessions) as session:
                 AccountService(session).add("Ada", Role.ADMINISTRATOR, PASSWORD)
             assert sign_in(client, "Ada").status_code == 204
             run = next(one for one in client.get(f"{V1}/runs").json()["runs"] if one["name"] == "Damper with play")
             recording = client.get(f"{V1}/recordings").json()["recordings"][0]
+            assert client.post(f"{V1}/sweeps", json=REQUESTS[f"POST {V1}/sweeps"]()).status_code == 201
             yield Laboratory(client, run["id"], shown={RECORDING: recording["id"], SHA256: recording["raw_sha256"]})
 
 
@@ -200,12 +231,52 @@ def just_before_the_first_write(client: TestClient, act: Callable[[], Any]) -> I
 def test_a_change_of_rows_that_another_request_changed_first_is_no_server_error(
     laboratory: Laboratory, route: str, rival: str
 ) -> None:
-    app_of(laboratory.client).state.throttle = Throttle()
-    assert sign_in(laboratory.client, "Ada").status_code == 204
-    laboratory.prepare(route)
-    with just_before_the_first_write(laboratory.client, lambda: laboratory.send(rival)) as answered:
-        first = laboratory.send(route, **{HEADER: FIRST})
-    print(route, first.status_code, [one.status_code for one in answered], first.text[:150] if first.status_code >= 400 else "")
+    first, *answered = laboratory.together(route, rival)
+    assert answered or route in WRITE_NO_ROWS
     for one, answer in ((route, first), *((rival, answer) for answer in answered)):
-        held(one, answer)
         assert answer.status_code < 500, answer.text
+        held(one, answer)
+
+
+class Saved(BaseModel):
+    number: int
+
+
+@pytest.mark.parametrize(
+    ("names", "status"), [(["Damper", "Damper"], 409), ([None], 500)], ids=["a name that is taken", "a name that is missing"]
+)
+def test_only_rows_that_another_request_changed_are_a_conflict_and_the_log_says_where(
+    settings: Settings, names: list[str | None], status: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    app, router = create_app(settings), APIRouter()
+
+    @router.post("/views")
+    @allowed(Role.VIEWER)
+    def views(session: OneSession) -> Saved:
+        for name in names:
+            session.add(RunView(name=name, query="", saved_by="Ana", saved_at=datetime.now(UTC)))
+        session.flush()
+        return Saved(number=len(names))
+
+    app.include_router(router)
+    with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as client:
+        answer = client.post("/views")
+    assert answer.status_code == status
+    (told,) = [one for one in caplog.records if one.exc_info and one.levelno >= logging.WARNING]
+    assert told.levelno == (logging.WARNING if status == 409 else logging.ERROR)
+    assert status == 500 or "by somebody else at the same moment" in answer.json()["detail"]
+
+
+def test_each_of_two_people_gets_the_answer_that_fits(laboratory: Laboratory) -> None:
+    """The later of two gets the reason with the name; a view with a taken name is replaced."""
+    for route, rival, status, reason in (
+        (f"POST {V1}/rigs", f"POST {V1}/rigs", 409, "There is already a rig with the name Shaker"),
+        (f"POST {V1}/runs/views", f"POST {V1}/runs/views", 201, ""),
+        (f"DELETE {V1}/sweeps/{{sweep_id}}", f"DELETE {V1}/sweeps/{{sweep_id}}", 404, "There is no sweep"),
+        (f"PATCH {V1}/webhooks/{{webhook_id}}", f"DELETE {V1}/webhooks/{{webhook_id}}", 404, "There is no webhook"),
+        (f"POST {V1}/webhooks/{{webhook_id}}/test", f"DELETE {V1}/webhooks/{{webhook_id}}", 404, "There is no webhook"),
+        (f"PUT {ANNOTATION}", f"DELETE {ANNOTATION}", 404, "The run has no annotation"),
+    ):
+        first, second = laboratory.together(route, rival)
+        assert second.is_success and first.status_code == status, (route, first.text, second.text)
+        assert reason in first.text, route
