@@ -33,14 +33,16 @@ from app.config import Settings
 from app.db import unit_of_work
 from app.dependencies import OneSession
 from app.main import create_app
-from app.models import Diagnosis, DiagnosisInput, MeasuredRecording, RunView, SavedMapping, Sweep
+from app.models import Approval, Diagnosis, DiagnosisInput, MeasuredRecording, RunView, SavedMapping, Sweep
 from app.observing import HEADER
 from app.openapi_examples import MAPPING, RECORDING, REQUESTS, RUN, SHA256, WAITING
+from app.sweeps.service import digest
 from tests.app.conftest import ADDRESS, HERE, app_of, plan, unpack_earlier
 from tests.app.people import PASSWORD, V1, sign_in
 from tests.app.test_openapi import ROUTES, held
 
 FIRST = "the-first-of-two"  # its X-Request-ID
+UNKNOWN = "0" * 64  # the digest in an example
 COMPUTES = {
     f"POST {V1}/{path}"
     for path in (
@@ -99,7 +101,7 @@ class Laboratory:
         """New rows for the names in the address of a route and in its example."""
         makers: dict[str, Callable[[], str]] = {
             "run_id": lambda: self._run(route),
-            "about_id": lambda: self._run(route),
+            "about_id": self._asked,
             "annotation_id": lambda: self.post(f"/runs/{self.rows['run_id']}/annotations", from_s=0.1, text="noise")["id"],
             "sweep_id": lambda: self.copied(Sweep),
             "point": lambda: "1",
@@ -166,6 +168,14 @@ class Laboratory:
         with unit_of_work(app_of(self.client).state.sessions) as session:
             session.add(SavedMapping(**made, mapping=MAPPING, saved_by="Ada", saved_at=datetime.now(UTC)))
         return str(made["id"])
+
+    def _asked(self) -> str:
+        sweep = self.copied(Sweep, to_approve=True, submitted_by="Bea")
+        with unit_of_work(app_of(self.client).state.sessions) as session:
+            self.shown[UNKNOWN] = digest(session.scalars(sa.select(Sweep).where(Sweep.id == sweep)).one())
+            asked = {"about": "sweep", "about_id": sweep, "digest": self.shown[UNKNOWN], "asked_by": "Bea"}
+            session.add(Approval(**asked, asked_at=datetime.now(UTC)))
+        return sweep
 
     def _diagnosis(self) -> str:
         made = self.copied(Diagnosis, Diagnosis.verdict.is_not(None))
