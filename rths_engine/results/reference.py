@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from scipy.linalg import LinAlgError, cholesky, expm
-from scipy.signal import lfilter
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.parts.physics.effect import MATRICES
@@ -70,6 +69,8 @@ def response(model: Model, inputs: Array, dt: float) -> Array | None:
     values, modes = np.linalg.eig(rates)
     if not np.linalg.cond(modes) < MOST_CONDITION:
         return None
+    from scipy.signal import lfilter
+
     driven = np.linalg.solve(modes, forced.astype(complex))
     before = np.vstack([2 * inputs[0] - inputs[1], inputs[:-1]])
     found: Array = np.zeros((len(inputs), count))

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import rankdata
 
 from rths_engine.foundation.arrays import Array
 
@@ -57,6 +56,8 @@ def bars(inputs: Array, measure: Array, planned: Sequence[float] | None = None) 
 def _bar(place: int, x: Array, y: Array) -> Bar | None:
     if len(x) < FEWEST or x.min() == x.max():
         return None
+    from scipy.stats import rankdata
+
     levels = np.unique(x)
     ends = (levels[0], levels[-1]) if len(levels) <= FEW else (np.quantile(x, 1 / 3), np.quantile(x, 2 / 3))
     low, high = x <= ends[0], x >= ends[1]

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.fft import irfft, rfft, rfftfreq
-from scipy.signal.windows import blackmanharris
 
 from rths_engine.foundation.arrays import Array
 
@@ -28,6 +27,8 @@ class Stretches:
 
     @classmethod
     def of(cls, hop: int, hops: int, dt: float) -> Stretches:
+        from scipy.signal.windows import blackmanharris
+
         window = blackmanharris(hops * hop, sym=False)
         window *= np.sqrt(dt / np.sum(window**2))
         whole = np.sum(window.reshape(hops, hop) ** 2, axis=0)

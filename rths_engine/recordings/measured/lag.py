@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.fft
-from scipy.signal import fftconvolve
 
 from rths_engine.foundation.arrays import Array
 
@@ -63,6 +62,8 @@ def _middle(x: Array, y: Array) -> tuple[Array, Array]:
 
 def _coarse(x: Array, y: Array) -> int | None:
     """The lag in samples at which the correlation over the shared part is largest in size."""
+    from scipy.signal import fftconvolve
+
     n = len(x)
     products = fftconvolve(y, x[::-1])
     lags = np.arange(-n + 1, n)

@@ -11,8 +11,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-import scipy.signal
-from scipy.interpolate import Akima1DInterpolator
 
 from rths_engine.foundation.arrays import Array
 from rths_engine.foundation.errors import Issue, MeasuredError
@@ -35,7 +33,9 @@ def resampled(values: Array, clock: Clock, start: float, count: int, dt: float) 
     even = _evenly(values, clock, start, needed, step)
     if factor == 1:
         return even[:count]
-    found = scipy.signal.resample_poly(even, factor.numerator, factor.denominator, padtype="line")
+    from scipy.signal import resample_poly
+
+    found = resample_poly(even, factor.numerator, factor.denominator, padtype="line")
     short = count - len(found)
     return np.concatenate([found, np.full(short, found[-1])]) if short > 0 else np.asarray(found[:count])
 
@@ -70,6 +70,8 @@ def _evenly(values: Array, clock: Clock, start: float, count: int, step: float) 
     first = (start - clock.start) / clock.step
     if clock.uniform and _on_grid(clock, start, count, step) and round(first) + count <= len(values):
         return values[round(first) : round(first) + count]
+    from scipy.interpolate import Akima1DInterpolator
+
     wanted = np.clip(start + np.arange(count) * step, clock.times[0], clock.times[-1])
     if len(values) < 4:
         return np.asarray(np.interp(wanted, clock.times, values))
