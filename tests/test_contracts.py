@@ -45,30 +45,42 @@ def test_a_module_that_no_contract_names_is_refused_in_every_room(tmp_path: Path
         assert f"{container}.stray" in said or f"in {container}" in said, room
 
 
-@pytest.mark.parametrize(
-    ("files", "contract"),
-    [
-        (
-            {
-                "rths_engine/parts/structures/one.py": "from rths_engine.parts.structures import other\n",
-                "rths_engine/parts/structures/other.py": "from rths_engine.parts.structures import one\n",
-            },
-            "No circle of imports BROKEN",
-        ),
-        (
-            {"rths_engine/running/stop.py": "from rths_engine.parts.physics.search import Seen\n"},
-            "What runs a plan knows nothing of how a diagnosis searches for effects BROKEN",
-        ),
-        (
-            {"rths_engine/stability/margins.py": "from rths_engine.foundation.kernel import compiled\n"},
-            "Only parts, the loop and the reader of numeric text are compiled BROKEN",
-        ),
-        (
-            {"rths_engine/parts/physics/input/low_pass.py": "from rths_engine.parts.physics.input import time_shift\n"},
-            "Effects of a component do not know each other BROKEN",
-        ),
-    ],
-    ids=["circle", "search in the loop", "compiled elsewhere", "effects"],
-)
-def test_what_the_rooms_forbid_is_refused(files: dict[str, str], contract: str, tmp_path: Path) -> None:
-    assert contract in " ".join(broken(tmp_path, files).split())
+FORBIDDEN: dict[str, tuple[dict[str, str], str]] = {
+    "No circle of imports": (
+        {
+            "rths_engine/parts/structures/one.py": "from rths_engine.parts.structures import other\n",
+            "rths_engine/parts/structures/other.py": "from rths_engine.parts.structures import one\n",
+        },
+        "No cycles are allowed in rths_engine.parts.structures.",
+    ),
+    "What runs a plan knows nothing of how a diagnosis searches for effects": (
+        {"rths_engine/running/stop.py": "from rths_engine.parts.physics.search import Seen\n"},
+        "rths_engine.running.stop -> rths_engine.parts.physics.search",
+    ),
+    "Only parts, the loop and the reader of numeric text are compiled": (
+        {"rths_engine/stability/margins.py": "from rths_engine.foundation.kernel import compiled\n"},
+        "rths_engine.stability.margins -> rths_engine.foundation.kernel",
+    ),
+    "Effects of a component do not know each other": (
+        {"rths_engine/parts/physics/input/low_pass.py": "from rths_engine.parts.physics.input import time_shift\n"},
+        "rths_engine.parts.physics.input.low_pass -> rths_engine.parts.physics.input.time_shift",
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def said(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """What the contracts say of one copy with all forbidden imports: each is named under the contract that it breaks."""
+    files = {name: text for given, _ in FORBIDDEN.values() for name, text in given.items()}
+    return broken(tmp_path_factory.mktemp("forbidden"), files)
+
+
+@pytest.mark.parametrize("contract", FORBIDDEN)
+def test_what_the_rooms_forbid_is_refused(said: str, contract: str) -> None:
+    assert f"{contract} BROKEN" in " ".join(said.split())
+    section = said.partition("Broken contracts")[2].partition(f"\n{contract}\n---")[2].partition("\n---")[0]
+    assert FORBIDDEN[contract][1] in " ".join(section.split())
+
+
+def test_nothing_else_is_refused(said: str) -> None:
+    assert f", {len(FORBIDDEN)} broken." in said
