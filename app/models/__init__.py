@@ -11,7 +11,9 @@ from app.models.measured import ImportBatch, MeasuredRecording, RawFile, SavedMa
 from app.models.operation import WorkerMetrics
 from app.models.runs import (
     EMULATED,
+    LONG_TEXTS,
     LONGEST_VALUE,
+    SHORT,
     SORTED,
     Annotation,
     Rig,
@@ -21,12 +23,16 @@ from app.models.runs import (
     RunValue,
     RunView,
     ValuePath,
+    is_long,
+    is_short,
 )
 from app.models.sweeps import Sweep, SweepPart, SweepShard
 
 __all__ = [
     "EMULATED",
     "LONGEST_VALUE",
+    "LONG_TEXTS",
+    "SHORT",
     "SORTED",
     "Account",
     "AccountLink",
@@ -61,4 +67,6 @@ __all__ = [
     "SweepShard",
     "ValuePath",
     "WorkerMetrics",
+    "is_long",
+    "is_short",
 ]

@@ -30,9 +30,11 @@ SORTED = (
 )
 """Columns by which a list of runs sorts along an index that holds all that a page needs.
 
-Notes and reasons have none: they may be longer than an entry of an index (PostgreSQL: 2704 bytes). `archived` has none: SQLite
-would take it for the condition of the shelf, and sort. A scan is fast enough for them.
+`archived` has none: SQLite would take it for the condition of the shelf, and sort.
 """
+SHORT = 600  # characters of a text that fit in any case into an entry of an index (PostgreSQL: 2704 bytes)
+LONG_TEXTS = ("reason", "notes")
+"""Columns of which the index holds the short texts only; a further index holds the numbers of the runs with a long text."""
 
 
 EMULATED = "emulated"
@@ -195,11 +197,26 @@ def _add_columns(model: type[Base], scope: type[Measure], kind: type[sa.types.Ty
 _add_columns(RunStation, StationMeasure, sa.Double)
 _add_columns(Run, FloorMeasure, sa.JSON)
 _add_columns(Run, RunMeasure, sa.Double)
-for _sorted in SORTED:
+
+
+def is_short(column: str) -> str:
+    """The condition that a text of a run is missing or short."""
+    return f"({column} IS NULL OR length({column}) <= {SHORT})"
+
+
+def is_long(column: str) -> str:
+    """The condition that a text of a run is long."""
+    return f"length({column}) > {SHORT}"
+
+
+for _sorted in ("number", *SORTED, *LONG_TEXTS):
     sa.Index(
         f"ix_run_by_{_sorted}",
         *(Run.__table__.c[name] for name in dict.fromkeys([_sorted, "number", "archived", "deleted_at"])),
+        **(_where(is_short(_sorted)) if _sorted in LONG_TEXTS else {}),
     )
+for _long in LONG_TEXTS:
+    sa.Index(f"ix_run_long_{_long}", Run.__table__.c.number, **_where(is_long(_long)))
 
 
 class Annotation(Base):

@@ -61,7 +61,8 @@ class RunQuery:
         """A page of the runs that the filter keeps, and their number."""
         path = None if order.column.stored else path_ids(self.session, [order.column.key]).get(order.column.key)
         if not self.filtered:
-            return Found(pages.page(self.session, self.shelf, order, path, limit, offset), self.count())
+            total = self.count()
+            return Found(pages.page(self.session, self.shelf, order, path, limit, offset, total), total)
         kept = self._kept(order, path)
         few = self._sorted(order, kept.limit(FEW + 1))
         if len(few) <= FEW:
