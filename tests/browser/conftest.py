@@ -11,6 +11,8 @@ from urllib.parse import urlsplit
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Page, expect, sync_playwright
 
+from tests.app.test_diagnoses import LEFT_OUT, OTHER, PATIENCE_S, ask, plan, until_state
+from tests.browser.contexts import PATIENCE_MS, Contexts
 from tests.browser.service import Service, running
 
 ARGUMENTS = [
@@ -27,14 +29,12 @@ WIDE = {"width": 1360, "height": 900}
 
 Opener = Callable[..., Page]
 
-PATIENCE_MS = 60_000  # of each step, on a busy machine
-
 expect.set_options(timeout=PATIENCE_MS)
 
 
 @pytest.fixture(scope="session")
 def service(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with running(tmp_path_factory.mktemp("service")) as one:
+    with running(tmp_path_factory.mktemp("service"), calculating=True) as one:
         one.warm_up()
         yield one
 
@@ -53,12 +53,32 @@ def browser() -> Iterator[Browser]:
         started.close()
 
 
+@pytest.fixture(scope="session")
+def contexts(browser: Browser) -> Contexts:
+    return Contexts(browser)
+
+
 @pytest.fixture
 def idle(service: Service) -> Iterator[Service]:
     """The service with nothing queued or running, before and after."""
     service.idle()
     yield service
     service.idle()
+
+
+@pytest.fixture(scope="session")
+def played(service: Service) -> str:
+    """A run whose specimen has play."""
+    named = {**plan(specimen_physics=LEFT_OUT), "name": "Played damper"}
+    run: str = service.post("/runs", {"plan": named})["runs"][0]["id"]
+    service.wait(run, "completed", within_s=PATIENCE_S)
+    return run
+
+
+@pytest.fixture(scope="session")
+def diagnosed(service: Service, played: str) -> str:
+    """A completed diagnosis of that run, with a plan that leaves the play out and has another motion."""
+    return str(until_state(service, ask(service, played, name="Played damper", plan={**plan(), **OTHER}), "completed")["id"])
 
 
 class Watch:
@@ -106,25 +126,19 @@ def loaded(page: Page) -> None:
 
 
 @pytest.fixture
-def opened(browser: Browser, service: Service) -> Iterator[Opener]:
+def opened(contexts: Contexts, service: Service) -> Iterator[Opener]:
     """Open a page of the service; `allow` names faults that the test provokes."""
-    contexts, watches = [], []
+    watches = []
+    with contexts.taken() as take:
 
-    def open_page(path: str, allow: tuple[str, ...] = (), who: str = "Ana Ruiz", **options: Any) -> Page:
-        context = browser.new_context(base_url=service.url, **{"viewport": WIDE, "accept_downloads": True, **options})
-        context.add_init_script(f"localStorage.setItem('rths.name', {who!r})" if who else "")
-        context.set_default_timeout(PATIENCE_MS)
-        contexts.append(context)
-        context.on("page", lambda page: page.add_locator_handler(page.locator("html[data-loading]"), lambda: None))
-        page = context.new_page()
-        watch = Watch(page)
-        watch.allowed = allow
-        watches.append(watch)
-        visit(page, path)
-        return page
+        def open_page(path: str, allow: tuple[str, ...] = (), who: str = "Ana Ruiz", **options: Any) -> Page:
+            page = take(service.url, who, **{"viewport": WIDE, "color_scheme": "light", **options}).new_page()
+            watch = Watch(page)
+            watch.allowed = allow
+            watches.append(watch)
+            visit(page, path)
+            return page
 
-    yield open_page
-    for context in contexts:
-        context.close()
+        yield open_page
     for watch in watches:
         watch.check()

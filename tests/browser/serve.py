@@ -1,4 +1,7 @@
-"""The whole service for a browser test: `python -m tests.browser.serve DATA PORT`, on RTHS_DATABASE_URL where it is set."""
+"""The whole service for a browser test: `python -m tests.browser.serve DATA PORT`, on RTHS_DATABASE_URL where it is set.
+
+With a third argument the processes of calculations start with it, as in `rths serve`, instead of with the first calculation.
+"""
 
 from __future__ import annotations
 
@@ -14,4 +17,7 @@ from app.main import create_app
 if __name__ == "__main__":
     data, port = Path(sys.argv[1]), int(sys.argv[2])
     settings = from_environment(data=data, port=port, local_sign_in=True)
-    uvicorn.run(create_app(settings), host="127.0.0.1", port=port, log_level="warning", **LIVE)
+    app = create_app(settings)
+    if len(sys.argv) > 3:
+        app.state.calculations.processes.start()
+    uvicorn.run(app, host="127.0.0.1", port=port, log_level="warning", **LIVE)

@@ -95,15 +95,23 @@ def importing(path: Path) -> dict[str, str]:
 
 
 @contextmanager
-def running(data: Path, path: Path | None = None) -> Iterator[Service]:
+def running(data: Path, path: Path | None = None, calculating: bool = False) -> Iterator[Service]:
     """The service in a process of its own on a free port, its data in the folder `data`.
 
-    Its processes import what the folder `path` holds before they start, such as a module `sitecustomize`.
+    Its processes import what the folder `path` holds before they start, such as a module `sitecustomize`. With `calculating`
+    the modules of calculations are loaded while the service starts, not at the first calculation.
     """
     port = free_port()
     with (data / "service.log").open("wb") as log:
         folder = data / "rths"
-        command = [sys.executable, "-m", "tests.browser.serve", str(folder), str(port)]
+        command = [
+            sys.executable,
+            "-m",
+            "tests.browser.serve",
+            str(folder),
+            str(port),
+            *(["calculating"] if calculating else []),
+        ]
         environment = importing(path) if path else ENVIRONMENT
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=log, stderr=subprocess.STDOUT)
         service = Service(f"http://127.0.0.1:{port}", folder, process.pid)

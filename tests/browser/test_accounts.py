@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 import uvicorn
-from playwright.sync_api import Browser, Page, ViewportSize, expect
+from playwright.sync_api import Page, ViewportSize, expect
 
 from app.access import Role
 from app.accounts.service import AccountService
@@ -16,7 +16,8 @@ from app.db import unit_of_work
 from app.main import create_app
 from tests.app.conftest import plan
 from tests.app.people import PASSWORD
-from tests.browser.conftest import PATIENCE_MS, visit
+from tests.browser.conftest import visit
+from tests.browser.contexts import Contexts
 from tests.browser.service import free_port, until
 from tests.browser.test_pages import expect_accessible
 
@@ -28,6 +29,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
     """A control room with accounts and no worker: its address, and the path of the link of a new account."""
     settings = Settings(data=tmp_path_factory.mktemp("accounts"), port=free_port(), embedded_worker=False)
     app = create_app(settings)
+    app.state.calculations.processes.start()  # they load their modules while the first pages are open
     server = uvicorn.Server(uvicorn.Config(app, port=settings.port, log_level="error", timeout_graceful_shutdown=1))
     thread = threading.Thread(target=server.run)
     thread.start()
@@ -43,10 +45,9 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
 
 
 @pytest.fixture
-def page(browser: Browser, lab: tuple[str, str]) -> Iterator[Page]:
-    with browser.new_context(base_url=lab[0], viewport=NARROW, color_scheme="dark", reduced_motion="reduce") as context:
-        context.set_default_timeout(PATIENCE_MS)
-        yield context.new_page()
+def page(contexts: Contexts, lab: tuple[str, str]) -> Iterator[Page]:
+    with contexts.taken() as take:
+        yield take(lab[0], viewport=NARROW, color_scheme="dark", reduced_motion="reduce").new_page()
 
 
 def whole(page: Page) -> None:

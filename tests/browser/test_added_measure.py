@@ -38,7 +38,7 @@ def added(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def extended(browser: Browser, added: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Service, str]]:
     """A service with the measure, and a run that it has executed."""
-    with running(tmp_path_factory.mktemp("extended"), added) as service:
+    with running(tmp_path_factory.mktemp("extended"), added, calculating=True) as service:
         run = service.submit(duration=3.0)
         service.wait(run, "completed", within_s=STARTED_WITHIN_S)
         yield service, run

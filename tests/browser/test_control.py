@@ -10,12 +10,13 @@ from typing import Any
 import httpx
 import pytest
 import uvicorn
-from playwright.sync_api import Browser, Page, ViewportSize, expect
+from playwright.sync_api import Page, ViewportSize, expect
 
 from app.config import Settings
 from app.main import create_app
 from tests.app.conftest import plan
-from tests.browser.conftest import PATIENCE_MS, visit
+from tests.browser.conftest import visit
+from tests.browser.contexts import Contexts
 from tests.browser.service import free_port, until
 from tests.browser.test_pages import expect_accessible
 
@@ -47,23 +48,17 @@ def rules(lab: httpx.Client) -> Iterator[Callable[..., Any]]:
 
 
 @pytest.fixture
-def queue_of(browser: Browser, lab: httpx.Client) -> Iterator[Callable[..., Page]]:
+def queue_of(contexts: Contexts, lab: httpx.Client) -> Iterator[Callable[..., Page]]:
     """The page Queue of a person."""
-    contexts = []
+    url = str(lab.base_url).removesuffix("/api/v1/")
+    with contexts.taken() as take:
 
-    def opened(name: str, viewport: ViewportSize = WIDE, **options: Any) -> Page:
-        url = str(lab.base_url).removesuffix("/api/v1/")
-        context = browser.new_context(base_url=url, viewport=viewport, reduced_motion="reduce", **options)
-        context.add_init_script(f"localStorage.setItem('rths.name', {name!r})")
-        context.set_default_timeout(PATIENCE_MS)
-        contexts.append(context)
-        page = context.new_page()
-        visit(page, "/queue")
-        return page
+        def opened(name: str, viewport: ViewportSize = WIDE, **options: Any) -> Page:
+            page = take(url, name, viewport=viewport, reduced_motion="reduce", **options).new_page()
+            visit(page, "/queue")
+            return page
 
-    yield opened
-    for context in contexts:
-        context.close()
+        yield opened
 
 
 def press(page: Page, name: str) -> None:

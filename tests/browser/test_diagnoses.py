@@ -5,29 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import pytest
 from playwright.sync_api import expect
 
-from tests.app.test_diagnoses import LEFT_OUT, OTHER, PATIENCE_S, ask, plan, until_state
+from tests.app.test_diagnoses import PATIENCE_S, ask, plan
 from tests.browser.conftest import Opener
 from tests.browser.service import Service
 from tests.browser.test_pages import expect_accessible
 
 DONE_MS = PATIENCE_S * 1000
-
-
-@pytest.fixture(scope="module")
-def played(service: Service) -> str:
-    """A run whose specimen has play."""
-    named = {**plan(specimen_physics=LEFT_OUT), "name": "Played damper"}
-    run: str = service.post("/runs", {"plan": named})["runs"][0]["id"]
-    service.wait(run, "completed", within_s=PATIENCE_S)
-    return run
-
-
-@pytest.fixture(scope="module")
-def diagnosed(service: Service, played: str) -> str:
-    return str(until_state(service, ask(service, played, name="Played damper", plan={**plan(), **OTHER}), "completed")["id"])
 
 
 def test_a_run_is_diagnosed_against_a_plan_file_and_the_result_read(

@@ -10,8 +10,6 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, Route, expect
 
-from tests.app.test_diagnoses import LEFT_OUT, ask, until_state
-from tests.app.test_diagnoses import plan as specimen
 from tests.browser.conftest import Opener, visit
 from tests.browser.service import Service, until
 from tests.engine import batch_files
@@ -74,13 +72,6 @@ def batch(service: Service) -> str:
 
 
 @pytest.fixture(scope="module")
-def diagnosis(service: Service) -> str:
-    run: str = service.post("/runs", {"plan": specimen(specimen_physics=LEFT_OUT)})["runs"][0]["id"]
-    service.wait(run, "completed")
-    return str(until_state(service, ask(service, run), "completed")["id"])
-
-
-@pytest.fixture(scope="module")
 def plan(service: Service) -> str:
     return str(service.post("/library/plans", {"plan": service.plan(), "name": "Kept", "tags": ["steel"]})["id"])
 
@@ -95,8 +86,8 @@ def sweep(service: Service) -> str:
 
 
 @pytest.fixture(scope="module")
-def shown(run: str, recording: str, batch: str, diagnosis: str, plan: str, sweep: str) -> dict[str, str]:
-    return {"plan": plan, "run": run, "recording": recording, "batch": batch, "diagnosis": diagnosis, "sweep": sweep}
+def shown(run: str, recording: str, batch: str, diagnosed: str, plan: str, sweep: str) -> dict[str, str]:
+    return {"plan": plan, "run": run, "recording": recording, "batch": batch, "diagnosis": diagnosed, "sweep": sweep}
 
 
 @pytest.mark.parametrize("look", ["desk", "phone"])
