@@ -10,66 +10,36 @@ from __future__ import annotations
 import argparse
 import asyncio
 import os
-import subprocess
-import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 
-import httpx
 import numpy as np
 
 from app.config import Settings
 from benchmarks.abort_loads import CLIENTS, load, small_disk, under
+from benchmarks.control_room import control_room
 from benchmarks.run_table import fill
 from tests.app import postgres
-from tests.browser.service import free_port, until
+from tests.browser.service import Service, until
 
 TEST = {"pace": {"kind": "real_time", "factor": 1.0}, "duration": 300.0}
 ORDINARY = ("none", *CLIENTS, "locked")
 
 
-@contextmanager
-def control_room(folder: Path, database: str) -> Iterator[tuple[httpx.Client, str]]:
-    """A control room in processes of its own, and a client that keeps its connection."""
-    port = free_port()
-    command = [str(Path(sys.executable).with_name("rths")), "serve", "--local", "--data", str(folder), "--port", str(port)]
-    environment = {**os.environ, "RTHS_DATABASE_URL": database}
-    with (folder.parent / f"{folder.name}.log").open("wb") as log:
-        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
-    url = f"http://127.0.0.1:{port}"
-    try:
-        with httpx.Client(base_url=f"{url}/api/v1", timeout=120) as http:
-            until(lambda: _answers(http), bool, 240)
-            yield http, url
-    finally:
-        process.terminate()
-        process.wait(60)
-
-
-def _answers(http: httpx.Client) -> bool:
-    try:
-        return bool(http.get("/abort").json()["workers"])
-    except httpx.HTTPError:
-        return False
-
-
-def started(http: httpx.Client) -> None:
+def started(service: Service) -> None:
     """A test that runs."""
-    plan = http.get("/templates/two-storeys").json()["plan"] | TEST
-    run = http.post("/runs", json={"plan": plan}).raise_for_status().json()["runs"][0]["id"]
-    until(lambda: http.get(f"/runs/{run}").json()["state"], lambda state: state == "running", 240)
+    service.wait(service.submit(**TEST), "running", within_s=240)
 
 
-def measured(http: httpx.Client, presses: int) -> tuple[list[float], float]:
+def measured(service: Service, presses: int) -> tuple[list[float], float]:
     """Times (ms) of the answers, and the time (ms) from the first press until no engine executes a test."""
     begun = time.perf_counter()
     times, idle = [], float("nan")
     for _ in range(presses):
         pressed = time.perf_counter()
-        answer = http.post("/abort", json={"by": "benchmark"}).raise_for_status().json()
+        answer = service.post("/abort", {"by": "benchmark"})
         times.append(1e3 * (time.perf_counter() - pressed))
         if np.isnan(idle) and answer["acknowledged"] and not answer["running"]:
             idle = 1e3 * (time.perf_counter() - begun)
@@ -91,16 +61,16 @@ def room(names: tuple[str, ...], presses: int, rows: int) -> None:
         stored = database.url if database else ""
         if rows:
             fill(Settings(data=folder, database_url=stored).prepared().url, rows)
-        http, url = open_.enter_context(control_room(folder, stored))
+        service = open_.enter_context(control_room(folder, stored))
         for name in names:
-            http.post("/queue/release", json={})
-            started(http)
-            with under(name, url, folder, database):
-                times, idle = measured(http, presses)
+            service.post("/queue/release", {})
+            started(service)
+            with under(name, service.url, folder, database):
+                times, idle = measured(service, presses)
             p50, p95 = np.percentile(times, [50, 95])
             print(f"{name:12} {p50:22.0f} {p95:5.0f} {max(times):5.0f} {idle:8.0f}", flush=True)
-            until(lambda: http.get("/abort").json()["recorded"], bool, 240)
-            _cancel_waiting(http)
+            until(lambda: service.get("/abort")["recorded"], bool, 240)
+            _cancel_waiting(service)
 
 
 def main() -> None:
@@ -131,9 +101,9 @@ def main() -> None:
             room(("database",), given.presses, 0)
 
 
-def _cancel_waiting(http: httpx.Client) -> None:
-    for one in http.get("/queue?limit=1000").json()["waiting"]:
-        http.post(f"/runs/{one['id']}/cancel", json={})
+def _cancel_waiting(service: Service) -> None:
+    for one in service.get("/queue?limit=1000")["waiting"]:
+        service.http.post(f"/api/v1/runs/{one['id']}/cancel", json={})
 
 
 if __name__ == "__main__":

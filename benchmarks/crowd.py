@@ -6,7 +6,7 @@ clients in another submit short tests, which the service's own worker executes, 
 - the age of the oldest bucket of a frame when it reaches a viewer, from the moment at which the worker sent it;
 - the longest gap between two frames of a viewer;
 - the time of a submission;
-- the memory (RSS) of the web process while `--runs` further runs begin, are told and end.
+- the memory (RSS) of the web process while `--runs` further runs begin, are told and end, and while tests are executed.
 
 The ages include waiting for a core in the processes of the benchmark itself: all of them share the machine.
 """
@@ -23,9 +23,9 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from benchmarks.control_room import control_room
 from benchmarks.crowd_processes import EVERY_S, Worker, at, submit, view
-from tests.browser import service as services
-from tests.browser.service import Service, running
+from tests.browser.service import Service
 
 TOKEN = "token-of-the-benchmark"  # of no other service
 PARTS = 10  # looks at the memory
@@ -128,8 +128,7 @@ def main() -> None:
     given.add_argument("--runs", type=int, default=10_000, help="runs that the scripted worker tells")
     given.add_argument("--executed-seconds", type=float, default=60, help="time in which tests are executed")
     asked = given.parse_args()
-    services.ENVIRONMENT["RTHS_WORKER_TOKEN"] = TOKEN
-    with tempfile.TemporaryDirectory() as folder, running(Path(folder)) as service:
+    with tempfile.TemporaryDirectory() as folder, control_room(Path(folder) / "data", RTHS_WORKER_TOKEN=TOKEN) as service:
         service.warm_up()
         print(json.dumps({"load": os.getloadavg(), "cores": os.cpu_count()}), flush=True)
         for clients in (0, asked.clients):

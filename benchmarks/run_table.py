@@ -23,10 +23,10 @@ import sqlalchemy as sa
 from fastapi.testclient import TestClient
 
 from app import db
-from app.cli.serve import spare_the_collector
 from app.config import Settings
 from app.jobs import queue
 from app.main import create_app
+from app.memory import spare_the_collector
 from app.models import Run, RunPlan, RunStation
 from app.runs import values
 from app.runs.columns import FACTS

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import fcntl
-import gc
 import os
 import socket
 import ssl
@@ -25,6 +24,7 @@ from app.config import ANY, Settings
 from app.db import unit_of_work
 from app.demonstration import queue_demonstration
 from app.main import create_app
+from app.memory import share_arenas, spare_the_collector
 from app.moving.places import using
 from rths_engine.foundation.errors import Issue, RthsError
 
@@ -49,6 +49,7 @@ def serve(given: Namespace) -> int:
 def _serve(settings: Settings, demonstrate: bool) -> int:
     listening = listen(settings)
     allow_files()
+    share_arenas()
     sys.setswitchinterval(SWITCH_S)
     server = Server(create_app(settings), settings, demonstrate)
     with suppress(KeyboardInterrupt):
@@ -91,15 +92,6 @@ class Server(uvicorn.Server):
         else:
             print(_first(self.app, self.settings), end="")
         print(f"Data folder: {self.settings.data.resolve()}\nPress Ctrl-C to stop the control room.", flush=True)
-
-
-def spare_the_collector() -> None:
-    """Let the garbage collector leave alone what the service loaded at its start.
-
-    Looking through all of it stopped every thread for 0.25 s, and with them Abort and the frames of viewers.
-    """
-    gc.collect()
-    gc.freeze()
 
 
 def reachable(settings: Settings) -> str:

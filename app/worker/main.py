@@ -29,6 +29,7 @@ from app.jobs.kind import Kind
 from app.jobs.queue import APPLICATION, VERSION, DurableQueue
 from app.jobs.service import MOST_ATTEMPTS
 from app.latch import Latch
+from app.memory import share_arenas
 from app.monitoring import reporting, statements
 from app.private import OTHERS
 from app.runs.job import UNSENT
@@ -62,6 +63,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--with-parent", action="store_true", help="end when standard input closes")
     given = parser.parse_args(arguments)
     os.umask(OTHERS)
+    share_arenas()
     settings = from_environment(
         data=given.data, database_url=given.database_url, worker_concurrency=given.worker_concurrency
     ).prepared()

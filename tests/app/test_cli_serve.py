@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import signal
 import socket
@@ -20,7 +19,7 @@ from fastapi.testclient import TestClient
 
 from app import config
 from app.cli.main import main
-from app.cli.serve import PROXIES, only_server, reachable, spare_the_collector
+from app.cli.serve import PROXIES, only_server, reachable
 from app.config import Settings, from_environment
 from app.demonstration import queue_demonstration
 from tests.app.conftest import app_of
@@ -98,12 +97,6 @@ def test_ctrl_c_ends_the_worker_and_its_engines_too(free: int, tmp_path: Path) -
         assert runs(http)[0]["template"] == "table3-04"
     with serving(free, tmp_path, "--demo", "--local", "--no-worker") as http:
         assert len(runs(http)) == 1
-
-
-def test_the_collector_does_not_look_through_what_was_loaded_at_the_start() -> None:
-    spare_the_collector()
-    assert gc.get_freeze_count() > 10_000
-    gc.unfreeze()
 
 
 def test_a_taken_port_is_refused_with_the_way_to_choose_another(
