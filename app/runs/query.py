@@ -20,7 +20,7 @@ from typing import Any
 import sqlalchemy as sa
 from sqlalchemy.orm import Session, aliased
 
-from app.models import Run, RunValue, ValuePath
+from app.models import SORTED, Run, RunValue, ValuePath
 from app.runs import pages
 from app.runs.columns import Column
 from app.runs.conditions import matches, missing, stored
@@ -53,6 +53,7 @@ class RunQuery:
         self.session = session
         self.ids = path_ids(session, [column.key for column, _ in filters if not column.stored])
         conditions = [*where, *(_on_run(column, condition) for column, condition in filters if column.stored)]
+        self.reads_rows = bool(conditions)  # else indexes hold all that a filter looks at
         conditions += [self._on_value(column, condition) for column, condition in filters if not column.stored]
         self.filters, self.shelf = filters, list(shelf)
         self.filtered, self.where = bool(conditions), [*shelf, *conditions]
@@ -77,12 +78,14 @@ class RunQuery:
         return self.session.scalar(sa.select(sa.func.count()).select_from(Run).where(*self.where)) or 0
 
     def _kept(self, order: Order, path: int | None) -> sa.Select[Any]:
-        """The runs that the filter keeps: their numbers, and the keys to sort by."""
+        """The runs that the filter keeps: their numbers, and the keys to sort by. Reads no rows where indexes hold all."""
+        indexed = not order.column.stored or order.column.key in ("number", *SORTED)
+        where = self.where if indexed and not self.reads_rows else [SCANNED, *self.where]
         if order.column.stored:
-            return sa.select(Run.number, _sort_key(order.column).label("key")).where(SCANNED, *self.where)
+            return sa.select(Run.number, _sort_key(order.column).label("key")).where(*where)
         value = aliased(RunValue)
         at = (value.path_id == (path or 0)) & (value.run_number == Run.number)
-        return sa.select(Run.number, _key(value, order.column).label("key")).outerjoin(value, at).where(SCANNED, *self.where)
+        return sa.select(Run.number, _key(value, order.column).label("key")).outerjoin(value, at).where(*where)
 
     def _sorted(self, order: Order, kept: sa.Select[Any], limit: int | None = None, offset: int = 0) -> list[int]:
         within = kept.subquery()
