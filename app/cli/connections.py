@@ -1,9 +1,10 @@
-"""Connections of the web server: bounded for each client address, and closed where no request comes."""
+"""Connections of the web server: bounded for each client address, and closed where no request comes or no answer is taken."""
 
 from __future__ import annotations
 
 import asyncio
 import resource
+import socket
 from contextlib import suppress
 from typing import Any
 
@@ -11,6 +12,8 @@ from uvicorn.protocols.http.auto import AutoHTTPProtocol
 
 MOST_OF_ADDRESS = 500  # browsers open six for each page, and one for each live view
 FIRST_REQUEST_S = 20.0
+TAKES_S = 60.0
+"""A client that takes nothing of what is sent for so long loses its connection, and what waits for it is freed."""
 FILES = 65_536
 _open: dict[str, set[asyncio.Transport]] = {}
 
@@ -55,6 +58,16 @@ class Bounded(AutoHTTPProtocol):  # type: ignore[misc,valid-type]
         there = self.transport is not None and not self.transport.is_closing()
         if there and self.transport.get_protocol() is self:  # else it became a websocket
             self.transport.close()
+
+
+def bound_waiting(listening: socket.socket) -> None:
+    """Let the system close connections of this socket whose other end takes nothing for TAKES_S, where it can (Linux).
+
+    Otherwise a client that stops reading and does not close keeps its connection, and what waits for it, for ever: neither
+    closing such a connection nor a keepalive of the websocket ends it before all is sent.
+    """
+    if hasattr(socket, "TCP_USER_TIMEOUT"):
+        listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, int(TAKES_S * 1000))
 
 
 def allow_files() -> None:

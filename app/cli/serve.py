@@ -17,7 +17,7 @@ from fastapi import FastAPI
 
 from app import logs
 from app.accounts.service import AccountService
-from app.cli.connections import Bounded, allow_files
+from app.cli.connections import Bounded, allow_files, bound_waiting
 from app.cli.main import DONE, FAILED
 from app.cli.settings import stored
 from app.config import ANY, Settings
@@ -121,6 +121,7 @@ def listen(settings: Settings) -> socket.socket:
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     found = socket.socket(family, socket.SOCK_STREAM)
     found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    bound_waiting(found)
     try:
         found.bind((settings.host, settings.port))
         found.listen()

@@ -3,7 +3,7 @@
 The command velocity of each station follows the recorded channels: its limit is checked in every controller step, and a
 viewer cannot derive its peak from buckets. A frame is little-endian: `uint32 first_bucket, uint32 count`, then float32
 `[count][channels][3]`. A `FrameStore` is the buffer of a run. It takes frames of any size, ignores buckets that it already has,
-and gives a reader the missing buckets as one frame.
+and gives a reader the missing buckets in frames of at most PIECE bytes.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ HEADER = struct.Struct("<II")
 MOST_BUCKETS = 16_384
 MOST_OPEN = 65_536
 """Buckets of a run that may end long before its longest duration. A viewer of 20 channels stores 16 MB."""
+PIECE = 1 << 20
+"""Bytes of the longest frame that is sent at once: so much may wait in memory for each receiver that reads slowly."""
 VALUES = 3  # minimum, maximum, last
 
 
@@ -91,11 +93,18 @@ class FrameStore:
         return np.frombuffer(bytes(self._data), "<f4").reshape(-1, self.row // (4 * VALUES), VALUES)
 
     def since(self, first: int) -> bytes | None:
-        """All buckets from `first` on as one frame, or None if there are none."""
-        first, end = max(0, first), self.count  # once: another thread may be appending
+        """The buckets from `first` on as one frame, as many as it may have, or None if there are none."""
+        first = max(0, first)
+        end = min(self.count, first + max(1, PIECE // self.row))  # once: another thread may be appending
         if first >= end:
             return None
         return HEADER.pack(first, end - first) + bytes(self._data[first * self.row : end * self.row])
+
+
+def end_of(frame: bytes) -> int:
+    """The bucket that follows a frame."""
+    first, count = HEADER.unpack_from(frame)
+    return int(first + count)
 
 
 def _velocity(station: int | None) -> Channel:

@@ -37,7 +37,7 @@ class LiveRun:
         self._frames: tuple[int, dict[int, bytes | None]] = (0, {})
 
     def since(self, first: int) -> bytes | None:
-        """All buckets from `first` on as one frame; viewers at the same bucket share its bytes."""
+        """The next frame from bucket `first` on; viewers at the same bucket share its bytes."""
         count, frames = self._frames
         if count != self.store.count:
             self._frames = (self.store.count, frames := {})

@@ -10,6 +10,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from app.access import Role, allowed
 from app.live.audience import POLL_S, Audience, Row, Watched
+from app.live.frames import end_of
 from app.live.hub import Hub, LiveRun
 from app.live.messages import progress
 from app.metrics import FRAME_LAG_SECONDS, SOCKETS
@@ -46,7 +47,7 @@ async def watch(socket: WebSocket, run_id: str) -> None:
 
 
 class _Viewer:
-    """One viewer: a cursor into the buffer of a run. A slow viewer misses changes and then gets one larger frame."""
+    """One viewer: a cursor into the buffer of a run. A slow viewer misses changes and then gets larger frames."""
 
     def __init__(self, socket: WebSocket, watched: Watched, cursor: int):
         self.socket, self.watched, self.cursor = socket, watched, cursor
@@ -87,13 +88,17 @@ class _Viewer:
             changed = live.changed
             frame = live.since(self.cursor)
             if frame is not None:
-                self.cursor = live.store.count
+                self.cursor = end_of(frame)
                 await self.socket.send_bytes(frame)
                 FRAME_LAG_SECONDS.observe(time.monotonic() - live.heard)
             if live.progress_text is not told and live.progress_text:
                 told = live.progress_text
                 await self.socket.send_text(told)
-            if live.ended or self.hub.runs.get(self.watched.run_id) is not live:
+            if self.hub.runs.get(self.watched.run_id, live) is not live:
+                return
+            if self.cursor < live.store.count:
+                continue
+            if live.ended:
                 return
             try:
                 await asyncio.wait_for(changed.wait(), SILENT_S)
@@ -113,8 +118,8 @@ class _Viewer:
             if told is None or told.attempt != run.attempt:
                 self.cursor = self.cursor if told is None else 0
                 await self.socket.send_text(row.within(schema))
-            frame = store.since(self.cursor)
-            if frame is not None:
+            while (frame := store.since(self.cursor)) is not None:
+                self.cursor = end_of(frame)
                 await self.socket.send_bytes(frame)
         await self._say(progress(run.state, run.simulated_s or 0.0, run.elapsed_s or 0.0, run.duration_s))
         await self.socket.send_text(row.within({"type": "end"}))

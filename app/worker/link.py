@@ -16,7 +16,7 @@ from typing import Any
 from websockets.exceptions import ConnectionClosedError, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
-from app.live.frames import FrameStore
+from app.live.frames import FrameStore, end_of
 from app.live.uplink import FRAME_HEADER
 from app.open_sockets import NOT_ALLOWED
 from app.worker.contact import Contact
@@ -72,9 +72,8 @@ class _Cursor:
             if not self.schema_told:
                 self._say(socket, telling.schema)
                 self.schema_told = True
-            frame = telling.store.since(self.bucket)
-            if frame is not None:
-                self.bucket += (len(frame) - 8) // telling.store.row
+            while (frame := telling.store.since(self.bucket)) is not None:
+                self.bucket = end_of(frame)
                 socket.send(FRAME_HEADER.pack(telling.run_id.encode(), telling.attempt) + frame)
             if telling.progress is not None and telling.progress is not self.progress:
                 self.progress = telling.progress

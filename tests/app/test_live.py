@@ -16,7 +16,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.config import Settings
 from app.db import unit_of_work
 from app.jobs.service import JobService
-from app.live import watching
+from app.live import frames, watching
 from app.live.frames import Decimator, bucket_size
 from app.live.messages import schema
 from app.live.uplink import FRAME_HEADER
@@ -139,6 +139,19 @@ def test_what_a_viewer_missed_because_the_worker_was_cut_off_comes_from_the_reco
         messages, rest = take(socket)
     assert early + rest == told.whole
     assert [message["type"] for message in messages] == ["end"]  # no second schema, which would drop the early part
+
+
+def test_what_is_longer_than_one_frame_comes_in_several_live_and_from_the_recording(
+    told: Told, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(frames, "PIECE", len(told.whole) // 7)
+    told.start()
+    first = told.show(1500)
+    with told.viewer() as socket:
+        _, early = take(socket, len(first))
+        told.store()
+        told.say({"type": "end"})
+        assert early == first and early + take(socket)[1] == told.whole
 
 
 def test_a_new_attempt_begins_the_viewers_data_anew(told: Told) -> None:

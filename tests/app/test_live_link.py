@@ -13,6 +13,7 @@ import uvicorn
 from websockets.sync.client import connect
 
 from app.config import Settings
+from app.live import frames
 from app.live.frames import Decimator
 from app.live.messages import progress, schema
 from app.main import create_app
@@ -88,19 +89,21 @@ def known(port: int) -> bool:
 
 
 def test_a_web_service_that_restarts_in_the_middle_of_a_test_is_told_all_of_it(
-    settings: Settings, port: int, tell: tuple[Telling, Callable[[int], None]]
+    settings: Settings, port: int, tell: tuple[Telling, Callable[[int], None]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     telling, more = tell
     more(400)
     with web(settings, port):
         until(lambda: known(port), bool)
         early = seen(port, 0, 400)
+    monkeypatch.setattr(frames, "PIECE", 100 * ROW)  # it is told in several frames
     more(600)
     with web(settings, port):
         until(lambda: known(port), bool)
         more(TOTAL)
         late = seen(port, 400, TOTAL)
         assert telling.store is not None
+        monkeypatch.setattr(frames, "PIECE", TOTAL * ROW)
         whole = telling.store.since(0)
         assert whole is not None and early + late == whole[8:] == seen(port, 0, TOTAL)
 
