@@ -14,6 +14,7 @@ import tempfile
 import time
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,7 @@ from benchmarks.run_table import fill
 from tests.app import postgres
 from tests.browser.service import Service, until
 
-TEST = {"pace": {"kind": "real_time", "factor": 1.0}, "duration": 300.0}
+TEST: dict[str, Any] = {"pace": {"kind": "real_time", "factor": 1.0}, "duration": 300.0}
 ORDINARY = ("none", *CLIENTS, "locked")
 
 
