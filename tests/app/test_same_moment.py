@@ -27,7 +27,6 @@ from app.access import Role, allowed
 from app.accounts import passwords
 from app.accounts.service import AccountService
 from app.accounts.throttle import Throttle
-from app.calculations.answer import calculator
 from app.calculations.orders import Here
 from app.config import Settings
 from app.db import unit_of_work
@@ -206,8 +205,8 @@ def laboratory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Laboratory]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(passwords, "HASHER", PasswordHasher(time_cost=1, memory_cost=8, parallelism=1))
         settings = Settings(data=unpack_earlier(tmp_path_factory.mktemp("moment")), embedded_worker=False)
+        patch.setattr("app.calculations.answer.Calculator", lambda _: Here())
         app = create_app(settings)
-        app.dependency_overrides[calculator] = Here
         with TestClient(app, ADDRESS, client=HERE, raise_server_exceptions=False) as client:
             with unit_of_work(app_of(client).state.sessions) as session:
                 AccountService(session).add("Ada", Role.ADMINISTRATOR, PASSWORD)

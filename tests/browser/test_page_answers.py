@@ -19,7 +19,6 @@ from app.config import Settings
 from app.main import create_app
 from app.pages import rendering
 from app.problems import MEDIA_TYPE, TITLES, Conflict
-from app.runs.dependency import run_service
 from tests.app.conftest import ADDRESS, HERE
 
 BROWSER = "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8"
@@ -32,15 +31,15 @@ def _pages_alone(data: Path) -> FastAPI:
     return app
 
 
-def _broken() -> None:
+def _broken(*_: object) -> None:
     raise RuntimeError("the disk is gone")
 
 
-def _silent() -> None:
+def _silent(*_: object) -> None:
     raise OperationalError("select 1", None, Exception("no connection"))
 
 
-def _contested() -> None:
+def _contested(*_: object) -> None:
     raise Conflict("The run is being changed.")
 
 
@@ -92,8 +91,11 @@ def test_a_role_that_is_too_low_is_told_on_a_page(whole: FastAPI, monkeypatch: p
 
 
 @pytest.mark.parametrize(("fault", "status"), [(_broken, 500), (_silent, 503), (_contested, 409)])
-def test_a_failure_behind_a_page_is_a_page_that_keeps_its_cause_to_the_log(whole: FastAPI, fault: Any, status: int) -> None:
-    whole.dependency_overrides[run_service] = fault
+def test_a_failure_behind_a_page_is_a_page_that_keeps_its_cause_to_the_log(
+    whole: FastAPI, monkeypatch: pytest.MonkeyPatch, fault: Any, status: int
+) -> None:
+    monkeypatch.setattr(whole.state, "sessions", None, raising=False)
+    monkeypatch.setattr("app.dependencies.unit_of_work", fault)
     answer = _asked(whole, "GET", "/runs/1?x=1", BROWSER)
     assert answer.status_code == status and f"<h1>{TITLES[status]}</h1>" in answer.text
     assert ('<a href="/runs/1?x=1" class="button">Try again</a>' in answer.text) == (status >= 500)
