@@ -20,6 +20,9 @@ CHAOS ?=
 FUZZ ?= --minutes 10
 LOCK ?=
 
+# Tests start many processes of the program, each of which would compile its modules anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := setup
 .DELETE_ON_ERROR:
 .PHONY: setup run test test-clone test-guides chaos check docs migration bench figures fuzz prove prove-opensees browser postgres compiler opensees lock audit-dependencies sbom clean

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 
 from app.calculations import child
 from app.calculations.wire import Said, message
+from app.imports import uncollected
 
 log = logging.getLogger("rths.calculations")
 NICENESS = 5  # tests and pages come first
@@ -119,9 +120,10 @@ class Server:
 def _load(named: str) -> None:
     module, _, function = named.partition(":")
     try:
-        loaded = importlib.import_module(module)
-        if function:
-            getattr(loaded, function)()
+        with uncollected():
+            loaded = importlib.import_module(module)
+            if function:
+                getattr(loaded, function)()
     except Exception:
         log.exception("%s was not loaded for calculations", named)
 

@@ -11,6 +11,7 @@ from importlib import import_module
 from app import private
 from app.cli import commands_of_recordings, commands_of_records, commands_of_service, commands_of_tests
 from app.cli.command import command, data_folder
+from app.imports import uncollected
 from rths_engine.foundation.errors import RthsError
 
 DONE, FAILED, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
@@ -22,7 +23,9 @@ def main(arguments: list[str] | None = None) -> int:
     module, _, function = given.function.partition(":")
     try:
         with private.writing() if given.private else nullcontext():
-            code = int(getattr(import_module(module), function)(given) or DONE)
+            with uncollected():
+                loaded = import_module(module)
+            code = int(getattr(loaded, function)(given) or DONE)
             if code == DONE and given.recorded:
                 import_module("app.cli.recorded").record(given)
         return code

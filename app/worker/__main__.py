@@ -1,6 +1,9 @@
 """`python -m app.worker`."""
 
-from app.worker.main import main
+from app.imports import uncollected
+
+with uncollected():
+    from app.worker.main import main
 
 if __name__ == "__main__":
     main()

@@ -15,6 +15,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from app import logs
+from app.imports import uncollected
 from app.jobs.order import Order
 
 
@@ -168,8 +169,9 @@ def serve(pipe: Connection, module: str, niceness: int) -> None:
     logs.inherit()
     line = Line(pipe)
     os.nice(niceness)
-    executing = importlib.import_module(module)
-    executing.prepare()
+    with uncollected():
+        executing = importlib.import_module(module)
+        executing.prepare()
     try:
         line.send(Ready())
         while True:

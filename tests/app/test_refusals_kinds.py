@@ -18,7 +18,7 @@ from tests.app.test_refusals import CHECK, JSON, RUNS, leaves, stored
 
 DRIVE, STABILITY = "/api/v1/plans/drive", "/api/v1/stability"
 EXAMPLES_TRIED = hypothesis_settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow]
+    max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow]
 )
 PLANS = {name: templates.template(name).as_dict() for name in EXAMPLES}
 SAMPLES = {"kind": "samples", "dt": 0.1, "values": [0.0, 1.0]}

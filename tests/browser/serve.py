@@ -10,9 +10,12 @@ from pathlib import Path
 
 import uvicorn
 
-from app.cli.serve import LIVE
-from app.config import from_environment
-from app.main import create_app
+from app.imports import uncollected
+
+with uncollected():
+    from app.cli.serve import LIVE
+    from app.config import from_environment
+    from app.main import create_app
 
 if __name__ == "__main__":
     data, port = Path(sys.argv[1]), int(sys.argv[2])

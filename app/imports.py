@@ -1,0 +1,22 @@
+"""Imports without collections of garbage.
+
+The modules of the program stay to its end, and every collection looks through all of them: a quarter of the time of its start.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """No garbage is collected meanwhile."""
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            gc.enable()
