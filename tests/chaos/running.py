@@ -129,6 +129,11 @@ class Progress:
     def idle_s(self) -> float:
         return time.monotonic() - self.moved
 
+    @property
+    def over(self) -> bool:
+        """Whether nothing is left that could go on."""
+        return self.load.done and self.ended >= self.load.count and not self.sweeping
+
     def look(self) -> int:
         """Ended runs; the last known while the service does not answer."""
         before = self.ended, self.points
@@ -139,7 +144,7 @@ class Progress:
                 self.points, self.sweeping = sweep["done"], sweep["state"] in ("queued", "running")
         except httpx.HTTPError:
             pass
-        if self.ended < self.load.count or self.sweeping:
+        if not self.over:
             self.still_s = max(self.still_s, self.idle_s)
         if (self.ended, self.points) != before:
             self.moved = time.monotonic()
@@ -162,10 +167,10 @@ def _start(world: World) -> None:
 
 
 def _wait(world: World, report: Report, progress: Progress, more: int) -> None:
-    """Wait until `more` runs have ended since, or LONGEST_GAP_S."""
+    """Wait until `more` runs have ended since, until everything has ended, or LONGEST_GAP_S."""
     progress.fault_over()
     before, begun = progress.look(), time.monotonic()
-    while progress.look() < before + more and time.monotonic() - begun < LONGEST_GAP_S:
+    while progress.look() < before + more and not progress.over and time.monotonic() - begun < LONGEST_GAP_S:
         report.revived += revive(world)
         time.sleep(0.2)
 

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import random
 import socket
 import threading
+import time
 from contextlib import suppress
 from pathlib import Path
+from typing import cast
 
+import httpx
 import pytest
 
 from tests.app import postgres
+from tests.chaos.load import Load
 from tests.chaos.proxy import Proxy
-from tests.chaos.running import chaos
+from tests.chaos.running import LONGEST_GAP_S, Progress, Report, _wait, chaos
+from tests.chaos.world import World
 
 
 @pytest.mark.slow
@@ -22,6 +28,16 @@ def test_no_run_is_lost_or_doubled_while_everything_under_it_is_killed(store: st
         pytest.skip(reason)
     report = chaos(store, 3, 12, 6, tmp_path / "log")
     assert not report.wrong, report.text()
+
+
+def test_the_next_fault_does_not_wait_once_everything_has_ended() -> None:
+    progress = Progress("http://127.0.0.1", Load("http://127.0.0.1", 3, random.Random(1)))  # the load has submitted everything
+    progress.http = httpx.Client(
+        base_url="http://lab", transport=httpx.MockTransport(lambda _: httpx.Response(200, json={"total": 3}))
+    )
+    begun = time.monotonic()
+    _wait(cast("World", None), Report("sqlite", 1, 3), progress, more=1)
+    assert progress.over and time.monotonic() - begun < LONGEST_GAP_S / 2
 
 
 def test_a_cut_network_holds_or_resets_connections_and_is_mended() -> None:

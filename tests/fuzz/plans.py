@@ -21,6 +21,7 @@ from rths_engine.planning.kinds_of_test import TESTS
 from rths_engine.planning.motion import FileMotion, RecordMotion
 from rths_engine.planning.plan import Plan
 from rths_engine.planning.reading import read_model, read_plan
+from rths_engine.running.client_run import ClientRun
 from rths_engine.running.run import Run
 from tests.engine.plans import LIBRARY
 from tests.fuzz import trying
@@ -30,26 +31,30 @@ MOST_ITEMS = 4  # of a list: storeys, stations, effects
 MOST_CHANGES = 6
 MOST_SUBSTEPS = 30_000
 TEMPLATES = {name: templates.template(name) for name in templates.names()}
-STARTS = {  # the stations of a client test follow a program
-    test: [name for name, plan in TEMPLATES.items() if plan.test == test] for test in TESTS if test != "client"
-}
+STARTS = {test: [name for name, plan in TEMPLATES.items() if plan.test == test] for test in TESTS}
 # fields that are not drawn
 OF_THE_MACHINE = ("connection", "pace", "client", "template", "schema_", "test", "known", "duration")
+TARGETS_M = (1e-6, -1e-3, 1e-3, 0.0, 0.02, -0.02, 1e3)
 RECORDS = LIBRARY.names()[:3]
 
 
 def faults(examples: int, seed: int) -> Iterator[str]:
     """What is wrong with the runs of `examples` random plans."""
+    for test in STARTS:  # its code is compiled here, not in the time of a plan
+        _wrong(_short(TEMPLATES[STARTS[test][0]].as_dict(), 0.01))
     yield from trying.faults(PLANS, _wrong, examples, seed)
 
 
 def _wrong(data: dict[str, Any]) -> str | None:
     try:
         model = read_model(data)
-        run = Run(model, LIBRARY)
-        if run.total > MOST_SUBSTEPS:
-            return None
-        run.advance(run.total)
+        if model.plan.test == "client":
+            run: Run | ClientRun = _led(ClientRun(model))
+        else:
+            run = Run(model, LIBRARY)
+            if run.total > MOST_SUBSTEPS:
+                return None
+            run.advance(run.total)
     except RthsError as error:
         return None if error.issues and all(one.problem for one in error.issues) else f"a refusal without a reason: {data}"
     result = run.result("tripped" if run.trip else "completed", 0.0)
@@ -64,6 +69,17 @@ def _wrong(data: dict[str, Any]) -> str | None:
         return f"a trip without a reason: {told}"
     again = read_plan(json.loads(json.dumps(model.plan.as_dict())))
     return None if again.digest == model.plan.digest else f"a plan that is another one after JSON: {told}"
+
+
+def _led(run: ClientRun) -> ClientRun:
+    """The run after what a client does: ramps to displacements that grow, as many as the digest of the plan says."""
+    steps = max(1, min(run.total, MOST_SUBSTEPS) // len(TARGETS_M))
+    for target in TARGETS_M[: 1 + int(run.plan.digest[:4], 16) % len(TARGETS_M)]:
+        if not run.finished and run.done + steps <= run.total:
+            run.ramp([target] * len(run.plan.stations), steps)
+            run.advance(steps)
+    run.finished = True
+    return run
 
 
 def _value(draw: st.DrawFn, kind: Any, bounds: tuple[Any, ...] = ()) -> Any:
