@@ -99,6 +99,32 @@ def test_the_control_is_taken_asked_for_handed_over_and_given_up(
     expect(bo.locator("#control")).to_contain_text("Nobody drives Emulated laboratory.")
 
 
+def test_the_new_test_page_says_who_drives_and_how_to_get_the_control_before_the_press(
+    lab: httpx.Client, rules: Callable[..., Any], queue_of: Callable[..., Page]
+) -> None:
+    rules(one_driver=True)
+    (rig,) = lab.get("control").json()["rigs"]
+    lab.post(f"control/{rig['rig_id']}/take", json={"by": "Ana Ruiz"}).raise_for_status()
+    bo = queue_of("Bo Lind", NARROW, color_scheme="dark")
+    visit(bo, "/new")
+    submit = bo.get_by_role("button", name="Queue the test")
+    expect(submit).to_be_disabled()
+    expect(submit).to_have_attribute("title", re.compile("Ana Ruiz drives Emulated laboratory until"))
+    expect(submit).to_have_accessible_description(re.compile("Ana Ruiz drives Emulated laboratory until"))
+    whole(bo)
+    press(bo, "Ask for the control")
+    expect(bo.locator("#control")).to_contain_text("Ana Ruiz sees that you ask.")
+    bo.keyboard.press("Control+Enter")  # as little as the button
+    lab.post(f"control/{rig['rig_id']}/hand-over", json={"by": "Ana Ruiz", "to": "Bo Lind"}).raise_for_status()
+    visit(bo, "/new")
+    expect(bo.locator("#control")).to_contain_text("You drive Emulated laboratory until")
+    expect(submit).to_be_enabled()
+    assert lab.get("runs", params={"limit": 1}).json()["total"] == 0
+    press(bo, "Give up the control")
+    expect(submit).to_be_disabled()
+    expect(bo.locator("#control")).to_contain_text("Nobody drives Emulated laboratory.")
+
+
 def test_submissions_are_approved_rejected_and_withdrawn(
     lab: httpx.Client, rules: Callable[..., Any], queue_of: Callable[..., Page]
 ) -> None:

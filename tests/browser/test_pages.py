@@ -27,6 +27,7 @@ CONTENT = {
     "/queue": "#waiting-none",
     "/new": ".good",
     "/help": "#shortcuts dd",
+    "/wall": "#wall-clock",
     "/plans": "#plans tbody tr",
     "/plans/{plan}": "#versions tbody tr",
     "/runs": "#rows tr",
@@ -96,6 +97,7 @@ def test_a_page_is_whole_quiet_and_accessible(path: str, look: str, shown: dict[
     page = opened(path.format(**shown), reduced_motion="reduce", **LOOKS["dark" if look == "desk" else look])
     expect(page.locator(CONTENT[path]).first).to_be_visible()
     expect_accessible(page)
+    expect(page.get_by_role("heading", level=1)).to_have_count(1)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the page scrolls sideways"
     if look == "desk":
         page.emulate_media(color_scheme="light", reduced_motion="reduce")  # colours change at once

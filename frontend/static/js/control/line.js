@@ -13,7 +13,7 @@ const OFF_MS = 60_000; // while the rule is off
 const RENEW_MS = 60_000;
 
 /**
- * Show who drives the rigs that `wanted` chooses, and keep the control of the reader while the page is visible.
+ * Show who drives the rigs that `wanted` chooses, and keep the control of the reader while the page is visible. Returns how to look at once.
  * @param {HTMLElement} host @param {(rig: Driven) => boolean} wanted
  * @param {{controls?: boolean, told?: (control: import("./withheld.js").Control) => void}} [options] `told` hears what the service says
  */
@@ -87,4 +87,5 @@ export function controlLine(host, wanted, { controls = true, told = () => undefi
     setTimeout(poll, again);
   }
   void poll();
+  return () => void show().catch(() => undefined);
 }

@@ -1,6 +1,8 @@
 // @ts-check
 import { ApiError, api, explain } from "../api.js";
 import { ask } from "../ask.js";
+import { controlLine } from "../control/line.js";
+import { UNKNOWN } from "../control/withheld.js";
 import { byId, el } from "../dom.js";
 import { person, remember } from "../person.js";
 import { may } from "../role.js";
@@ -41,6 +43,8 @@ let outlook;
 let edits = 0; // since the form was filled
 let loads = 0;
 let queueing = false;
+let control = UNKNOWN;
+let lookAtControl = () => {};
 
 const foresight = new Foresight((outcome) => outlook.show(outcome));
 const check = liveCheck(() => form.read(), told, (error) => verdict.complain(explain(error)));
@@ -108,12 +112,25 @@ async function replace(what, loaded) {
   if (!found.origin) edited();
 }
 
-/** An operator queues plans of the library as they are: the button waits for one, and the sentence above the form says so. */
+/**
+ * An operator queues plans of the library as they are: the button waits for one, and the sentence above the form says so. Where one person drives
+ * a rig, only the driver queues, unless another person approves the test: the line below the button says who drives.
+ */
 function allowQueueing() {
   const allowed = may("engineer") || (edits === 0 && source() !== null);
+  const withheld = allowed ? !control.approvals && control.refusals[rig.value] : byId("who-queues").textContent;
   const submit = byId("submit");
-  submit.disabled = queueing || !allowed;
-  submit.title = allowed ? submit.dataset.keys : byId("who-queues").textContent;
+  submit.disabled = queueing || Boolean(withheld);
+  submit.title = withheld || submit.dataset.keys;
+}
+
+/** Say who drives the rig of the test, and keep the control of the person while the page is open. */
+function showControl() {
+  const told = (/** @type {typeof control} */ said) => {
+    control = said;
+    allowQueueing();
+  };
+  lookAtControl = controlLine(byId("control"), ({ rig_id }) => rig_id === rig.value && !control.approvals, { told });
 }
 
 function edited() {
@@ -180,6 +197,7 @@ function offerRigs(rigs) {
 async function start() {
   const [schema, motions, offered, { rigs }] = await Promise.all([api.get("/schema"), api.get("/motions"), api.get("/templates"), api.get("/rigs")]);
   offerRigs(rigs);
+  showControl();
   form = new PlanForm(byId("plan"), new Schema(schema), motions.motions);
   picker = new Picker(byId("template"), offered.templates, (name) => {
     const title = offered.templates.find((/** @type {any} */ one) => one.name === name).title;
@@ -201,7 +219,15 @@ who.addEventListener("input", () => {
   who.removeAttribute("aria-invalid");
   byId("e-who").textContent = "";
 });
-rig.addEventListener("change", () => check.now());
+who.addEventListener("change", () => {
+  remember(who.value.trim());
+  lookAtControl();
+});
+rig.addEventListener("change", () => {
+  allowQueueing();
+  lookAtControl();
+  check.now();
+});
 for (const event of ["input", "change"]) byId("plan").addEventListener(event, edited);
 byId("new-test").addEventListener("submit", (/** @type {Event} */ event) => event.preventDefault()); // Enter in a field queues nothing
 byId("submit").addEventListener("click", queue);
