@@ -7,9 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from tests.chaos.load import SWEEP_POINTS, Load
-
-ENDED = {"completed", "tripped", "cancelled", "failed"}
+from tests.chaos.load import ENDED, SWEEP_POINTS, Load
 
 
 def judged(load: Load, data: Path) -> tuple[list[str], dict[str, int]]:

@@ -1,17 +1,24 @@
-"""What runs in a chaos run: many short tests under names of their own, and one sweep. Clients try again after an error."""
+"""What runs in a chaos run: many short tests under names of their own, and one sweep. Clients try again after an error.
+
+Every CLIENT_EVERY-th test is driven by a client in a thread of its own.
+"""
 
 from __future__ import annotations
 
 import random
 import threading
 import time
+from functools import partial
 from typing import Any
 
 import httpx
 
 from rths_engine.planning import templates
+from tests.chaos import client
 
 SWEEP_POINTS = 60
+CLIENT_EVERY = 6
+ENDED = frozenset({"completed", "tripped", "cancelled", "failed"})
 
 
 def plan(**changes: Any) -> dict[str, Any]:
@@ -58,18 +65,29 @@ class Load:
             while self._open() >= self.ahead:
                 time.sleep(0.3)
             name = f"Test {number}"
-            self._submit(name)
+            if number % CLIENT_EVERY == CLIENT_EVERY - 1:
+                self._submit(client.plan(name))
+                look, steps = partial(self._named, name), self.draw.randint(20, 150)
+                threading.Thread(target=client.drive, args=(look, ENDED, steps), daemon=True, name=f"client of {name}").start()
+            else:
+                self._submit(self._short(name))
             self.names.append(name)
 
     def _open(self) -> int:
         queue = self.get("/queue")
         return int(queue["queued"]) + len(queue["running"])
 
-    def _submit(self, name: str) -> None:
-        """Queue a test once: where an answer did not come, look before asking again."""
+    def _named(self, name: str) -> dict[str, Any]:
+        """The run of this name."""
+        return next(run for run in self.runs() if run["name"] == name)
+
+    def _short(self, name: str) -> dict[str, Any]:
         quick = self.draw.random() < 0.5
         pace = {"kind": "fastest"} if quick else {"kind": "real_time", "factor": 4.0}
-        data = plan(name=name, duration=1.0 if quick else self.draw.uniform(2.0, 8.0), pace=pace)
+        return plan(name=name, duration=1.0 if quick else self.draw.uniform(2.0, 8.0), pace=pace)
+
+    def _submit(self, data: dict[str, Any]) -> None:
+        """Queue a test once: where an answer did not come, look before asking again."""
         while True:
             try:
                 answer = httpx.post(f"{self.url}/api/v1/runs", json={"plan": data}, timeout=30)
@@ -78,7 +96,7 @@ class Load:
                 self._refused(answer)
             except httpx.HTTPError:
                 self.unclear += 1
-                if any(run["name"] == name for run in self.runs()):
+                if any(run["name"] == data["name"] for run in self.runs()):
                     return
             time.sleep(0.3)
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import httpx
 
 from tests.chaos.faults import FAULTS, revive
-from tests.chaos.judge import ENDED, judged
-from tests.chaos.load import Load
+from tests.chaos.judge import judged
+from tests.chaos.load import ENDED, Load
 from tests.chaos.world import World
 
 STUCK_S = 60.0  # without any progress after a fault
