@@ -15,6 +15,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from app import logs
+from app.full import FIX, is_full
 from app.imports import uncollected
 from app.jobs.order import Order
 
@@ -175,12 +176,13 @@ def serve(pipe: Connection, module: str, niceness: int) -> None:
     try:
         line.send(Ready())
         while True:
-            line.send(_outcome(executing, line.order(), line))
+            line.send(attempted(executing, line.order(), line))
     except ConnectionError:
         return  # the worker has ended
 
 
-def _outcome(executing: Any, order: Order, line: Line) -> Done | Failed:
+def attempted(executing: Any, order: Order, line: Line) -> Done | Failed:
+    """The outcome of an attempt. Raises ConnectionError when the worker has ended."""
     try:
         with logs.about(run=order.job_id):
             return Done(executing.execute(order, line))
@@ -188,8 +190,14 @@ def _outcome(executing: Any, order: Order, line: Line) -> Done | Failed:
         raise
     except Refused as refused:
         return Failed(str(refused))
-    except OSError as error:
-        why = os.strerror(error.errno) if error.errno else str(error)
-        return Failed(f"A file could not be read or written: {why}.")
     except Exception as error:
-        return Failed(f"{type(error).__name__}: {error}", line.stopped)
+        return Failed(_reason(error), line.stopped)
+
+
+def _reason(error: Exception) -> str:
+    """Why an attempt failed. Of the packages that write files, h5py says with other errors too that the disk is full."""
+    if is_full(error):
+        return f"The disk is full. {FIX}, then retry."
+    if isinstance(error, OSError):
+        return f"A file could not be read or written: {os.strerror(error.errno) if error.errno else error}."
+    return f"{type(error).__name__}: {error}"
