@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """No garbage is collected meanwhile."""
+    """Collect no garbage until this ends."""
     collects = gc.isenabled()
     gc.disable()
     try:

@@ -96,7 +96,7 @@ def rows(count: int, source: random.Random) -> Iterator[tuple[dict[str, Any], di
             "template": template,
             "test": plan["test"],
             "tags": source.sample(TAGS, source.choice((0, 0, 0, 1, 2))),
-            "notes": "",
+            "notes": f"Damper {source.randrange(10**4)}: checked before the test." if source.random() < 0.1 else "",
             "archived": source.random() < 0.05,
             "digest": digests[template],
             "code_version": "0.2.0",

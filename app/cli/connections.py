@@ -12,8 +12,12 @@ from uvicorn.protocols.http.auto import AutoHTTPProtocol
 
 MOST_OF_ADDRESS = 500  # browsers open six for each page, and one for each live view
 FIRST_REQUEST_S = 20.0
-TAKES_S = 60.0
-"""A client that takes nothing of what is sent for so long loses its connection, and what waits for it is freed."""
+TAKES_S = 300.0
+"""A client that takes nothing of what is sent for so long loses its connection, and what waits for it is freed.
+
+A client that reads slowly tells the system only when a good part of its buffer is free: with one of 128 kB, one that takes
+less than about half a kilobyte each second counts as one that takes nothing.
+"""
 FILES = 65_536
 _open: dict[str, set[asyncio.Transport]] = {}
 

@@ -3,7 +3,7 @@
 The command velocity of each station follows the recorded channels: its limit is checked in every controller step, and a
 viewer cannot derive its peak from buckets. A frame is little-endian: `uint32 first_bucket, uint32 count`, then float32
 `[count][channels][3]`. A `FrameStore` is the buffer of a run. It takes frames of any size, ignores buckets that it already has,
-and gives a reader the missing buckets in frames of at most PIECE bytes.
+and gives a reader the missing buckets in frames of at most PIECE bytes of values, or of one bucket.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ MOST_BUCKETS = 16_384
 MOST_OPEN = 65_536
 """Buckets of a run that may end long before its longest duration. A viewer of 20 channels stores 16 MB."""
 PIECE = 1 << 20
-"""Bytes of the longest frame that is sent at once: so much may wait in memory for each receiver that reads slowly."""
+"""Bytes of values in the longest frame that is sent at once: so much may wait in memory for each receiver that reads slowly."""
 VALUES = 3  # minimum, maximum, last
 
 

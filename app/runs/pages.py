@@ -95,7 +95,7 @@ def _parts(session: Session, shelf: Sequence[Sql], order: Order, path: int, tota
     key = stored(column)
     if column.key in LONG_TEXTS:
         if _has_long(session, column.key):
-            key = sa.func.nullif(key, "")
+            key = sa.func.nullif(key, "") if column.key in EMPTY else key
             last = key.is_not(None) if order.descending else key.is_(None)
             return [Part(sa.select(Run.number).where(SCANNED, *shelf), [last, key, Run.number])]
         all_runs = all_runs.where(sa.text(is_short(column.key)))

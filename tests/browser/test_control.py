@@ -109,7 +109,7 @@ def test_the_new_test_page_says_who_drives_and_how_to_get_the_control_before_the
     visit(bo, "/new")
     submit = bo.get_by_role("button", name="Queue the test")
     expect(submit).to_be_disabled()
-    expect(submit).to_have_attribute("title", re.compile("Ana Ruiz drives Emulated laboratory until"))
+    expect(submit).to_have_attribute("title", re.compile("Ana Ruiz drives Emulated laboratory. Only the driver"))
     expect(submit).to_have_accessible_description(re.compile("Ana Ruiz drives Emulated laboratory until"))
     whole(bo)
     press(bo, "Ask for the control")

@@ -73,7 +73,7 @@ export function controlLine(host, wanted, { controls = true, told = () => undefi
     if (!one_driver) return OFF_MS;
     const chosen = rigs.filter(wanted);
     const lines = chosen.map((/** @type {Driven} */ rig) => line(rig, may_take_over));
-    keepingFocus(host, () => renew(host, ...lines, ...(note ? [el("p", { class: "note" }, note)] : [])));
+    keepingFocus(host, () => renew(host, ...lines, ...(note && lines.length ? [el("p", { class: "note" }, note)] : [])));
     const mine = rigs.filter((/** @type {Driven} */ { yours }) => yours);
     if (controls && mine.length && document.visibilityState === "visible" && Date.now() - renewed > RENEW_MS) {
       renewed = Date.now();
@@ -87,5 +87,8 @@ export function controlLine(host, wanted, { controls = true, told = () => undefi
     setTimeout(poll, again);
   }
   void poll();
-  return () => void show().catch(() => undefined);
+  return () => {
+    note = "";
+    void show().catch(() => undefined);
+  };
 }

@@ -112,13 +112,22 @@ async function replace(what, loaded) {
   if (!found.origin) edited();
 }
 
+/** Why the reader may not queue a test of the rig without its control; empty where the reader may. */
+function notDriving() {
+  if (control.approvals || !control.refusals[rig.value]) return "";
+  const { sentence } = /** @type {{sentence: string}} */ (control.rigs.find(({ rig_id }) => rig_id === rig.value));
+  return `${sentence} Only the driver of a rig queues its tests: see the line below the buttons.`;
+}
+
+/** Whether the reader's role suffices to queue what the form holds. */
+const mayQueue = () => may("engineer") || (edits === 0 && source() !== null);
+
 /**
  * An operator queues plans of the library as they are: the button waits for one, and the sentence above the form says so. Where one person drives
  * a rig, only the driver queues, unless another person approves the test: the line below the button says who drives.
  */
 function allowQueueing() {
-  const allowed = may("engineer") || (edits === 0 && source() !== null);
-  const withheld = allowed ? !control.approvals && control.refusals[rig.value] : byId("who-queues").textContent;
+  const withheld = mayQueue() ? notDriving() : byId("who-queues").textContent;
   const submit = byId("submit");
   submit.disabled = queueing || Boolean(withheld);
   submit.title = withheld || submit.dataset.keys;
@@ -130,7 +139,7 @@ function showControl() {
     control = said;
     allowQueueing();
   };
-  lookAtControl = controlLine(byId("control"), ({ rig_id }) => rig_id === rig.value && !control.approvals, { told });
+  lookAtControl = controlLine(byId("control"), ({ rig_id }) => rig_id === rig.value && !control.approvals && mayQueue(), { told });
 }
 
 function edited() {
