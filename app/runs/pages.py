@@ -113,6 +113,8 @@ def _by_value(session: Session, shelf: Sequence[Sql], column: Column, path: int)
     shown = sa.select(Run.number).where(*shelf)
 
     def count() -> int:
+        if session.get_bind().dialect.name == "postgresql":  # 22 ms for 100 000 values instead of 40; SQLite 22 instead of 8
+            return _count(session, with_value)
         everything = sa.select(RunValue.run_number).where(on_path)
         return _count(session, everything) - _count(session, hidden.where(has_value))
 
