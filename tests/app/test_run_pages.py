@@ -95,7 +95,7 @@ def in_order(session: Session, shelf: Shelf, order: Order) -> list[int]:
             values[run.number] = getattr(run, key) if order.column.stored else None
     if not order.column.stored:
         values |= {run: value for (run, _), value in values_of(session, list(values), path_ids(session, [key])).items()}
-    missing = (None, "", []) if key in pages.EMPTY else (None,)
+    missing: tuple[object, ...] = (None, "", []) if key in pages.EMPTY else (None,)
     given = {run: value for run, value in values.items() if value not in missing}
     with_value = sorted(given, key=lambda run: (given[run], run), reverse=order.descending)
     return with_value + sorted(values.keys() - given.keys(), reverse=order.descending)
