@@ -6,7 +6,8 @@ clients in another submit short tests, which the service's own worker executes, 
 - the age of the oldest bucket of a frame when it reaches a viewer, from the moment at which the worker sent it;
 - the longest gap between two frames of a viewer;
 - the time of a submission;
-- the memory (RSS) of the web process while `--runs` further runs begin, are told and end, and while tests are executed.
+- the memory (RSS) of the web process: while the scripted worker tells of `--runs` further runs, and while the service's own
+  worker executes tests.
 
 The ages include waiting for a core in the processes of the benchmark itself: all of them share the machine.
 """

@@ -96,7 +96,7 @@ def test_a_web_service_that_restarts_in_the_middle_of_a_test_is_told_all_of_it(
     with web(settings, port):
         until(lambda: known(port), bool)
         early = seen(port, 0, 400)
-    monkeypatch.setattr(frames, "PIECE", 100 * ROW)  # it is told in several frames
+    monkeypatch.setattr(frames, "PIECE", 100 * ROW)  # the worker sends several frames
     more(600)
     with web(settings, port):
         until(lambda: known(port), bool)
